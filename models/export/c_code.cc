@@ -71,6 +71,9 @@ extern "C" {{
 )";
 
 constexpr const char* kDeclarations = R"(
+/* Which export this is. */
+#define {0}_EXPORT {9:.0f}
+
 typedef {1} {0}_real;
 
 enum {{
@@ -81,7 +84,8 @@ enum {{
 }};
 
 /* All that is kept from step to step; without a pointer, so that it may be
- * copied. The limits may be set anew after {0}_init. */
+ * copied. The limits may be set anew after {0}_init; one that is not above 0,
+ * or an error above ten times the map's own, is not heeded: PARAMETER. */
 typedef struct {{
 {5}}} {0}_state;
 
@@ -149,7 +153,8 @@ std::string CWriter::Declarations() const {
           ? " Without it, and without a saved\n * state, one may "
             "have begun before: SETTLING, for\n * "
             "state->settles_in seconds."
-          : "");
+          : "",
+      program_.export_id);
 }
 
 std::string CWriter::Header() const {
@@ -301,11 +306,20 @@ void {0}_init({0}_state *state) {{
 void {0}_begin({0}_state *state) {{
 {2}}}
 
+/* Of what is kept; volatile, so that every machine rounds it alike. */
+static double {0}_total(const double saved[]) {{
+  volatile double total = 0.0;
+  int i;
+  for (i = 1; i < {0}_SAVED - 1; ++i) total += saved[i];
+  return total;
+}}
+
 void {0}_get_state(const {0}_state *state, double saved[]) {{
   const double *from = (const double *)state; /* it has nothing but doubles */
   int i;
   saved[0] = {3};
-  for (i = 1; i < {0}_SAVED; ++i) saved[i] = from[i - 1];
+  for (i = 1; i < {0}_SAVED - 1; ++i) saved[i] = from[i - 1];
+  saved[{0}_SAVED - 1] = {0}_total(saved);
 }}
 
 int {0}_set_state({0}_state *state, const double saved[], double age_s) {{
@@ -314,18 +328,14 @@ int {0}_set_state({0}_state *state, const double saved[], double age_s) {{
   const double max_rate = state->max_rate;
   int i;
   if (saved[0] != {3} || !(age_s >= 0.0 && age_s <= {4})) return -1;
-  for (i = 1; i < {0}_SAVED; ++i) {{
-    if (!(fabs(saved[i]) < 1.0e300)) return -1;
-  }}
-  for (i = 1; i < {0}_SAVED; ++i) to[i - 1] = saved[i];
+  /* The sum of what is no number is none, too. */
+  if (!({0}_total(saved) - saved[{0}_SAVED - 1] == 0.0)) return -1;
+  for (i = 1; i < {0}_SAVED - 1; ++i) to[i - 1] = saved[i];
   state->max_error = max_error;
   state->max_rate = max_rate;
-  if (fabs(state->given) > max_error) {{
-    state->given = state->given > 0.0 ? max_error : -max_error;
-  }}
   state->waited += age_s;
   state->missed += age_s;
-  state->room += max_rate * age_s;
+  state->room += {5} * age_s;
   return 0;
 }}
 )",
@@ -333,7 +343,8 @@ int {0}_set_state({0}_state *state, const double saved[], double age_s) {{
                                  SetCells(false),
                                  SetCells(true),
                                  RealText(Fingerprint(program_)),
-                                 RealText(LongestAge(program_)));
+                                 RealText(LongestAge(program_)),
+                                 RealText(program_.limits.max_rate));
   return text + fmt::format(R"(
 void {0}_zero({0}_state *state) {{
   {1}
@@ -352,7 +363,7 @@ std::string CWriter::ReadFunction() const {
       "{{\n",
       name_);
   if (program_.has_memory()) text += "  double *s = state->s;\n";
-  if (reads) text += fmt::format("  const {} *x = inputs;\n", Real());
+  if (reads) text += fmt::format("  {} x[{}_INPUTS];\n", Real(), name_);
   const auto parts = program_.parts();
   text += Locals({parts.begin(), parts.end()}) +
           fmt::format("  {} e;\n  double passed = dt_s;\n", Real());
@@ -361,7 +372,11 @@ std::string CWriter::ReadFunction() const {
     text += fmt::format("  double {};\n", InfoOf(cell).name);
   }
   text += "  int status = 0;\n";
-  text += reads ? "  int i;\n" : "  (void)inputs;\n";
+  text += reads ? fmt::format(
+                      "  int i;\n  for (i = 0; i < {}_INPUTS; ++i) "
+                      "x[i] = inputs[i];\n",
+                      name_)
+                : "  (void)inputs;\n";
   return text + Joined(language_.Write(program_, program_.read), "  ") +
          "  return status;\n}\n";
 }
@@ -371,6 +386,8 @@ std::string CWriter::MoveFunction() const {
 int {0}_move({0}_state *state, double dt_s, {0}_real *error) {{
   double passed = dt_s;
   double target;
+  double bound;
+  double pace;
   int status = 0;
 {1}  *error = {2}state->given;
   return status;
@@ -457,13 +474,18 @@ std::string CWriter::Source(const std::vector<SelfTestRow>& rows,
   const std::string header = fmt::format("\n#include \"{}.h\"\n", name_);
   std::string text = Comment() + header +
                      fmt::format(R"(
+#if {0}_EXPORT != {1:.0f}
+#error "{0}.h and {0}.c are of two exports: export both anew"
+#endif
+
 #include <math.h>
 
 /* x inputs, s filters and zeros, g gains, v derived inputs, u clipped and z
  * scaled inputs, h hidden nodes, t terms, e error; p sensors less their means,
  * q scores, r doubts. Test: cc -D{0}_SELF_TEST {0}.c -lm */
 )",
-                                 name_);
+                                 name_,
+                                 program_.export_id);
   return text + Functions() + SelfTest(rows, tolerance);
 }
 
@@ -484,8 +506,10 @@ std::vector<ExportedFile> CCode(const MapProgram& program,
                                 const std::vector<SelfTestRow>& rows,
                                 double tolerance) {
   const CWriter writer(program, name, precision);
-  return {{name + ".h", writer.Header()},
-          {name + ".c", writer.Source(rows, tolerance)}};
+  // A source that is newer than its header does not compile, also where the
+  // older one is of a version that did not look.
+  return {{name + ".c", writer.Source(rows, tolerance)},
+          {name + ".h", writer.Header()}};
 }
 
 std::string CFragment(const MapProgram& program, const std::string& name) {

@@ -9,6 +9,7 @@
 #include "data/measurements/row_filters.h"
 #include "models/export/program/map_pair.h"
 #include "models/export/program/safe_names.h"
+#include "models/export/program/saved_state.h"
 
 namespace errmap::models {
 
@@ -60,6 +61,7 @@ MapExport PrepareExport(const std::vector<const FittedModel*>& maps,
                                 ? programs.front()
                                 : JoinedPrograms(programs[0], programs[1])};
   AddController(maps, limits, &made.program);
+  made.program.export_id = ExportId(made.program, name, precision);
   for (std::size_t k = 0; k < maps.size(); ++k) {
     const std::vector<SelfTestRow> rows = SelfTestRows(*maps[k], programs[k]);
     const double range = ErrorRange(*maps[k], rows);

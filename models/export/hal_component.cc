@@ -40,13 +40,17 @@ description """
 offset = compensation = -error, in {2}: the motor goes to the commanded position
 plus it, never by more than max-offset, and never faster than max-rate but for
 the axis' own motion. Readings that are dead, no number, far outside of what was
-trained, frozen or contradicted by the others are not taken: offset keeps its
-last value for a minute, then goes to 0, and valid is false. Before the first
-valid step the offset is 0.
+trained, frozen or contradicted by the others are not taken: for a minute the last
+good ones are held where the axis is, then offset goes to 0, and valid is false.
+Before the first valid step the offset is 0. Wire healthy to what stops the
+program: while it is false the machine must not go on. The .hal files load it
+with export_of={8}, and it refuses those of another export.
 """;
 author "errmap";
 license "GPL";
 option singleton yes;
+option extra_setup yes;
+modparam int export_of = 0 "The export that a .hal file is of; 0: not asked";
 include <rtapi_math.h>;
 {3}pin in bit begin "Rising edge: a session begins, filters steady";
 pin in bit zero "Rising edge: take the zero anew";
@@ -61,13 +65,15 @@ pin in float away_s "How old kept-state is then, s";
 pin out bit state_restored "It did: neither too old nor of another map";
 pin out float offset "-error, {2}";
 pin out bit valid "The last step had all its readings, and they were believed";
+pin out bit healthy "False: the control must not go on with it; wire this one";
+pin out u32 export_id = {8} "Which export this is";
 pin out bit outside "A reading is outside of its trained range";
 pin out u32 status_ "Bits; the source says which";
 pin out float settling_s "s until what filters remember is good again";
 pin out u32 steps "Steps made since it was loaded, missing readings or not";
 pin out s32 counts "offset / counts-scale while machine-on, else 0";
 pin out bit counts_enable "machine-on, a little later";
-param rw float max_offset = {4} "Largest offset, {2}";
+param rw float max_offset = {4} "Largest offset, {2}; not above 0, or ten times this: this";
 param rw float max_rate_ = {5} "Largest change, {2}/s";
 param rw float counts_scale = {6} "One count, {2}";
 function _ fp;
@@ -82,14 +88,22 @@ static int begun, was_begin, was_step, was_zero, was_restore;
 static int periods_on, of_reading;
 static unsigned made;
 
+EXTRA_SETUP() {{
+  if (export_of == 0 || export_of == {0}_EXPORT) return 0;
+  rtapi_print_msg(RTAPI_MSG_ERR,
+      "{0}: the .hal file is of export %d, the component of %d\n", export_of,
+      {0}_EXPORT);
+  return -1;
+}}
+
 FUNCTION(_) {{
   double x[{2}];
   double error = 0.0;
   int of_moving, i;
 {3}  if (!begun) {0}_init(&errmap_kept);
   begun = 1;
-  errmap_kept.max_error = fmax(max_offset, 0.0) / {1};
-  errmap_kept.max_rate = fmax(max_rate_, 0.0) / {1};
+  errmap_kept.max_error = max_offset / {1};
+  errmap_kept.max_rate = max_rate_ / {1};
   if (restore_state && !was_restore) {{
     for (i = 0; i < {0}_SAVED; ++i) errmap_saved[i] = kept_state(i);
     state_restored = {0}_set_state(&errmap_kept, errmap_saved, away_s) == 0;
@@ -122,6 +136,7 @@ FUNCTION(_) {{
   steps = made;
   status_ = (unsigned)(of_reading | of_moving);
   valid = made > 0 && (of_reading & {0}_NOT_TAKEN) == 0;
+  healthy = made > 0 && ((of_reading | of_moving) & {0}_UNHEALTHY) == 0;
   outside = (of_reading & {0}_OUTSIDE) != 0;
   offset = -{1} * error;
 {5}
@@ -153,6 +168,7 @@ import time
 import hal
 
 NUMBERS = {2}
+EXPORT = {3}
 
 
 def get(pin):
@@ -205,6 +221,9 @@ def main():
     seconds = float(sys.argv[2]) if len(sys.argv) == 3 else 10.0
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
     part = hal.component("{1}-state")
+    if int(get("export-id")) != EXPORT:
+        sys.exit("%s is of export %d, the component of %d"
+                 % (sys.argv[0], EXPORT, int(get("export-id"))))
     restore(file)
     part.ready()
     try:
@@ -240,13 +259,16 @@ class HalWriter {
       made.pins.push_back(
           {HalName(pins_[i]), map_.program.readings[i].column.name});
     }
-    made.files = {
-        {name_ + ".comp", Component()},
-        {name_ + ".hal", OffsetWiring()},
-        {name_ + "_eoffset.hal", ExternalOffsetWiring()},
-        {name_ + "_state.py",
-         fmt::format(
-             kStateFile, name_, HalName(name_), NumSaved(map_.program))}};
+    // The component last: with a newer .hal file an older one does not load.
+    made.files = {{name_ + ".hal", OffsetWiring()},
+                  {name_ + "_eoffset.hal", ExternalOffsetWiring()},
+                  {name_ + "_state.py",
+                   fmt::format(kStateFile,
+                               name_,
+                               HalName(name_),
+                               NumSaved(map_.program),
+                               static_cast<int>(map_.program.export_id))},
+                  {name_ + ".comp", Component()}};
     return made;
   }
 
@@ -313,7 +335,8 @@ std::string HalWriter::Component() const {
                      RealText(scale * program.limits.max_error),
                      RealText(scale * program.limits.max_rate),
                      RealText(count),
-                     NumSaved(program)) +
+                     NumSaved(program),
+                     static_cast<int>(program.export_id)) +
          CFragment(program, map_name) +
          fmt::format(kBody,
                      map_name,
@@ -355,7 +378,7 @@ std::string HalWriter::OffsetWiring() const {
 # After the machine's own HALFILE, less its nets of joint.{1}.motor-pos-cmd and
 # joint.{1}.motor-pos-fb. Between the two stands the stock component offset, so
 # that LinuxCNC sees no following error; it holds through machine off and on.
-loadrt {0}
+loadrt {0} export_of={4}
 loadrt offset names={2}-add
 
 addf {2}-add.update-feedback servo-thread 1
@@ -366,7 +389,8 @@ addf {2}-add.update-output servo-thread
       name_,
       options_.joint,
       HalName(name_),
-      options_.unit.symbol);
+      options_.unit.symbol,
+      static_cast<int>(map_.program.export_id));
   if (PositionOf(map_.program) >= 0) {
     text += fmt::format("net {0}-at joint.{1}.pos-cmd => {0}.position\n",
                         HalName(name_),
@@ -397,7 +421,7 @@ std::string HalWriter::ExternalOffsetWiring() const {
 # Counts are whole numbers of counts-scale, relative to the moment when the
 # machine is on and homed, and lost at machine off: {2} holds them at 0
 # until then, each time. LinuxCNC stops a little short of them.
-loadrt {0}
+loadrt {0} export_of={3}
 loadrt and2 names={2}-ready
 addf {2}-ready servo-thread
 addf {2} servo-thread
@@ -405,7 +429,8 @@ addf {2} servo-thread
 )",
       name_,
       static_cast<char>(axis - 'a' + 'A'),
-      hal);
+      hal,
+      static_cast<int>(map_.program.export_id));
   if (PositionOf(map_.program) >= 0) {
     text += fmt::format(
         "net {0}-at joint.{1}.pos-cmd => {0}.position\n", hal, options_.joint);

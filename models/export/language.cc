@@ -51,12 +51,17 @@ Lines AboutLimits(const MapProgram& program) {
         "was trained), is no number, is far beyond its trained range, stands "
         "still while",
         "the others move, or contradicts them. The filters keep their state "
-        "then, and the"}) {
+        "then, and",
+        "the last good readings are held, where the axis is now, for"}) {
     lines.emplace_back(line);
   }
-  lines.push_back(fmt::format(
-      "last good error is held for {:g} s. After that it goes to 0.",
-      limits.hold));
+  lines.back() += fmt::format(" {:g} s; then the", limits.hold);
+  lines.insert(
+      lines.end(),
+      {"error goes to 0. Beyond its travel the axis counts as at its end; "
+       "beyond once",
+       "the travel it is refused.",
+       "UNHEALTHY is for the control: do not go on while it is set."});
   return lines;
 }
 
@@ -201,7 +206,10 @@ Lines Language::WriteOne(const MapProgram& program, const Statement& it) const {
   };
   switch (it.kind) {
     case Statement::Kind::kAssign:
-      return {Assign(Text(it.sides[0]), Text(it.sides[1]), false)};
+      return {Assign(
+          Text(it.sides[0]),
+          Text(it.sides[1]),
+          it.sides[0].cell == Cell::kReading && IsSingle(Space::kReading))};
     case Statement::Kind::kFlag:
       return {Flag(it.flag)};
     case Statement::Kind::kRun:
@@ -303,7 +311,7 @@ std::vector<CellInfo> KeptCells(const MapProgram& program) {
 }
 
 int NumSaved(const MapProgram& program) {
-  int count = 1 + program.size(Space::kState);
+  int count = 2 + program.size(Space::kState);
   for (const CellInfo& cell : KeptCells(program)) {
     count += cell.is_array ? program.size(Space::kReading) : 1;
   }
@@ -331,6 +339,8 @@ Lines AboutMap(const MapProgram& program,
                   CommentText(program.model),
                   CommentText(program.target.name),
                   Version()),
+      fmt::format("Export {:.0f}: files of another one do not go with it.",
+                  program.export_id),
       "",
       fmt::format(
           "error = actual - nominal, in {}{}.",
@@ -341,7 +351,7 @@ Lines AboutMap(const MapProgram& program,
       program.readings.empty() ? "It reads no inputs."
                                : "Inputs, in this order:"};
   if (!program.made_for.empty()) {
-    lines.insert(lines.begin() + 4,
+    lines.insert(lines.begin() + 5,
                  fmt::format("Made for {} alone.", program.made_for));
   }
   for (std::size_t i = 0; i < program.readings.size(); ++i) {

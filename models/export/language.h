@@ -123,8 +123,8 @@ inline constexpr LocalArray kLocalArrays[] = {{Space::kGain, 'g'},
 /// What the routines of a program keep from step to step.
 std::vector<CellInfo> KeptCells(const MapProgram& program);
 
-/// How many numbers a saved state has: which map it is of, then the filters'
-/// and those of KeptCells.
+/// How many numbers a saved state has: which map it is of, the filters' and
+/// those of KeptCells, and the sum of these, so that a changed one is refused.
 int NumSaved(const MapProgram& program);
 
 /// The names of the bits in `mask`, with `between` them.

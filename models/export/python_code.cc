@@ -215,8 +215,19 @@ def _sigmoid(a):
 
 constexpr const char* kClass = R"(
 
+def _total(saved):
+    """Of all numbers of a saved state, so that a changed one is refused."""
+    total = 0.0
+    for value in saved.values():
+        for number in value if isinstance(value, list) else [value]:
+            total += number
+    return total
+
+
 class Map:
-    """A session of the map: step() gives the error, within the limits."""
+    """A session of the map: step() gives the error, within the limits. The
+    limits, max_error and max_rate, may be set anew; one that is not above
+    0, or an error above ten times the map's own, is not heeded: PARAMETER."""
 
     def __init__(self):
         self.s = [0.0] * {states}
@@ -231,29 +242,30 @@ class Map:
         """What a restart needs, as plain lists and numbers."""
         saved = {{name: list(value) if isinstance(value, list) else value
                  for name, value in vars(self).items()}}
-        return {{**saved, "map": {fingerprint}}}
+        return {{**saved, "map": {fingerprint}, "total": _total(saved)}}
 
     def set_state(self, saved, age_s):
         """Goes on from it, age_s seconds after: True. Of another map, older
         than {age:g} s or damaged: False, and nothing is changed."""
         mine = vars(self)
-        if (set(saved) != {{*mine, "map"}} or saved["map"] != {fingerprint}
+        if (set(saved) != {{*mine, "map", "total"}}
+                or saved["map"] != {fingerprint}
                 or not 0.0 <= age_s <= {age:.1f}):
             return False
-        for name, value in mine.items():
-            numbers = saved[name] if isinstance(value, list) else [saved[name]]
-            if (len(numbers) != (len(value) if isinstance(value, list) else 1)
-                    or not all(map(math.isfinite, numbers))):
-                return False
+        kept = {{name: saved[name] for name in mine}}
+        if (any(isinstance(kept[name], list) != isinstance(value, list)
+                or isinstance(value, list) and len(kept[name]) != len(value)
+                for name, value in mine.items())
+                or not math.isfinite(_total(kept))
+                or _total(kept) != saved["total"]):
+            return False
         limits = self.max_error, self.max_rate
-        for name, value in mine.items():
-            mine[name] = (list(saved[name]) if isinstance(value, list)
-                          else saved[name])
+        for name, value in kept.items():
+            mine[name] = list(value) if isinstance(value, list) else value
         self.max_error, self.max_rate = limits
-        self.given = min(max(self.given, -self.max_error), self.max_error)
         self.waited += age_s
         self.missed += age_s
-        self.room += self.max_rate * age_s
+        self.room += {rate} * age_s
         return True
 
     def zero(self):
@@ -272,7 +284,7 @@ class Map:
         dt_s are the seconds since the call of read before."""
         if len(inputs) != len(INPUTS):
             raise ValueError("expected %d inputs" % len(INPUTS))
-        x = inputs
+        x = list(inputs)
         s = self.s
         e = math.nan
         passed = dt_s
@@ -314,6 +326,7 @@ std::string PythonWriter::MapClass() const {
                      fmt::arg("begin", begin),
                      fmt::arg("fingerprint", RealText(Fingerprint(program_))),
                      fmt::arg("age", LongestAge(program_)),
+                     fmt::arg("rate", RealText(program_.limits.max_rate)),
                      fmt::arg("states", program_.size(Space::kState)),
                      fmt::arg("kept", kept),
                      fmt::arg("locals", locals),
@@ -363,6 +376,8 @@ std::string PythonWriter::Module(const std::vector<SelfTestRow>& rows,
   std::string text = "\"\"\"" +
                      Joined(AboutMap(program_, name_, Precision::kDouble), "") +
                      "\"\"\"\n\nimport math\n\n";
+  text += fmt::format("EXPORT = {:.0f}  # which one this is\n\n",
+                      program_.export_id);
   text += "# Bits of a status; 0: all is well.\n";
   for (const StatusBit& bit : StatusBits()) {
     text += fmt::format("{} = {}  # {}\n", bit.name, bit.bit, bit.what);

@@ -54,6 +54,17 @@ std::string BitName(const StatusBit& bit) {
   return name;
 }
 
+std::string Indented(const std::string& lines) {
+  std::string text;
+  bool begins = true;
+  for (const char c : lines) {
+    if (begins) text += "  ";
+    text += c;
+    begins = c == '\n';
+  }
+  return text;
+}
+
 // Arrays and bits of the status are variables of the block.
 class StructuredTextLanguage final : public Language {
  public:
@@ -149,13 +160,13 @@ class StructuredTextLanguage final : public Language {
       return Language::Grow(to, by, narrows);
     }
     const std::string state = Place(to);
-    const std::string step = Local("Step");
+    const std::string added = Local("Added");
     const std::string sum = Local("Sum");
     return {
-        Assign(step, by + " - " + Lost(to), false),
-        Assign(sum, state + " + " + step, false),
+        Assign(added, by + " - " + Lost(to), false),
+        Assign(sum, state + " + " + added, false),
         Assign(
-            Lost(to), fmt::format("({} - {}) - {}", sum, state, step), false),
+            Lost(to), fmt::format("({} - {}) - {}", sum, state, added), false),
         Assign(state, sum, false)};
   }
 
@@ -308,11 +319,11 @@ std::vector<TextVariable> Inputs(const MapProgram& program,
   std::vector<TextVariable> inputs{
       {.name = "Start",
        .type = Type::kBool,
-       .comment = "a session begins with the next step taken: filters in their "
-                  "steady state, the zero taken"},
+       .comment = "rising edge: a session begins with the next step taken, "
+                  "filters in their steady state, the zero taken"},
       {.name = "TakeZero",
        .type = Type::kBool,
-       .comment = "the next step taken takes the zero anew"},
+       .comment = "rising edge: the next step taken takes the zero anew"},
       {.name = "DtSeconds", .comment = "since the call before"},
       {.name = "AwaySeconds",
        .initial = {1e30},
@@ -327,7 +338,8 @@ std::vector<TextVariable> Inputs(const MapProgram& program,
   }
   inputs.push_back({.name = "MaxError",
                     .initial = {program.limits.max_error},
-                    .comment = "limits"});
+                    .comment = "limits; not heeded unless above 0, nor above "
+                               "ten times this error"});
   inputs.push_back({.name = "MaxRate", .initial = {program.limits.max_rate}});
   return inputs;
 }
@@ -341,7 +353,13 @@ std::vector<TextVariable> Outputs(const MapProgram& program) {
   std::vector<TextVariable> outputs{
       {.name = "Error", .comment = "within the limits"},
       {.name = "Compensation", .comment = "-Error"},
-      {.name = "Valid", .type = Type::kBool, .comment = "the step was taken"}};
+      {.name = "Valid", .type = Type::kBool, .comment = "the step was taken"},
+      {.name = "Healthy",
+       .type = Type::kBool,
+       .comment = "FALSE: the control must not go on with it; wire this one"},
+      {.name = "MapExport",
+       .initial = {program.export_id},
+       .comment = "which export this is"}};
   if (program.Uses(Cell::kSettling)) {
     outputs.push_back({.name = "Settles",
                        .comment = "s until what filters remember is good"});
@@ -371,25 +389,33 @@ std::vector<TextVariable> Locals(const MapProgram& program,
              program.size(local.space),
              &locals);
   }
-  for (const Cell cell :
-       {Cell::kDt, Cell::kCommon, Cell::kAway, Cell::kTarget, Cell::kError}) {
+  for (const Cell cell : {Cell::kDt,
+                          Cell::kCommon,
+                          Cell::kAway,
+                          Cell::kTarget,
+                          Cell::kBound,
+                          Cell::kPace,
+                          Cell::kError}) {
     if (program.Uses(cell) || cell == Cell::kError) {
       locals.push_back({.name = language.VariableOf(cell)});
     }
   }
   if (language.is_single() && program.has_memory()) {
-    for (const char* name : {"Step", "Sum"}) locals.push_back({.name = name});
+    for (const char* name : {"Added", "Sum"}) locals.push_back({.name = name});
   }
   if (!program.readings.empty()) {
     locals.push_back({.name = "I", .type = Type::kInt});
   }
-  locals.push_back({.name = "Running", .type = Type::kBool});
+  locals.push_back({.name = "Total"});
+  for (const char* name : {"Running", "Started", "ZeroTaken"}) {
+    locals.push_back({.name = name, .type = Type::kBool});
+  }
   return locals;
 }
 
 std::vector<TextVariable> Retained(const MapProgram& program,
                                    const StructuredTextLanguage& language) {
-  std::vector<TextVariable> retained{{.name = "OfMap"}};
+  std::vector<TextVariable> retained{{.name = "OfMap"}, {.name = "Check"}};
   AddArray("S", program.size(Space::kState), &retained);
   if (language.is_single()) {
     AddArray("Lost", program.size(Space::kState), &retained);
@@ -401,6 +427,38 @@ std::vector<TextVariable> Retained(const MapProgram& program,
          .size = cell.is_array ? program.size(Space::kReading) : 0});
   }
   return retained;
+}
+
+// The sum of what is retained, in Total: a changed number is found by it.
+std::string AddUp(const MapProgram& program,
+                  const StructuredTextLanguage& language) {
+  const std::string total = language.Local("Total");
+  const std::string index = language.Local("I");
+  std::string text = total + " := 0.0;\n";
+  std::vector<std::string> of_readings;
+  for (const CellInfo& cell : KeptCells(program)) {
+    if (IsInput(cell.cell)) continue;
+    const std::string name = language.CellName(cell.cell);
+    if (cell.is_array) {
+      of_readings.push_back(name);
+    } else {
+      text += fmt::format("{0} := {0} + {1};\n", total, name);
+    }
+  }
+  const auto loop = [&](int size, const std::vector<std::string>& arrays) {
+    if (size == 0 || arrays.empty()) return;
+    text += fmt::format("FOR {} := 0 TO {} DO\n", index, size - 1);
+    for (const std::string& array : arrays) {
+      text += fmt::format("  {0} := {0} + {1}[{2}];\n", total, array, index);
+    }
+    text += "END_FOR;\n";
+  };
+  loop(program.size(Space::kReading), of_readings);
+  loop(program.size(Space::kState),
+       language.is_single()
+           ? std::vector{language.Local("S"), language.Local("Lost")}
+           : std::vector{language.Local("S")});
+  return text;
 }
 
 // What stands before the routines.
@@ -421,8 +479,9 @@ std::string Prelude(const MapProgram& program,
   }
   text += fmt::format(
       R"(IF NOT {running} THEN
-  {running} := TRUE;
-  IF {of_map} = {fingerprint} AND {away} >= 0.0 AND {away} <= {longest} THEN
+{add_up}  {running} := TRUE;
+  IF {of_map} = {fingerprint} AND {total} - {check} = 0.0 AND
+     {away} >= 0.0 AND {away} <= {longest} THEN
     {waited} := {waited} + {away};
     {missed} := {missed} + {away};
     {room} := {room} + {rate} * {away};
@@ -432,6 +491,9 @@ std::string Prelude(const MapProgram& program,
 END_IF;
 )",
       fmt::arg("running", local("Running")),
+      fmt::arg("add_up", Indented(AddUp(program, language))),
+      fmt::arg("total", local("Total")),
+      fmt::arg("check", local("Check")),
       fmt::arg("of_map", local("OfMap")),
       fmt::arg("fingerprint", language.Number(Fingerprint(program))),
       fmt::arg("away", local("AwaySeconds")),
@@ -439,7 +501,7 @@ END_IF;
       fmt::arg("waited", local("Waited")),
       fmt::arg("missed", local("Missed")),
       fmt::arg("room", local("Room")),
-      fmt::arg("rate", local("MaxRate")),
+      fmt::arg("rate", language.Number(program.limits.max_rate)),
       fmt::arg("anew", anew));
   for (const StatusBit& bit : StatusBits()) {
     text += language.Local(BitName(bit)) + " := FALSE;\n";
@@ -448,14 +510,20 @@ END_IF;
     text += fmt::format(
         "{}[{}] := {};\n", local("X"), i, language.Local(inputs[i]));
   }
-  text += fmt::format("{} := {};\nIF {} THEN\n{}END_IF;\n",
-                      local("Passed"),
-                      local("DtSeconds"),
-                      local("Start"),
-                      session);
+  text += fmt::format("{} := {};\n", local("Passed"), local("DtSeconds"));
+  const auto on_edge = [&](const char* input,
+                           const char* before,
+                           const std::string& body) {
+    text += fmt::format("IF {0} AND NOT {1} THEN\n{2}END_IF;\n{1} := {0};\n",
+                        local(input),
+                        local(before),
+                        body);
+  };
+  on_edge("Start", "Started", session);
   if (!program.zero.empty()) {
-    text += fmt::format(
-        "IF {} THEN {} := 1.0; END_IF;\n", local("TakeZero"), local("ZeroDue"));
+    on_edge("TakeZero",
+            "ZeroTaken",
+            fmt::format("  {} := 1.0;\n", local("ZeroDue")));
   }
   return text;
 }
@@ -472,6 +540,8 @@ std::string Body(const MapProgram& program,
          Joined(language.Write(program, program.move), "") +
          assign("Error", given) + assign("Compensation", "-" + given) +
          assign("Valid", "NOT (" + language.HasAny(kMapNotTaken) + ")") +
+         assign("Healthy", "NOT " + language.HasAny(kMapUnhealthy)) +
+         AddUp(program, language) + assign("Check", language.Local("Total")) +
          (program.Uses(Cell::kSettling)
               ? assign("Settles", language.Local("SettlesIn"))
               : "");
@@ -479,8 +549,13 @@ std::string Body(const MapProgram& program,
 
 Lines About(const MapProgram& program,
             const std::string& name,
-            Precision precision) {
+            Precision precision,
+            TextForm form) {
   Lines about = AboutMap(program, name, Precision::kDouble);
+  if (form == TextForm::kScl) {
+    about.push_back(
+        "The same text as NAME.st; TIA Portal itself has not compiled it.");
+  }
   if (precision == Precision::kSingle) {
     about.insert(
         about.end(),
@@ -502,7 +577,7 @@ ExportedFile StructuredText(const MapProgram& program,
   const StructuredTextLanguage language(name, precision, form);
   return TextFile({.name = name + "_map",
                    .precision = precision,
-                   .about = About(program, name, precision),
+                   .about = About(program, name, precision, form),
                    .functions = Functions(program, language),
                    .sections = {{Kind::kInput, Inputs(program, inputs)},
                                 {Kind::kOutput, Outputs(program)},

@@ -14,7 +14,9 @@ its state goes on as if it had not been away. In the end faults are planted, and
 must be found. Needs a C compiler; skips (status 77) without.
 """
 
+import atexit
 import csv
+import functools
 import json
 import math
 import os
@@ -114,16 +116,17 @@ int main(void) {{
 """
 BITS = ["OUTSIDE", "FAR", "CLIPPED", "INVALID", "DEAD", "FROZEN", "CONTRADICTS",
         "FADED", "LIMITED", "RAMPING", "RELATION", "DISTANCE", "LEVERAGE",
-        "SETTLING", "GAP"]
+        "SETTLING", "GAP", "PARAMETER", "UNHEALTHY"]
 WITH_STATUS = ["ridge", "stepwise", "strict", "pair"]
 
 # A fault in the exported Python, which the checks must find.
 PLANTS = {
-    "no limit": ("if target < (-self.max_error):", "if False:"),
-    "no rate": ("if target < (self.given - self.room):", "if False:"),
-    "steps are always taken": ("if not (status & NOT_TAKEN):", "if True:"),
-    "a gap is no time": ("self.waited = self.waited + passed",
-                         "self.waited = passed"),
+    "no limit": [("if target < (-bound):", "if False:"),
+                 ("if not ((self.given >=", "if False and not ((self.given >=")],
+    "no rate": [("if target < (self.given - self.room):", "if False:")],
+    "steps are always taken": [("if not (status & NOT_TAKEN):", "if True:")],
+    "a gap is no time": [("self.waited = self.waited + passed",
+                          "self.waited = passed")],
 }
 
 failures = []
@@ -165,6 +168,25 @@ def write_days(file, ways, keeps=lambda at: True):
     return str(file)
 
 
+def split_days(folder, count):
+    """Folders of the days up to `count` and of those after it."""
+    parts = []
+    for name, is_in in (("known", lambda day: day <= count),
+                        ("further", lambda day: day > count)):
+        part = folder.parent / name / "sim"
+        part.mkdir(parents=True)
+        for way in ("up", "down"):
+            file = f"x_displacement_{way}.csv"
+            with open(folder / file, encoding="utf-8") as text, \
+                    open(part / file, "w", encoding="utf-8") as out:
+                rows = csv.DictReader(text)
+                writer = csv.DictWriter(out, rows.fieldnames)
+                writer.writeheader()
+                writer.writerows(row for row in rows if is_in(int(row["day"])))
+        parts.append(part)
+    return parts[0].parent, parts[1]
+
+
 def make_strict(file):
     """Limits so near that rows lie beyond them in every way."""
     model = json.loads(file.read_text())
@@ -196,7 +218,7 @@ class Direction:
 
 
 class Exported:
-    def __init__(self, name, folder, errmap):
+    def __init__(self, name, folder, errmap, interval=False):
         spec, inputs = MAPS[name]
         self.name = name
         self.folder = folder
@@ -208,13 +230,14 @@ class Exported:
             run(errmap, "fit",
                 write_days(folder / "sim" / (way + ".csv"), [way]), "--model",
                 spec, "--inputs", inputs, "-o", file, "--quiet",
-                "--no-interval", folder=folder)
+                *([] if interval else ["--no-interval"]), folder=folder)
         if name == "strict":
             make_strict(folder / files[0])
         maps = (files if len(files) == 1 else
                 ["--increasing", files[0], "--decreasing", files[1]])
         for forms, where in ((["--c", "--python", "--st", "--scl", "--plcopen"],
-                              "."), (["--st", "--float"], "single")):
+                              "."),
+                             (["--st", "--plcopen", "--float"], "single")):
             run(errmap, "export", *maps, *forms, "--name", name, "-o", where,
                 "--quiet", folder=folder)
         (folder / "driver.c").write_text(DRIVER.format(name))
@@ -230,6 +253,10 @@ class Exported:
             self.band = of_head(r"has come back by (\S+);")
             self.reversal = 1.01 * of_head(r"then change by (\S+) at once")
         self.position = self.map.INPUTS.index("position_mm")
+        travels = [json.loads((folder / file).read_text())["inputs"]
+                   [self.position] for file in files]
+        self.ends = (min(one["min"] for one in travels),
+                     max(one["max"] for one in travels))
         self.days = self.read_days(data)
         self.predicted = [[float(row["predicted"]) for row in rows]
                           for rows in self.predict(data)]
@@ -312,8 +339,20 @@ class Exported:
         return days
 
 
+@functools.cache
 def compiler_of_text():
-    return os.environ.get("IEC2C") or shutil.which("iec2c")
+    """matiec's, built where there is only its source, MATIEC_SOURCE.tar.gz."""
+    found = os.environ.get("IEC2C") or shutil.which("iec2c")
+    source = os.environ.get("MATIEC_SOURCE")
+    if found or not source:
+        return found
+    folder = tempfile.mkdtemp(prefix="errmap_matiec_")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    run("tar", "xzf", source, "-C", folder)
+    for words in (["autoreconf", "-i"], ["./configure", "CXXFLAGS=-O0 -w"],
+                  ["make", "-j2"]):
+        run(*words, folder=folder)
+    return folder + "/iec2c"
 
 
 def has_compiler():
@@ -353,8 +392,10 @@ def check_limits(exported, rows, found, what):
         allowed = limits.max_rate * (LONG if last is None else dt)
         if direction.follow(inputs[exported.position]):
             allowed += exported.reversal
-        if not status & exported.map.NOT_TAKEN:
-            at = inputs[exported.position]
+        low, high = exported.ends
+        at = inputs[exported.position]
+        if 2 * low - high <= at <= 2 * high - low:  # else it is refused
+            at = min(max(at, low), high)
             if last is not None:
                 allowed += exported.slope * abs(at - last)
             last = at
@@ -439,9 +480,12 @@ def check_plants(exported, chance):
         right = re.sub(rf"(self\.max_{limit} =) ([0-9.e-]+)",
                        lambda most: f"{most[1]} {nearer * float(most[2])!r}",
                        right, count=1)
-    for fault, (old, new) in {"": ("", ""), **PLANTS}.items():
-        check("the place of a fault: " + fault, old in right)
-        exported.load(right.replace(old, new) if old else right)
+    for fault, changes in {"": [], **PLANTS}.items():
+        wrong = right
+        for old, new in changes:
+            check("the place of a fault: " + fault, old in wrong)
+            wrong = wrong.replace(old, new)
+        exported.load(wrong)
         found = len(failures)
         planted[:] = [fault] if fault else []
         for _ in range(20):
@@ -508,6 +552,7 @@ def check_status(exported, errmap, counts):
 def from_scl(text):
     """A source of TIA Portal as IEC 61131-3 has it."""
     text = re.sub(r"^\{ S7_.*\}\nVERSION : 0\.1\n", "", text, flags=re.M)
+    text = re.sub(r"^.*TIA Portal itself.*\n", "", text, flags=re.M)
     text = re.sub(r"(\nFUNCTION .*?)\nBEGIN\n", r"\1\n", text, flags=re.S)
     return text.replace("\nBEGIN\n", "\n\n").replace("#", "").replace('"', "")
 
@@ -566,9 +611,10 @@ def from_plcopen(text, single=False):
 
 
 def check_forms(exported):
-    """What Siemens and PLCopen read is the text that is tested."""
-    def read(end):
-        return (exported.folder / (exported.name + end)).read_text(
+    """What Siemens and PLCopen read is the text that is tested, and matiec
+    compiles it."""
+    def read(end, where="."):
+        return (exported.folder / where / (exported.name + end)).read_text(
             encoding="ascii")
 
     def words(text):
@@ -576,8 +622,24 @@ def check_forms(exported):
 
     check(exported.name + ": SCL is the same text",
           from_scl(read(".scl")) == read(".st"))
-    check(exported.name + ": PLCopen's XML is the same text",
-          words(from_plcopen(read(".xml"))) == words(read(".st")))
+    for where in (".", "single"):
+        check(f"{exported.name}, {where}: PLCopen's XML is the same text",
+              words(from_plcopen(read(".xml", where), where == "single"))
+              == words(read(".st", where)))
+        if has_compiler():
+            compile_text(exported, where)
+
+
+def compile_text(exported, where):
+    iec2c = pathlib.Path(compiler_of_text()).resolve()
+    out = exported.folder / where / (exported.name + "_c")
+    out.mkdir()
+    found = subprocess.run(
+        [str(iec2c), "-I", str(iec2c.parent / "lib"), "-T", str(out),
+         exported.name + ".st"], cwd=exported.folder / where,
+        capture_output=True, text=True, check=False)
+    check(f"{exported.name}, {where}: matiec compiles it",
+          found.returncode == 0, found.stderr[-300:])
 
 
 def check_single(exported):

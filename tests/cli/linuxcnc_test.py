@@ -197,10 +197,12 @@ class Bench:
             return {"failed": "no result"}
         return json.loads(result.read_text(encoding="utf-8"))
 
-    def can_run(self):
-        """Whether this system lets LinuxCNC's real-time part run at all."""
+    def can_run(self, more=""):
+        """Whether this system lets LinuxCNC's real-time part run at all, and
+        what `more` loads."""
         (self.folder / "probe.hal").write_text(
-            "loadrt threads name1=servo-thread period1=1000000\nstart\n")
+            "loadrt threads name1=servo-thread period1=1000000\n" + more
+            + "start\n")
         shutil.chown(self.folder, USER)
         return subprocess.run(
             ["runuser", "-u", USER, "--", "env", f"HOME={self.folder}",
@@ -274,6 +276,8 @@ def check_component(bench):
           abs(found.get("most", 1.0) - 0.002) < 1e-12, found)
     check("without it the offset is whole",
           abs(found.get("unlimited", 1.0)) < 1e-9, found)
+    check("a lowered limit holds at once", found.get("lowered", 1.0) <= 1e-9,
+          found)
     check("the largest change per second holds, and it moves",
           found.get("fastest", 1.0) <= 0.01 and found.get("moved", 0.0) > 0.002,
           found)
@@ -284,6 +288,16 @@ def check_component(bench):
           counts != 0 and found.get("machine") == [
               [0, 0, False], [1, counts, True], [0, 0, False],
               [1, counts, True]], found)
+
+
+def check_exports(bench):
+    """A .hal file of another export does not load the component."""
+    loads = next(line for line in
+                 (bench.folder / "errmap_up.hal").read_text().splitlines()
+                 if line.startswith("loadrt errmap_up "))
+    check("the export of the .hal file loads", bench.can_run(loads + "\n"), loads)
+    check("another one does not",
+          not bench.can_run(loads.partition("=")[0] + "=1\n"))
 
 
 def check_restart(bench):
@@ -495,6 +509,7 @@ def main():
                 bench.install("pair", "--increasing", "up.json", "--decreasing",
                               "down.json")
                 check_component(bench)
+                check_exports(bench)
                 check_restart(bench)
                 check_pair(bench)
                 check_failures(bench)

@@ -203,6 +203,21 @@ void SayWhatFailuresDo(const models::MapProgram& program) {
       "limits: {}, and {} each second",
       text.WithUnit(limits.max_error),
       report::ErrorText(unit, limits.max_rate).WithUnit(limits.max_rate)));
+  if (limits.own_error > 0.0 &&
+      limits.max_error > models::kMostTimesOwn * limits.own_error) {
+    Say(fmt::format(
+        "warning: --max-offset is {:.0f} times the map's own limit, {}; write "
+        "its unit, such as 20um",
+        limits.max_error / limits.own_error,
+        text.WithUnit(limits.own_error)));
+  }
+  for (const models::ProgramReading& reading : program.readings) {
+    if (reading.is_position || !models::IsCount(reading.column.unit)) continue;
+    Say(
+        fmt::format("{} is counted, not measured: no check finds it wrong, so "
+                    "begin it anew with each session",
+                    data::NameInRemark(reading.column.name)));
+  }
   const std::vector<models::FailingSensor> sensors =
       models::WorstOfFailing(program);
   for (std::size_t i = 0; i < std::min(kMost, sensors.size()); ++i) {

@@ -26,19 +26,26 @@ enum MapStatus : int {
   kMapLimited = 256,     // the error is the largest allowed
   kMapRamping = 512,     // the error is on its way, at the largest rate
   // As `predict` says, beside kMapOutside, why a row is unlike training.
-  kMapRelation = 1024,  // a sensor does not go with the others as in training
-  kMapDistance = 2048,  // a thermal state far from every trained one
-  kMapLeverage = 4096,  // far from the middle of them
-  kMapSettling = 8192,  // begun in the midst of a session
-  kMapGap = 16384,      // readings were missing not long ago
+  kMapRelation = 1024,    // a sensor does not go with the others as in training
+  kMapDistance = 2048,    // a thermal state far from every trained one
+  kMapLeverage = 4096,    // far from the middle of them
+  kMapSettling = 8192,    // begun in the midst of a session
+  kMapGap = 16384,        // readings were missing not long ago
+  kMapParameter = 32768,  // a limit was set to what is none
+  kMapUnhealthy = 65536,  // what a control must not go on with
 };
 /// `predict` says inside = 0.
 inline constexpr int kMapUnlike = kMapOutside | kMapRelation | kMapDistance |
                                   kMapLeverage | kMapSettling | kMapGap;
 /// A step with one of these is not taken: the filters keep their state, and the
-/// last good error is held.
+/// last good readings are held, where the axis is now.
 inline constexpr int kMapNotTaken =
     kMapFar | kMapInvalid | kMapDead | kMapFrozen | kMapContradicts;
+/// Each of these makes it kMapUnhealthy; so does kMapRelation together with one
+/// of the others, since then a sensor is wrong sooner than the day is new.
+inline constexpr int kMapAlarms =
+    kMapNotTaken | kMapFaded | kMapSettling | kMapGap | kMapParameter;
+inline constexpr int kMapBesideRelation = kMapOutside | kMapClipped;
 
 /// A bit of the status as languages name and explain it.
 struct StatusBit {
@@ -72,6 +79,11 @@ constexpr bool IsOfSession(Cell cell) {
   return cell == Cell::kBegun || cell == Cell::kFresh ||
          cell == Cell::kSettling;
 }
+/// A largest error set while it runs is one up to so many times the map's own.
+inline constexpr double kMostTimesOwn = 10.0;
+
+/// Counts and times have no sensor, and go on beyond what was trained.
+bool IsCount(const data::Unit& unit);
 
 /// Heat moves no machine so fast: 10 um/s, 10 urad/s; of an error in another
 /// unit, `max_error` in 10 s.

@@ -13,10 +13,9 @@ namespace {
 
 // No control is silent for so long (s).
 constexpr double kLongestStep = 1e9;
-// A sensor stands still where the others moved by so much of their trained
-// ranges, and so many steps passed, since it last changed.
-constexpr double kFrozenWhile = 0.5;
+// No sensor hangs that held its value for fewer steps, nor by its noise alone.
 constexpr double kFrozenSteps = 5.0;
+constexpr double kQuietSteps = 10.0;
 
 // What `of_form` says of the map that acts in this direction of motion.
 template <typename OfForm>
@@ -72,22 +71,40 @@ Routine CheckReadings(const MapProgram& program) {
   return checks;
 }
 
-Routine WatchTheStill() {
+Routine WatchTheStill(const MapProgram& program) {
   const Expression x{Cell::kReading};
   const Expression common{Cell::kCommon};
   const Expression alike{Cell::kAlike};
-  return {Set(Cell::kCommon, 0.0),
-          EachReading({Set(Cell::kCommon, common + Read(Cell::kWeight) * x)}),
-          EachReading(
-              {If(Read(Cell::kWeight) > 0.0,
-                  {If(Read(Cell::kBegun) > 0.0 && x == Cell::kLast,
-                      {If(alike < kFrozenSteps,
-                          {Set(Cell::kAlike, alike + 1.0)},
-                          {If(Absolute(common - Cell::kSince) > kFrozenWhile,
-                              {Flag(kMapFrozen)})})},
-                      {Set(Cell::kLast, x),
-                       Set(Cell::kSince, common),
-                       Set(Cell::kAlike, 0.0)})})})};
+  const Expression stood{Cell::kStood};
+  const double silence = program.limits.silence;
+  const Expression held{Cell::kHeld};
+  const Expression moved = Absolute(common - Cell::kSince);
+  Routine changed{
+      Set(Cell::kSince, common), Set(Cell::kAlike, 0.0), Set(Cell::kHeld, 0.0)};
+  if (silence > 0.0) changed.push_back(Set(Cell::kStood, 0.0));
+  Routine watch{
+      Set(Cell::kCommon, 0.0),
+      EachReading({Set(Cell::kCommon, common + Read(Cell::kWeight) * x)})};
+  if (silence > 0.0) {
+    const double most = silence / kFrozenSteps;
+    watch.push_back(If(Read(Cell::kDt) < most,
+                       {Set(Cell::kStood, stood + Cell::kDt)},
+                       {Set(Cell::kStood, stood + most)}));
+  }
+  watch.push_back(EachReading(
+      {If(Read(Cell::kWeight) > 0.0,
+          {If(Read(Cell::kBegun) > 0.0 && x == Cell::kLast,
+              {If(alike < kQuietSteps, {Set(Cell::kAlike, alike + 1.0)}),
+               Set(Cell::kHeld, held + Cell::kDt),
+               If((alike > kFrozenSteps && moved > Cell::kOthersMove) ||
+                      (alike >= kQuietSteps && held > Cell::kQuiet &&
+                       moved > Cell::kFinest),
+                  {Flag(kMapFrozen)})},
+              std::move(changed))})}));
+  if (silence > 0.0) {
+    watch.push_back(If(stood > silence, {Flag(kMapFrozen)}));
+  }
+  return watch;
 }
 
 // Which of two maps acts: the position has gone one way, but for a little.
@@ -151,46 +168,63 @@ Routine MeasureState(const MapForm& of, int form) {
   return measure;
 }
 
-// The time until what filters remember is good again, before a step of them.
+// The time until what filters remember is good again, before a step of them. It
+// passes in whole seconds: of hours in single precision no part of a
+// millisecond can be taken.
 Routine Settle(const MapProgram& program) {
   const Expression left{Cell::kSettling};
   const Expression waited{Cell::kWaited};
-  Routine settle{Set(Cell::kSettling, left - waited)};
+  const Expression pending{Cell::kPending};
+  Routine settle{
+      Set(Cell::kPending, pending + waited),
+      If(pending >= 1.0,
+         {Set(Cell::kSettling, left - pending), Set(Cell::kPending, 0.0)})};
   if (std::isfinite(program.longest_bridged)) {
-    settle.push_back(If(waited > program.longest_bridged,
-                        {If(!(Read(Cell::kFresh) > 0.0 && left > waited),
-                            {Set(Cell::kSettling, waited)})}));
+    settle.push_back(
+        If(waited > program.longest_bridged,
+           {If(!(Read(Cell::kFresh) > 0.0 && left - pending > waited),
+               {Set(Cell::kSettling, waited), Set(Cell::kPending, 0.0)})}));
   }
-  settle.push_back(
-      If(!(left > 0.0), {Set(Cell::kSettling, 0.0), Set(Cell::kFresh, 0.0)}));
+  settle.push_back(If(!(left > pending),
+                      {Set(Cell::kSettling, 0.0),
+                       Set(Cell::kPending, 0.0),
+                       Set(Cell::kFresh, 0.0)}));
   return settle;
 }
 
-// What the axis' own motion may change the error by.
-Routine MakeRoom(const std::vector<ProgramReading>& readings) {
-  Routine room;
+// Where the axis is, at the end of its travel where it is beyond. What its
+// motion may change the error by is room for it.
+Routine FollowPositions(const std::vector<ProgramReading>& readings) {
+  Routine follow;
   for (std::size_t i = 0; i < readings.size(); ++i) {
-    if (!readings[i].is_position) continue;
-    const Expression x{Cell::kReading, static_cast<int>(i)};
-    const Expression last{Cell::kLast, static_cast<int>(i)};
-    room.push_back(
-        Set(Cell::kRoom, Cell::kRoom + readings[i].slope * Absolute(x - last)));
-  }
-  return room;
-}
-
-Routine KeepPositions(const std::vector<ProgramReading>& readings) {
-  Routine keep;
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    if (!readings[i].is_position) continue;
+    const ProgramReading& reading = readings[i];
+    if (!reading.is_position) continue;
     const auto at = static_cast<int>(i);
-    keep.push_back(SetAt(Cell::kLast, at, Expression{Cell::kReading, at}));
+    const Expression x{Cell::kReading, at};
+    const Expression last{Cell::kLast, at};
+    Routine known;
+    if (reading.far_high < kHuge) {
+      known = {If(x < reading.trained_min,
+                  {SetAt(Cell::kReading, at, reading.trained_min)}),
+               If(x > reading.trained_max,
+                  {SetAt(Cell::kReading, at, reading.trained_max)})};
+    }
+    if (reading.slope > 0.0) {
+      known.push_back(
+          If(Read(Cell::kBegun) > 0.0,
+             {Set(Cell::kRoom,
+                  Cell::kRoom + reading.slope * Absolute(x - last))}));
+    }
+    known.push_back(SetAt(Cell::kLast, at, x));
+    follow.push_back(
+        If(x >= reading.far_low && x <= reading.far_high, std::move(known)));
   }
-  return keep;
+  return follow;
 }
 
-Routine TakeStep(const MapProgram& program) {
-  const Expression e{Cell::kError};
+// Filters and zeros go on, and the readings are those that are held should the
+// next ones fail.
+Routine Advance(const MapProgram& program) {
   Routine take;
   const bool remembers = program.settles_after > 0.0;
   if (remembers || !program.advance.empty()) {
@@ -213,11 +247,12 @@ Routine TakeStep(const MapProgram& program) {
                       {Do(Part::kZero), Set(Cell::kZeroDue, 0.0)}));
   }
   take.push_back(Set(Cell::kWaited, 0.0));
-  Append(OfTheForm(
-             program,
-             [](int form) -> Routine { return {Do(Part::kEvaluate, form)}; }),
-         &take);
-  Append(CheckRanges(program, false), &take);
+  return take;
+}
+
+// What is said of a step that is taken.
+Routine JudgeStep(const MapProgram& program) {
+  Routine taken = CheckRanges(program, false);
   Routine measure = OfTheForm(program, [&](int form) -> Routine {
     const MapForm& of = program.forms[static_cast<std::size_t>(form)];
     if (of.measure.empty()) return {};
@@ -225,17 +260,33 @@ Routine TakeStep(const MapProgram& program) {
   });
   // A column that is at fault says more than that the state is unlike.
   if (!measure.empty()) {
-    take.push_back(If(!Any(kMapOutside | kMapRelation), std::move(measure)));
+    taken.push_back(If(!Any(kMapOutside | kMapRelation), std::move(measure)));
   }
-  Routine good{Set(Cell::kMissed, 0.0), Set(Cell::kWanted, e)};
-  if (Routine room = MakeRoom(program.readings); !room.empty()) {
-    good.push_back(If(Read(Cell::kBegun) > 0.0, std::move(room)));
+  taken.push_back(Set(Cell::kMissed, 0.0));
+  taken.push_back(Set(Cell::kBegun, 1.0));
+  if (!program.readings.empty()) {
+    taken.push_back(EachReading({Set(Cell::kLast, Cell::kReading)}));
   }
-  Append(KeepPositions(program.readings), &good);
-  good.push_back(Set(Cell::kBegun, 1.0));
-  take.push_back(
-      If(e > -kHuge && e < kHuge, std::move(good), {Flag(kMapInvalid)}));
-  return take;
+  return taken;
+}
+
+// The error of these readings, or of those that are held.
+Statement TakeStep(const MapProgram& program) {
+  const Expression e{Cell::kError};
+  const Expression is_taken = !Any(kMapNotTaken);
+  Routine held;
+  if (!program.readings.empty()) {
+    held.push_back(EachReading({Set(Cell::kReading, Cell::kLast)}));
+  }
+  Routine take{If(is_taken, Advance(program), std::move(held))};
+  Append(OfTheForm(
+             program,
+             [](int form) -> Routine { return {Do(Part::kEvaluate, form)}; }),
+         &take);
+  take.push_back(If(e > -kHuge && e < kHuge,
+                    {Set(Cell::kWanted, e), If(is_taken, JudgeStep(program))},
+                    {Flag(kMapInvalid)}));
+  return If(is_taken || Read(Cell::kBegun) > 0.0, std::move(take));
 }
 
 Statement TidyTime(bool says_so) {
@@ -243,6 +294,15 @@ Statement TidyTime(bool says_so) {
   if (says_so) not_passed.insert(not_passed.begin(), Flag(kMapInvalid));
   return If(!(Read(Cell::kDt) >= 0.0 && Read(Cell::kDt) <= kLongestStep),
             std::move(not_passed));
+}
+
+// `to` is what was set, where that is above 0 and not above `most`; else the
+// map's own.
+Routine UseLimit(Cell to, Cell set, double own, double most) {
+  if (!(own > 0.0)) return {Set(to, 0.0)};
+  return {Set(to, set),
+          If(!(Read(set) > 0.0 && Read(set) <= most),
+             {Set(to, own), Flag(kMapParameter), Flag(kMapUnhealthy)})};
 }
 
 }  // namespace
@@ -254,11 +314,12 @@ Routine ReadRoutine(const MapProgram& program) {
                Set(Cell::kMissed, missed + Cell::kDt)};
   if (program.has_directions()) read.push_back(FollowDirection(program));
   Append(CheckReadings(program), &read);
+  Append(FollowPositions(program.readings), &read);
   Routine doubt;
   if (std::ranges::any_of(program.readings, [](const ProgramReading& reading) {
         return reading.weight > 0.0;
       })) {
-    doubt = WatchTheStill();
+    doubt = WatchTheStill(program);
   }
   const Expression r = Absolute(Cell::kDoubt);
   Append(
@@ -277,28 +338,46 @@ Routine ReadRoutine(const MapProgram& program) {
           }),
       &doubt);
   if (!doubt.empty()) read.push_back(If(!Any(kMapNotTaken), std::move(doubt)));
-  read.push_back(If(!Any(kMapNotTaken), TakeStep(program)));
+  read.push_back(TakeStep(program));
   read.push_back(If(Any(kMapNotTaken) && missed > program.limits.hold,
                     {Set(Cell::kWanted, 0.0), Flag(kMapFaded)}));
+  read.push_back(
+      If(Any(kMapAlarms) || (Any(kMapRelation) && Any(kMapBesideRelation)),
+         {Flag(kMapUnhealthy)}));
   return read;
 }
 
-Routine MoveRoutine() {
+Routine MoveRoutine(const ControllerLimits& limits) {
   const Expression given{Cell::kGiven};
-  const Expression most{Cell::kMostError};
+  const Expression limit{Cell::kBound};
   const Expression room{Cell::kRoom};
   const Expression target{Cell::kTarget};
-  return {TidyTime(false),
-          Set(Cell::kRoom, room + Cell::kMostRate * Expression{Cell::kDt}),
+  Routine move{TidyTime(false)};
+  const double own = limits.max_error;
+  Append(UseLimit(Cell::kBound, Cell::kMostError, own, kMostTimesOwn * own),
+         &move);
+  Append(UseLimit(Cell::kPace, Cell::kMostRate, limits.max_rate, kHuge), &move);
+  Append({Set(Cell::kRoom, room + Cell::kPace * Expression{Cell::kDt}),
           Set(Cell::kTarget, Cell::kWanted),
-          If(target > most, {Set(Cell::kTarget, most), Flag(kMapLimited)}),
-          If(target < -most, {Set(Cell::kTarget, -most), Flag(kMapLimited)}),
+          If(target > limit, {Set(Cell::kTarget, limit), Flag(kMapLimited)}),
+          If(target < -limit, {Set(Cell::kTarget, -limit), Flag(kMapLimited)}),
           If(target > given + room,
              {Set(Cell::kGiven, given + room), Flag(kMapRamping)},
              {If(target < given - room,
                  {Set(Cell::kGiven, given - room), Flag(kMapRamping)},
                  {Set(Cell::kGiven, target)})}),
-          Set(Cell::kRoom, 0.0)};
+          Set(Cell::kRoom, 0.0),
+          // The last word, whatever came before: also where the limit was
+          // lowered, and of what is no number.
+          If(!(given >= -limit && given <= limit),
+             {Flag(kMapLimited),
+              If(given > limit,
+                 {Set(Cell::kGiven, limit)},
+                 {If(given < -limit,
+                     {Set(Cell::kGiven, -limit)},
+                     {Set(Cell::kGiven, 0.0)})})})},
+         &move);
+  return move;
 }
 
 }  // namespace errmap::models

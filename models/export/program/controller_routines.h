@@ -11,6 +11,6 @@ inline constexpr double kHuge = 1e30;
 /// MapProgram::read and MapProgram::move, of a program whose readings have
 /// their bounds and slopes, and whose judgement is known.
 Routine ReadRoutine(const MapProgram& program);
-Routine MoveRoutine();
+Routine MoveRoutine(const ControllerLimits& limits);
 
 }  // namespace errmap::models

@@ -29,6 +29,12 @@ double TableValue(const ProgramReading& reading, Cell cell) {
       return reading.far_high;
     case Cell::kWeight:
       return reading.weight;
+    case Cell::kOthersMove:
+      return reading.others_move;
+    case Cell::kFinest:
+      return reading.finest;
+    case Cell::kQuiet:
+      return reading.quiet;
     default:
       return reading.believed;
   }

@@ -58,8 +58,10 @@ struct ProgramReading {
   double trained_max = 0.0;
   double trained_mean = 0.0;
   /// A position comes from the control itself: it is no sensor that can fail.
+  /// Beyond its trained range it counts as at the end, as tables have it.
   bool is_position = false;
-  /// Beyond these it comes from a failed sensor sooner than from the machine.
+  /// Beyond these it comes from a failed sensor sooner than from the machine; a
+  /// position is refused.
   double far_low = 0.0;
   double far_high = 0.0;
   /// What a sensor that is not connected reads, where that is not far.
@@ -67,6 +69,11 @@ struct ProgramReading {
   /// Its share of the common movement (per its unit); 0: it is not watched for
   /// standing still.
   double weight = 0.0;
+  /// By how much of their ranges the others may move while it stands still.
+  double others_move = 0.0;
+  /// And by how much where its noise left it alone for longer than `quiet` (s).
+  double finest = 0.0;
+  double quiet = 0.0;
   /// Its kDoubt above which it contradicts the others.
   double believed = 0.0;
   /// Of a position: what the error may change by along it (target's unit per
@@ -75,16 +82,24 @@ struct ProgramReading {
 };
 
 /// The cells of CellKind::kTable, and what a reading puts there.
-inline constexpr Cell kTables[] = {
-    Cell::kFarLow, Cell::kFarHigh, Cell::kWeight, Cell::kBelieved};
+inline constexpr Cell kTables[] = {Cell::kFarLow,
+                                   Cell::kFarHigh,
+                                   Cell::kWeight,
+                                   Cell::kOthersMove,
+                                   Cell::kFinest,
+                                   Cell::kQuiet,
+                                   Cell::kBelieved};
 double TableValue(const ProgramReading& reading, Cell cell);
 
 /// What holds the error given, whatever the readings say.
 struct ControllerLimits {
   /// Largest size, target's unit; infinite until a controller is added.
   double max_error = std::numeric_limits<double>::infinity();
-  double max_rate = 0.0;  // largest change per s, but for the axis' own motion
-  double hold = 60.0;     // s for which the last good error is held
+  double max_rate = 0.0;   // largest change per s, but for the axis' own motion
+  double hold = 60.0;      // s for which the last good readings are held
+  double own_error = 0.0;  // the largest size that follows from the map
+  /// How long all sensors may hold their values together (s); 0: for ever.
+  double silence = 0.0;
   /// Of two maps: how far the position comes back before the other one acts,
   /// and what the error may change by then.
   double band = 0.0;      // position's unit
@@ -123,6 +138,8 @@ struct MapForm {
 /// of which is left to the one who prints it.
 struct MapProgram {
   std::string model;  // the SPEC
+  /// Which export it is, the same in all its files; 0: none.
+  double export_id = 0.0;
   data::ColumnInfo target;
   bool since_first_row = false;          // of the session
   std::string made_for;                  // rows: "direction down"; "": all

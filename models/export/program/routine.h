@@ -18,6 +18,8 @@ enum class Cell {
   kCommon,   // where the watched readings stand together
   kAway,     // squared distance between thermal states
   kTarget,   // kWanted within the limit
+  kBound,    // kMostError where that is a limit
+  kPace,     // kMostRate where that is a limit
   kReading,  // array
   kDoubt,    // array
   kError,    // of the map, before any limit
@@ -33,17 +35,23 @@ enum class Cell {
   kMostRate,
   kFresh,     // 1: begun inside a session, as far as is known
   kSettling,  // s until what filters remember is good again
+  kPending,   // s of them that have passed, less than one
+  kStood,     // s since one of the watched readings changed
   kKnown,     // which map's state kNear is, from 1; 0: of none
   kDown,      // 1: the map of decreasing positions acts
   kTurn,      // the furthest position in the direction of motion
-  kLast,      // array: of each reading, the one before
+  kLast,      // array: of each reading, the one last believed
   kSince,     // array: of each reading, kCommon when it last changed
   kAlike,     // array: steps since then
+  kHeld,      // array: s since then
   kNear,      // array: a trained thermal state close by
   // Constants of each reading (ProgramReading), arrays.
   kFarLow,
   kFarHigh,
   kWeight,
+  kOthersMove,
+  kFinest,
+  kQuiet,
   kBelieved,
 };
 inline constexpr int kNumCells = static_cast<int>(Cell::kBelieved) + 1;

@@ -163,7 +163,7 @@ int ControllerRun::Step(double dt,
   Run(program_->read);
   Run(program_->move);
   *error = run_.Rounded(Value(Cell::kGiven), Space::kError);
-  return status_ | (run_.clipped() ? kMapClipped : 0);
+  return Status();
 }
 
 void ControllerRun::Run(const Routine& routine) {
@@ -173,7 +173,9 @@ void ControllerRun::Run(const Routine& routine) {
 void ControllerRun::RunOne(const Statement& it) {
   switch (it.kind) {
     case Statement::Kind::kAssign:
-      Place(it.sides[0]) = Of(it.sides[1]);
+      Place(it.sides[0]) = it.sides[0].cell == Cell::kReading
+                               ? run_.Rounded(Of(it.sides[1]), Space::kReading)
+                               : Of(it.sides[1]);
       return;
     case Statement::Kind::kIf:
       return Run(Of(it.sides[0]) != 0.0 ? it.body : it.otherwise);
@@ -218,7 +220,7 @@ double ControllerRun::Of(const Expression& it) {
       return program_->forms[static_cast<std::size_t>(it.form)].states(
           loop_, it.index);
     case Kind::kAny:
-      return (status_ & it.mask) != 0 ? 1.0 : 0.0;
+      return (Status() & it.mask) != 0 ? 1.0 : 0.0;
     case Kind::kNot:
       return a() != 0.0 ? 0.0 : 1.0;
     case Kind::kNegative:

@@ -61,6 +61,11 @@ class ControllerRun {
   }
   /// The next step taken takes the zero.
   void Zero() { Value(Cell::kZeroDue) = 1.0; }
+  /// Sets the limits anew.
+  void SetLimits(double max_error, double max_rate) {
+    Value(Cell::kMostError) = max_error;
+    Value(Cell::kMostRate) = max_rate;
+  }
   /// Reads and moves, `dt` seconds after the call before: the error given, and
   /// the status.
   int Step(double dt, const Eigen::VectorXd& readings, double* error);
@@ -70,6 +75,7 @@ class ControllerRun {
     return values_[static_cast<std::size_t>(cell)]
                   [static_cast<std::size_t>(index)];
   }
+  int Status() const { return status_ | (run_.clipped() ? kMapClipped : 0); }
   void Run(const Routine& routine);
   void RunOne(const Statement& statement);
   double Of(const Expression& expression);

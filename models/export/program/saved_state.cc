@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <string_view>
+
+#include "models/version.h"
 
 namespace errmap::models {
 namespace {
@@ -18,7 +21,14 @@ class Hash {
       value_ = (value_ ^ (bits >> (8 * i) & 0xFF)) * 0x100000001B3U;
     }
   }
-  std::uint64_t value() const { return value_; }
+  void Add(std::string_view text) {
+    for (const char c : text) Add(static_cast<unsigned char>(c), 1);
+  }
+  // From 1 to 2^24.
+  double Number() const {
+    constexpr int kBits = 24;
+    return static_cast<double>(value_ >> (64 - kBits)) + 1.0;
+  }
 
  private:
   std::uint64_t value_ = 0xCBF29CE484222325U;
@@ -27,8 +37,10 @@ class Hash {
 }  // namespace
 
 double Fingerprint(const MapProgram& program) {
-  constexpr int kBits = 24;
+  // Of what is kept; another one where that changes.
+  constexpr double kLayout = 2.0;
   Hash hash;
+  hash.Add(kLayout);
   for (const Instructions* part : program.parts()) {
     for (const Instruction& it : *part) {
       hash.Add(static_cast<std::uint64_t>(it.op), 1);
@@ -43,7 +55,25 @@ double Fingerprint(const MapProgram& program) {
   for (const Eigen::MatrixXd& table : program.tables) {
     for (const double number : table.reshaped()) hash.Add(number);
   }
-  return static_cast<double>(hash.value() >> (64 - kBits)) + 1.0;
+  return hash.Number();
+}
+
+double ExportId(const MapProgram& program,
+                std::string_view name,
+                Precision precision) {
+  Hash hash;
+  hash.Add(Version());
+  hash.Add(name);
+  hash.Add(static_cast<std::uint64_t>(precision), 1);
+  hash.Add(Fingerprint(program));
+  hash.Add(program.limits.max_error);
+  hash.Add(program.limits.max_rate);
+  for (const ProgramReading& reading : program.readings) {
+    hash.Add(reading.column.name);
+    for (const Cell cell : kTables) hash.Add(TableValue(reading, cell));
+    hash.Add(reading.slope);
+  }
+  return hash.Number();
 }
 
 double LongestAge(const MapProgram& program) {

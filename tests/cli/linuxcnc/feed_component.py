@@ -110,7 +110,8 @@ def go_on(component, case, result):
 
 
 def missing(component, case, result):
-    """A sensor that fails keeps the last good offset; the gap is one step."""
+    """A sensor that fails keeps the last good offset where the axis stands; the
+    gap is one step."""
     rows, predicted = case["rows"], case["predicted"]
     component.row(1.0, rows[0][1:])
     component.row(rows[1][0], rows[1][1:])
@@ -119,6 +120,7 @@ def missing(component, case, result):
     waited = 0.0
     for row, broken in ((2, math.nan), (3, math.inf), (4, 0.0), (5, 1e4)):
         dt, *readings = rows[row]
+        readings[0] = rows[1][1]
         readings[-1] = broken
         component.row(dt, readings)
         waited += dt
@@ -156,10 +158,15 @@ def limits(component, case, result):
     component.periods()
     full = component.get("offset")
     result["unlimited"] = full + case["predicted"][0]
-    # A rate of 0.01 mm/s from one end to the other takes its time.
+    # A limit that is lowered holds at once; on the way back a rate of 0.01 mm/s
+    # takes its time.
     component.set("max-rate", 0.01)
     component.set("max-offset", 1e-9)
-    start, begin = full, hal.get_value("integ.0.out")
+    component.periods()
+    start = component.get("offset")
+    result["lowered"] = abs(start)
+    begin = hal.get_value("integ.0.out")
+    component.set("max-offset", 1.0)
     fastest = 0.0
     for _ in range(40):
         component.periods(10)

@@ -1,13 +1,16 @@
 #include "models/export/program/controller.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "models/export/program/run_program.h"
+#include "models/map_experience.h"
 #include "models/polynomial/polynomial_model.h"
 #include "tests/numbers.h"
 
@@ -18,7 +21,9 @@ using Eigen::Vector4d;
 
 // error_um = position_mm / 100 + the sum of three thermometers less 15 degC,
 // trained in 0 to 100 mm and `low` to 20 degC.
-MapProgram LinearMap(double low = 10.0, const LimitOptions& options = {}) {
+MapProgram LinearMap(double low = 10.0,
+                     const LimitOptions& options = {},
+                     std::shared_ptr<const Applicability> trained = nullptr) {
   PolynomialForm form;
   form.input_offset = Vector4d(0.0, 15.0, 15.0, 15.0);
   form.input_scale = Vector4d(0.01, 1.0, 1.0, 1.0);
@@ -39,9 +44,33 @@ MapProgram LinearMap(double low = 10.0, const LimitOptions& options = {}) {
                              0.25 * (max - min)});
   }
   fitted.model = std::make_shared<PolynomialModel>(form, Eigen::Index{5});
+  fitted.applicability = std::move(trained);
   MapProgram program = MakeMapProgram(fitted);
   AddController({&fitted}, options, &program);
   return program;
+}
+
+// Of its thermometers, with no limit but those of standing still.
+std::shared_ptr<const Applicability> Standing(double others_move,
+                                              double silence,
+                                              double quiet = 0.0) {
+  constexpr double kNone = 1e9;
+  Applicability trained;
+  trained.columns = {1, 2, 3};
+  trained.rows = 10;
+  trained.mean = Eigen::Vector3d::Constant(15.0);
+  trained.scale = Eigen::Vector3d::Constant(3.0);
+  trained.directions = Eigen::Vector3d::Constant(0.9);
+  trained.rest = Eigen::Vector3d::Constant(0.2);
+  trained.states = Eigen::MatrixXd::Zero(1, 1);
+  trained.distance_limit = kNone;
+  trained.leverage_limit = kNone;
+  trained.relation_limit = Eigen::Vector3d::Constant(kNone);
+  trained.standing = {.others_move = Eigen::Vector3d::Constant(others_move),
+                      .resolution = Eigen::Vector3d::Constant(0.01),
+                      .quiet = Eigen::Vector3d::Constant(quiet),
+                      .silence = silence};
+  return std::make_shared<const Applicability>(std::move(trained));
 }
 
 constexpr double kLong = 1e6;  // s: no rate limits the first error
@@ -102,26 +131,108 @@ TEST(Controller, LetsTheAxisMoveWithoutTime) {
   EXPECT_DOUBLE_EQ(error, 4.0);
 }
 
+// Half a range for each kelvin that the two others rise.
 TEST(Controller, NoticesASensorThatStandsStillWhileTheOthersMove) {
+  const MapProgram program = LinearMap(10.0, {}, Standing(0.25, 0.0));
+  ControllerRun run(program, Precision::kDouble);
+  double error = kNaN;
+  const auto step = [&](double stands, double others) {
+    return run.Step(60.0, Vector4d(50.0, stands, others, others), &error);
+  };
+  for (int i = 0; i <= 8; ++i) {
+    const double others = 11.0 + 0.4 * i;
+    EXPECT_EQ((step(11.0, others) & kMapFrozen) != 0, i > 6) << i;
+  }
+  EXPECT_EQ(step(14.5, 14.5) & kMapNotTaken, 0);
+  // All at rest is rest.
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(step(14.5, 14.5) & kMapFrozen, 0);
+}
+
+// The others warm up by more than two steps of its resolution, or have but
+// noise.
+TEST(Controller, NoticesThatTheNoiseOfASensorIsGone) {
+  for (const bool warms : {true, false}) {
+    const MapProgram program = LinearMap(10.0, {}, Standing(0.25, 0.0, 300.0));
+    ControllerRun run(program, Precision::kDouble);
+    double error = kNaN;
+    for (int i = 0; i <= 20; ++i) {
+      const double others = 16.0 + 0.02 * (i % 2) + (warms ? 0.05 * i : 0.0);
+      const int status =
+          run.Step(60.0, Vector4d(50.0, 16.0, others, others), &error);
+      EXPECT_EQ((status & kMapFrozen) != 0, warms && i >= 10) << i;
+    }
+  }
+}
+
+TEST(Controller, NoticesThatAllSensorsStandStillForLongerThanInTraining) {
+  const MapProgram program = LinearMap(10.0, {}, Standing(0.25, 30.0));
+  for (const double dt : {1.0, 4.0, 100.0}) {
+    ControllerRun run(program, Precision::kDouble);
+    double error = kNaN;
+    double passed = 0.0;
+    const auto step = [&](double all) {
+      return run.Step(dt, Vector4d(50.0, all, all, all), &error);
+    };
+    step(16.0);
+    for (int i = 1; i <= 40; ++i) {
+      passed += std::min(dt, 6.0);
+      EXPECT_EQ((step(16.0) & kMapFrozen) != 0, passed > 30.0)
+          << dt << ' ' << i;
+    }
+    EXPECT_EQ(step(16.5) & kMapFrozen, 0);
+  }
+}
+
+TEST(Controller, HoldsTheLastGoodReadingsWhereTheAxisIs) {
   const MapProgram program = LinearMap();
   ControllerRun run(program, Precision::kDouble);
   double error = kNaN;
-  int status = 0;
-  for (int i = 0; i <= 8; ++i) {
-    status = run.Step(60.0, Vector4d(50.0, 11.0, 11.0 + i, 11.0 + i), &error);
-    if (i < 5) {
-      EXPECT_EQ(status & kMapFrozen, 0) << i;
-    }
+  run.Step(kLong, Vector4d(50.0, 16.0, 16.0, 16.0), &error);
+  const int status = run.Step(1.0, Vector4d(90.0, kNaN, 18.0, 16.0), &error);
+  EXPECT_NE(status & kMapInvalid, 0);
+  EXPECT_NE(status & kMapUnhealthy, 0);
+  EXPECT_DOUBLE_EQ(error, 3.9);
+  // Where the position itself is no number it stays.
+  run.Step(1.0, Vector4d(kNaN, 16.0, 16.0, 16.0), &error);
+  EXPECT_DOUBLE_EQ(error, 3.9);
+}
+
+TEST(Controller, TakesThePositionBeyondTheTravelForItsEndAndThenRefusesIt) {
+  const MapProgram program = LinearMap();
+  ControllerRun run(program, Precision::kDouble);
+  double error = kNaN;
+  const auto step = [&](double position) {
+    return run.Step(kLong, Vector4d(position, 16.0, 16.0, 16.0), &error);
+  };
+  EXPECT_EQ(step(199.0), kMapOutside);
+  EXPECT_DOUBLE_EQ(error, 4.0);
+  EXPECT_EQ(step(-99.0), kMapOutside);
+  EXPECT_DOUBLE_EQ(error, 3.0);
+  EXPECT_NE(step(-101.0) & kMapFar, 0);
+  EXPECT_NE(step(-101.0) & kMapUnhealthy, 0);
+}
+
+TEST(Controller, GivesTheLimitTheLastWord) {
+  const MapProgram program = LinearMap();
+  ControllerRun run(program, Precision::kDouble);
+  const double own = program.limits.max_error;
+  const Vector4d warm(50.0, 19.0, 19.0, 19.0);  // 12.5 um
+  double error = kNaN;
+  run.Step(kLong, warm, &error);
+  EXPECT_DOUBLE_EQ(error, 12.5);
+  run.SetLimits(2.0, 0.1);
+  EXPECT_NE(run.Step(0.0, warm, &error) & kMapLimited, 0);
+  EXPECT_DOUBLE_EQ(error, 2.0);
+  for (const double none :
+       {0.0, -1.0, kNaN, 1e3 * own, std::numeric_limits<double>::infinity()}) {
+    run.SetLimits(none, none);
+    const int status = run.Step(kLong, warm, &error);
+    EXPECT_NE(status & kMapParameter, 0) << none;
+    EXPECT_NE(status & kMapUnhealthy, 0) << none;
+    EXPECT_LE(std::fabs(error), own) << none;
   }
-  EXPECT_NE(status & kMapFrozen, 0);
-  EXPECT_EQ(
-      run.Step(60.0, Vector4d(50.0, 19.0, 19.0, 19.0), &error) & kMapNotTaken,
-      0);
-  // All at rest is rest.
-  for (int i = 0; i < 20; ++i) {
-    status = run.Step(60.0, Vector4d(50.0, 19.0, 19.0, 19.0), &error);
-  }
-  EXPECT_EQ(status, 0);
+  run.SetLimits(own, 10.0);
+  EXPECT_EQ(run.Step(kLong, warm, &error), 0);
 }
 
 TEST(Controller, RefusesLimitsThatAreNone) {
