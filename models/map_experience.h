@@ -13,7 +13,7 @@
 
 namespace errmap::models {
 
-/// What tells a sensor that hangs from one that stands still; of columns (s),
+/// What tells a sensor that hangs or jumps from a healthy one; of columns (s),
 /// or empty where nothing is known. How it is learnt: promise/standing_still.h.
 struct StandingStill {
   /// By how much of their ranges the others may move, on average, while a
@@ -22,6 +22,10 @@ struct StandingStill {
   Eigen::VectorXd resolution = {};  // of its range
   /// How long its noise may leave it alone (s); 0: it has none to be seen.
   Eigen::VectorXd quiet = {};
+  /// By how much of its range it may change at once, 0: not known, and by how
+  /// much more in each second.
+  Eigen::VectorXd jump = {};
+  Eigen::VectorXd pace = {};
   /// How long all of them may hold their values together (s); 0: not known.
   double silence = 0.0;
 };

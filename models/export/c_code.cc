@@ -272,10 +272,13 @@ std::string CWriter::Locals(
         })) {
       continue;
     }
-    text += fmt::format("  {} {}[{}];\n",
+    // Written and read in blocks of one condition, which compilers do not see.
+    const bool in_blocks = array.space == Space::kStanding;
+    text += fmt::format("  {} {}[{}]{};\n",
                         IsAlwaysDouble(array.space) ? "double" : Real(),
                         array.name,
-                        program_.size(array.space));
+                        program_.size(array.space),
+                        in_blocks ? " = {0.0}" : "");
   }
   if (has([](const Instruction& it) {
         return it.op == Op::kAffine || (it.op == Op::kSigmoid && it.count > 1);
@@ -297,7 +300,8 @@ std::string CWriter::SetCells(bool of_session) const {
 }
 
 std::string CWriter::StateFunctions() const {
-  std::string text = fmt::format(R"(
+  std::string text =
+      fmt::format(R"(
 void {0}_init({0}_state *state) {{
   const {0}_state empty = {{0}};
   *state = empty;
@@ -336,15 +340,16 @@ int {0}_set_state({0}_state *state, const double saved[], double age_s) {{
   state->waited += age_s;
   state->missed += age_s;
   state->room += {5} * age_s;
-  return 0;
+{6}  return 0;
 }}
 )",
-                                 name_,
-                                 SetCells(false),
-                                 SetCells(true),
-                                 RealText(Fingerprint(program_)),
-                                 RealText(LongestAge(program_)),
-                                 RealText(program_.limits.max_rate));
+                  name_,
+                  SetCells(false),
+                  SetCells(true),
+                  RealText(Fingerprint(program_)),
+                  RealText(LongestAge(program_)),
+                  RealText(program_.limits.max_rate),
+                  program_.Uses(Cell::kLeapt) ? "  state->leapt = 0.0;\n" : "");
   return text + fmt::format(R"(
 void {0}_zero({0}_state *state) {{
   {1}
@@ -367,7 +372,7 @@ std::string CWriter::ReadFunction() const {
   const auto parts = program_.parts();
   text += Locals({parts.begin(), parts.end()}) +
           fmt::format("  {} e;\n  double passed = dt_s;\n", Real());
-  for (const Cell cell : {Cell::kCommon, Cell::kAway}) {
+  for (const Cell cell : {Cell::kCommon, Cell::kAway, Cell::kSpan}) {
     if (!program_.Uses(cell)) continue;
     text += fmt::format("  double {};\n", InfoOf(cell).name);
   }

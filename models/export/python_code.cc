@@ -266,7 +266,7 @@ class Map:
         self.waited += age_s
         self.missed += age_s
         self.room += {rate} * age_s
-        return True
+{forgive}        return True
 
     def zero(self):
         """The next step taken takes the zero anew."""
@@ -322,16 +322,19 @@ std::string PythonWriter::MapClass() const {
   const auto body = [&](const Routine& routine) {
     return Joined(language_.Write(program_, routine), "        ");
   };
-  return fmt::format(kClass,
-                     fmt::arg("begin", begin),
-                     fmt::arg("fingerprint", RealText(Fingerprint(program_))),
-                     fmt::arg("age", LongestAge(program_)),
-                     fmt::arg("rate", RealText(program_.limits.max_rate)),
-                     fmt::arg("states", program_.size(Space::kState)),
-                     fmt::arg("kept", kept),
-                     fmt::arg("locals", locals),
-                     fmt::arg("read", body(program_.read)),
-                     fmt::arg("move", body(program_.move)));
+  return fmt::format(
+      kClass,
+      fmt::arg("begin", begin),
+      fmt::arg("fingerprint", RealText(Fingerprint(program_))),
+      fmt::arg("age", LongestAge(program_)),
+      fmt::arg("rate", RealText(program_.limits.max_rate)),
+      fmt::arg("forgive",
+               program_.Uses(Cell::kLeapt) ? "        self.leapt = 0.0\n" : ""),
+      fmt::arg("states", program_.size(Space::kState)),
+      fmt::arg("kept", kept),
+      fmt::arg("locals", locals),
+      fmt::arg("read", body(program_.read)),
+      fmt::arg("move", body(program_.move)));
 }
 
 std::string PythonWriter::SelfTest(const std::vector<SelfTestRow>& rows,

@@ -395,6 +395,7 @@ std::vector<TextVariable> Locals(const MapProgram& program,
                           Cell::kTarget,
                           Cell::kBound,
                           Cell::kPace,
+                          Cell::kSpan,
                           Cell::kError}) {
     if (program.Uses(cell) || cell == Cell::kError) {
       locals.push_back({.name = language.VariableOf(cell)});
@@ -485,7 +486,7 @@ std::string Prelude(const MapProgram& program,
     {waited} := {waited} + {away};
     {missed} := {missed} + {away};
     {room} := {room} + {rate} * {away};
-  ELSE
+{forgive}  ELSE
     {of_map} := {fingerprint};
 {anew}  END_IF;
 END_IF;
@@ -502,6 +503,10 @@ END_IF;
       fmt::arg("missed", local("Missed")),
       fmt::arg("room", local("Room")),
       fmt::arg("rate", language.Number(program.limits.max_rate)),
+      fmt::arg("forgive",
+               program.Uses(Cell::kLeapt)
+                   ? fmt::format("    {} := 0.0;\n", local("Leapt"))
+                   : ""),
       fmt::arg("anew", anew));
   for (const StatusBit& bit : StatusBits()) {
     text += language.Local(BitName(bit)) + " := FALSE;\n";

@@ -202,6 +202,8 @@ Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
     RequireSize(standing->At("others_move"), still.others_move, size);
     RequireSize(standing->At("resolution"), still.resolution, size);
     RequireSize(standing->At("quiet"), still.quiet, size);
+    RequireSize(standing->At("jump"), still.jump, size);
+    RequireSize(standing->At("pace"), still.pace, size);
   }
   if (trained.rows < 2) node.At("rows").Refuse("must be at least 2");
   RequireSize(node.At("mean"), trained.mean, size);

@@ -12,6 +12,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// A pause counts as so many rows: nothing is known of what happened in it.
+constexpr double kPause = 3.0;
+
 double MiddleOf(std::vector<double> values) {
   if (values.empty()) return 0.0;
   const auto middle =
@@ -91,12 +94,11 @@ double MovedMeanwhile(const VectorXd& column,
   return most;
 }
 
-// Seconds from each row to the next of its session; a pause counts as three
-// steps. Empty where times are not known.
+// Seconds from each row to the next of its session. Empty where times are not
+// known.
 VectorXd StepsOf(const data::Dataset& training,
                  const std::vector<Index>& first,
                  double* typical) {
-  constexpr double kPause = 3.0;
   const auto& log = training.log();
   if (log == nullptr || log->time_unit != "s") return {};
   VectorXd steps = VectorXd::Zero(training.num_rows());
@@ -110,7 +112,40 @@ VectorXd StepsOf(const data::Dataset& training,
     }
   }
   *typical = MiddleOf(std::move(all));
-  return steps.cwiseMin(kPause * *typical);
+  return steps;
+}
+
+// How a column changes from row to row.
+struct Changes {
+  double turns = 0.0;    // of its rows, those where it turns
+  double longest = 0.0;  // for which it held a value (s)
+  double largest = 0.0;  // in the time of a row
+};
+
+Changes ChangesOf(const VectorXd& column,
+                  const std::vector<Index>& first,
+                  const VectorXd& steps,
+                  double typical) {
+  Changes found;
+  double rows = 0.0;
+  for (std::size_t k = 0; k + 1 < first.size(); ++k) {
+    double way = 0.0;
+    double held = 0.0;
+    for (Index row = first[k]; row + 1 < first[k + 1]; ++row) {
+      const double change = column[row + 1] - column[row];
+      rows += 1.0;
+      found.turns += change * way < 0.0 ? 1.0 : 0.0;
+      held =
+          change == 0.0 ? held + std::min(steps[row], kPause * typical) : 0.0;
+      if (change != 0.0) way = change;
+      found.longest = std::max(found.longest, held);
+      found.largest =
+          std::max(found.largest,
+                   std::abs(change) / std::max(1.0, steps[row] / typical));
+    }
+  }
+  if (rows > 0.0) found.turns /= rows;
+  return found;
 }
 
 // The longest time without a column that turns.
@@ -141,15 +176,20 @@ StandingStill LearnStandingStill(const data::Dataset& training,
                                  const std::vector<Index>& columns) {
   constexpr double kLeast = 0.05;
   constexpr double kMargin = 3.0;
+  constexpr double kJumpMargin = 2.0;
   constexpr double kSteps = 5.0;
   constexpr double kRows = 10.0;
-  constexpr std::size_t kFewest = 2;
+  constexpr double kNoisy = 0.2;
   const MatrixXd states = training.input_values()(Eigen::all, columns);
   const VectorXd none = VectorXd::Zero(states.cols());
-  StandingStill learnt{.others_move = none, .resolution = none, .quiet = none};
+  StandingStill learnt{.others_move = none,
+                       .resolution = none,
+                       .quiet = none,
+                       .jump = none,
+                       .pace = none};
   const std::vector<Index> watched = Watched(training, columns, states);
-  if (watched.size() < kFewest) return learnt;
-  const auto others = static_cast<double>(watched.size() - 1);
+  if (watched.empty()) return learnt;
+  const auto others = std::max(1.0, static_cast<double>(watched.size()) - 1.0);
   VectorXd common = VectorXd::Zero(states.rows());
   for (const Index i : watched) {
     common += states.col(i) / (RangeOf(states.col(i)) * others);
@@ -157,23 +197,28 @@ StandingStill LearnStandingStill(const data::Dataset& training,
   const std::vector<Index> first = FirstRowsOf(training);
   double typical = 0.0;
   const VectorXd steps = StepsOf(training, first, &typical);
+  const VectorXd seen = steps.cwiseMin(kPause * typical);
+  const bool has_times = typical > 0.0;
   const double ten_rows = kRows * typical;
   for (const Index i : watched) {
     const VectorXd column = states.col(i);
-    learnt.resolution[i] = Resolution(column) / RangeOf(column);
-    learnt.others_move[i] =
-        std::max({kLeast,
-                  kMargin * MovedMeanwhile(column, common, first),
-                  kSteps * learnt.resolution[i]});
-    if (steps.size() == 0) continue;
-    const double longest = LongestWithoutTurn(states, {i}, first, steps);
-    if (longest <= ten_rows) {
-      learnt.quiet[i] = std::max(kMargin * longest, ten_rows);
+    const double range = RangeOf(column);
+    learnt.resolution[i] = Resolution(column) / range;
+    const double five_steps = kSteps * learnt.resolution[i];
+    learnt.others_move[i] = std::max(
+        {kLeast, kMargin * MovedMeanwhile(column, common, first), five_steps});
+    if (!has_times) continue;
+    const Changes changes = ChangesOf(column, first, steps, typical);
+    if (changes.turns >= kNoisy) {
+      learnt.quiet[i] = std::max(kMargin * changes.longest, ten_rows);
     }
+    const double fastest = kJumpMargin * changes.largest / range;
+    learnt.jump[i] = std::max({kLeast, fastest, five_steps});
+    learnt.pace[i] = fastest / typical;
   }
-  if (steps.size() > 0) {
+  if (has_times) {
     learnt.silence = std::max(
-        kMargin * LongestWithoutTurn(states, watched, first, steps), ten_rows);
+        kMargin * LongestWithoutTurn(states, watched, first, seen), ten_rows);
   }
   return learnt;
 }

@@ -116,7 +116,7 @@ int main(void) {{
 """
 BITS = ["OUTSIDE", "FAR", "CLIPPED", "INVALID", "DEAD", "FROZEN", "CONTRADICTS",
         "FADED", "LIMITED", "RAMPING", "RELATION", "DISTANCE", "LEVERAGE",
-        "SETTLING", "GAP", "PARAMETER", "UNHEALTHY"]
+        "SETTLING", "GAP", "PARAMETER", "UNHEALTHY", "JUMPED"]
 WITH_STATUS = ["ridge", "stepwise", "strict", "pair"]
 
 # A fault in the exported Python, which the checks must find.

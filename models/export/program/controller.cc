@@ -151,15 +151,20 @@ void WatchForStandingStill(const std::vector<const FittedModel*>& maps,
       // Where one of two maps saw no noise there is none to go by.
       const double quiet = still.quiet[i] > 0.0 ? still.quiet[i] : kHuge;
       reading.quiet = std::max(reading.quiet, quiet);
+      if (!(still.jump[i] > 0.0)) continue;
+      const double jump = still.jump[i] * Range(reading);
+      reading.jump = reading.jump < kHuge ? std::max(reading.jump, jump) : jump;
+      reading.fastest =
+          std::max(reading.fastest, still.pace[i] * Range(reading));
     }
   }
   const auto watched = std::ranges::count_if(
       program->readings,
       [](const auto& reading) { return reading.others_move > 0.0; });
-  if (watched < 2) return;
+  const double others = std::max(1.0, static_cast<double>(watched) - 1.0);
   for (ProgramReading& reading : program->readings) {
     if (!(reading.others_move > 0.0)) continue;
-    reading.weight = 1.0 / (Range(reading) * static_cast<double>(watched - 1));
+    reading.weight = 1.0 / (Range(reading) * others);
   }
 }
 
@@ -474,6 +479,9 @@ constexpr StatusBit kStatusBits[] = {
     {kMapUnhealthy,
      "UNHEALTHY",
      "not taken, FADED, SETTLING, GAP, PARAMETER, or RELATION with another"},
+    {kMapJumped,
+     "JUMPED",
+     "a sensor changed faster than it ever did: not taken until it is back"},
 };
 
 }  // namespace

@@ -33,14 +33,15 @@ enum MapStatus : int {
   kMapGap = 16384,        // readings were missing not long ago
   kMapParameter = 32768,  // a limit was set to what is none
   kMapUnhealthy = 65536,  // what a control must not go on with
+  kMapJumped = 131072,    // a sensor changed faster than it can, and stays so
 };
 /// `predict` says inside = 0.
 inline constexpr int kMapUnlike = kMapOutside | kMapRelation | kMapDistance |
                                   kMapLeverage | kMapSettling | kMapGap;
 /// A step with one of these is not taken: the filters keep their state, and the
 /// last good readings are held, where the axis is now.
-inline constexpr int kMapNotTaken =
-    kMapFar | kMapInvalid | kMapDead | kMapFrozen | kMapContradicts;
+inline constexpr int kMapNotTaken = kMapFar | kMapInvalid | kMapDead |
+                                    kMapFrozen | kMapContradicts | kMapJumped;
 /// Each of these makes it kMapUnhealthy; so does kMapRelation together with one
 /// of the others, since then a sensor is wrong sooner than the day is new.
 inline constexpr int kMapAlarms =
@@ -74,10 +75,10 @@ void AddController(const std::vector<const FittedModel*>& maps,
 double InitialValue(const MapProgram& program, Cell cell);
 /// The cells that are 0 where a session is known to begin.
 inline constexpr Cell kOfSession[] = {
-    Cell::kBegun, Cell::kFresh, Cell::kSettling};
+    Cell::kBegun, Cell::kFresh, Cell::kSettling, Cell::kLeapt};
 constexpr bool IsOfSession(Cell cell) {
   return cell == Cell::kBegun || cell == Cell::kFresh ||
-         cell == Cell::kSettling;
+         cell == Cell::kSettling || cell == Cell::kLeapt;
 }
 /// A largest error set while it runs is one up to so many times the map's own.
 inline constexpr double kMostTimesOwn = 10.0;

@@ -79,12 +79,28 @@ Routine WatchTheStill(const MapProgram& program) {
   const double silence = program.limits.silence;
   const Expression held{Cell::kHeld};
   const Expression moved = Absolute(common - Cell::kSince);
+  const bool jumps = std::ranges::any_of(
+      program.readings,
+      [](const ProgramReading& reading) { return reading.jump < kHuge; });
   Routine changed{
       Set(Cell::kSince, common), Set(Cell::kAlike, 0.0), Set(Cell::kHeld, 0.0)};
+  if (jumps) {
+    const Expression way = Absolute(x - Cell::kLast);
+    const Expression allowed =
+        Read(Cell::kJump) + Read(Cell::kFastest) * (held + Cell::kSpan);
+    changed.insert(
+        changed.begin(),
+        If(Read(Cell::kBegun) > 0.0 && way > allowed, {Flag(kMapJumped)}));
+  }
   if (silence > 0.0) changed.push_back(Set(Cell::kStood, 0.0));
   Routine watch{
       Set(Cell::kCommon, 0.0),
       EachReading({Set(Cell::kCommon, common + Read(Cell::kWeight) * x)})};
+  if (jumps) {
+    watch.push_back(If(Read(Cell::kLeapt) > 0.0,
+                       {Set(Cell::kSpan, Cell::kDt)},
+                       {Set(Cell::kSpan, Cell::kWaited)}));
+  }
   if (silence > 0.0) {
     const double most = silence / kFrozenSteps;
     watch.push_back(If(Read(Cell::kDt) < most,
@@ -103,6 +119,10 @@ Routine WatchTheStill(const MapProgram& program) {
               std::move(changed))})}));
   if (silence > 0.0) {
     watch.push_back(If(stood > silence, {Flag(kMapFrozen)}));
+  }
+  if (jumps) {
+    watch.push_back(If(
+        Any(kMapJumped), {Set(Cell::kLeapt, 1.0)}, {Set(Cell::kLeapt, 0.0)}));
   }
   return watch;
 }
@@ -299,7 +319,9 @@ Statement TidyTime(bool says_so) {
 // `to` is what was set, where that is above 0 and not above `most`; else the
 // map's own.
 Routine UseLimit(Cell to, Cell set, double own, double most) {
-  if (!(own > 0.0)) return {Set(to, 0.0)};
+  // A map without an error has nothing to set, but the parameter.
+  if (!(own > 0.0))
+    return {Set(to, set), If(!(Read(to) == 0.0), {Set(to, 0.0)})};
   return {Set(to, set),
           If(!(Read(set) > 0.0 && Read(set) <= most),
              {Set(to, own), Flag(kMapParameter), Flag(kMapUnhealthy)})};

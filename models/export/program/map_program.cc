@@ -35,6 +35,10 @@ double TableValue(const ProgramReading& reading, Cell cell) {
       return reading.finest;
     case Cell::kQuiet:
       return reading.quiet;
+    case Cell::kJump:
+      return reading.jump;
+    case Cell::kFastest:
+      return reading.fastest;
     default:
       return reading.believed;
   }

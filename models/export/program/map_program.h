@@ -14,6 +14,10 @@
 
 namespace errmap::models {
 
+/// No reading and no error is as large; a real number in single precision too,
+/// in which some compilers of structured text fold their constants.
+inline constexpr double kHuge = 1e30;
+
 /// What an instruction does; `a`, `b`, `to` are operands, `c`, `d` numbers.
 enum class Op {
   kSet,            // to = c
@@ -74,6 +78,9 @@ struct ProgramReading {
   /// And by how much where its noise left it alone for longer than `quiet` (s).
   double finest = 0.0;
   double quiet = 0.0;
+  /// By how much it may change at once (its unit), and more in each second.
+  double jump = kHuge;
+  double fastest = 0.0;
   /// Its kDoubt above which it contradicts the others.
   double believed = 0.0;
   /// Of a position: what the error may change by along it (target's unit per
@@ -88,6 +95,8 @@ inline constexpr Cell kTables[] = {Cell::kFarLow,
                                    Cell::kOthersMove,
                                    Cell::kFinest,
                                    Cell::kQuiet,
+                                   Cell::kJump,
+                                   Cell::kFastest,
                                    Cell::kBelieved};
 double TableValue(const ProgramReading& reading, Cell cell);
 

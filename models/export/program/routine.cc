@@ -14,6 +14,7 @@ constexpr std::array<CellInfo, kNumCells> kCells{{
     {Cell::kTarget, "target", CellKind::kLocal, false},
     {Cell::kBound, "bound", CellKind::kLocal, false},
     {Cell::kPace, "pace", CellKind::kLocal, false},
+    {Cell::kSpan, "span", CellKind::kLocal, false},
     {Cell::kReading, "x", CellKind::kLocal, true},
     {Cell::kDoubt, "r", CellKind::kLocal, true},
     {Cell::kError, "e", CellKind::kLocal, false},
@@ -30,6 +31,7 @@ constexpr std::array<CellInfo, kNumCells> kCells{{
     {Cell::kSettling, "settles_in", CellKind::kKept, false},
     {Cell::kPending, "pending", CellKind::kKept, false},
     {Cell::kStood, "stood", CellKind::kKept, false},
+    {Cell::kLeapt, "leapt", CellKind::kKept, false},
     {Cell::kKnown, "known", CellKind::kKept, false},
     {Cell::kDown, "down", CellKind::kKept, false},
     {Cell::kTurn, "turn", CellKind::kKept, false},
@@ -44,6 +46,8 @@ constexpr std::array<CellInfo, kNumCells> kCells{{
     {Cell::kOthersMove, "others_move", CellKind::kTable, true},
     {Cell::kFinest, "finest", CellKind::kTable, true},
     {Cell::kQuiet, "quiet", CellKind::kTable, true},
+    {Cell::kJump, "jump", CellKind::kTable, true},
+    {Cell::kFastest, "fastest", CellKind::kTable, true},
     {Cell::kBelieved, "believed", CellKind::kTable, true},
 }};
 

@@ -20,6 +20,7 @@ enum class Cell {
   kTarget,   // kWanted within the limit
   kBound,    // kMostError where that is a limit
   kPace,     // kMostRate where that is a limit
+  kSpan,     // s that a reading had to change in
   kReading,  // array
   kDoubt,    // array
   kError,    // of the map, before any limit
@@ -37,6 +38,7 @@ enum class Cell {
   kSettling,  // s until what filters remember is good again
   kPending,   // s of them that have passed, less than one
   kStood,     // s since one of the watched readings changed
+  kLeapt,     // 1: a reading jumped, and has not come back
   kKnown,     // which map's state kNear is, from 1; 0: of none
   kDown,      // 1: the map of decreasing positions acts
   kTurn,      // the furthest position in the direction of motion
@@ -52,6 +54,8 @@ enum class Cell {
   kOthersMove,
   kFinest,
   kQuiet,
+  kJump,
+  kFastest,
   kBelieved,
 };
 inline constexpr int kNumCells = static_cast<int>(Cell::kBelieved) + 1;

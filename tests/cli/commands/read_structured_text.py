@@ -30,7 +30,7 @@ BITS = {"OUTSIDE": 1, "FAR": 2, "CLIPPED": 4, "INVALID": 8, "DEAD": 16,
         "FROZEN": 32, "CONTRADICTS": 64, "FADED": 128, "LIMITED": 256,
         "RAMPING": 512, "RELATION": 1024, "DISTANCE": 2048, "LEVERAGE": 4096,
         "SETTLING": 8192, "GAP": 16384, "PARAMETER": 32768,
-        "UNHEALTHY": 65536}
+        "UNHEALTHY": 65536, "JUMPED": 131072}
 TOKEN = re.compile(r"""
     (?P<space>\s+) | (?P<comment>\(\*.*?\*\))
   | (?P<real>[0-9][0-9_]*\.[0-9]+([eE][+-]?[0-9]+)?)

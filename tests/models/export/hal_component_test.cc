@@ -56,26 +56,27 @@ TEST(HalComponent, KeepsPinNamesWithinHalAndApart) {
   ASSERT_EQ(made.files.size(), 4);
   // The wiring lists the columns behind the pins.
   EXPECT_THAT(
-      made.files[1].content,
+      made.files[0].content,
       HasSubstr(made.pins.back().pin + " # " + CommentText(columns.back())));
 }
 
 TEST(HalComponent, WiresTheJointAndItsAxis) {
   const HalExport made =
       HalComponent(MapOf({"position_mm", "t1_degC"}), kMillimetres);
-  EXPECT_EQ(made.files[0].name, "errmap_a_map_of_a_long.comp");
-  EXPECT_THAT(made.files[1].content,
+  // Last, since the files before it name the export that they load.
+  EXPECT_EQ(made.files[3].name, "errmap_a_map_of_a_long.comp");
+  EXPECT_THAT(made.files[0].content,
               HasSubstr("joint.2.motor-pos-cmd => errmap-a-map-of-a-long-add"));
-  EXPECT_THAT(made.files[2].content, HasSubstr("axis.z.eoffset-counts"));
-  EXPECT_THAT(made.files[2].content, HasSubstr("[AXIS_Z]:  OFFSET_AV_RATIO"));
+  EXPECT_THAT(made.files[1].content, HasSubstr("axis.z.eoffset-counts"));
+  EXPECT_THAT(made.files[1].content, HasSubstr("[AXIS_Z]:  OFFSET_AV_RATIO"));
 }
 
 TEST(HalComponent, TurnsTheErrorIntoTheMachinesUnit) {
   EXPECT_THAT(
-      HalComponent(MapOf({"position_mm"}), kMillimetres).files[0].content,
+      HalComponent(MapOf({"position_mm"}), kMillimetres).files[3].content,
       HasSubstr("offset = -0.001 * error;"));
   const HalOptions inches{.unit = data::UnitOfSymbol("in")};
-  EXPECT_THAT(HalComponent(MapOf({"position_mm"}), inches).files[0].content,
+  EXPECT_THAT(HalComponent(MapOf({"position_mm"}), inches).files[3].content,
               HasSubstr("x[0] = position * 25.4;"));
 }
 

@@ -394,7 +394,7 @@ TEST_F(CliExport, LinksTwoMapsIntoOneProgramWithoutAHeap) {
 TEST_F(CliExport, SaysSignUnitsInputsAndAgreement) {
   FitMap(kDown, "poly:eq8", "map.json");
   const std::string said = Export("map.json", {"--c", "--python", "--st"});
-  EXPECT_THAT(said, HasSubstr("map.h, map.c, map.py, map.st in ."));
+  EXPECT_THAT(said, HasSubstr("map.c, map.h, map.py, map.st in ."));
   EXPECT_THAT(said, HasSubstr("compensation = -error"));
   EXPECT_THAT(said, HasSubstr("agrees with errmap predict to "));
   for (const char* file : {"map.h", "map.c", "map.py", "map.st"}) {

@@ -53,7 +53,8 @@ MapProgram LinearMap(double low = 10.0,
 // Of its thermometers, with no limit but those of standing still.
 std::shared_ptr<const Applicability> Standing(double others_move,
                                               double silence,
-                                              double quiet = 0.0) {
+                                              double quiet = 0.0,
+                                              double jump = 0.0) {
   constexpr double kNone = 1e9;
   Applicability trained;
   trained.columns = {1, 2, 3};
@@ -69,6 +70,8 @@ std::shared_ptr<const Applicability> Standing(double others_move,
   trained.standing = {.others_move = Eigen::Vector3d::Constant(others_move),
                       .resolution = Eigen::Vector3d::Constant(0.01),
                       .quiet = Eigen::Vector3d::Constant(quiet),
+                      .jump = Eigen::Vector3d::Constant(jump),
+                      .pace = Eigen::Vector3d::Constant(0.001),
                       .silence = silence};
   return std::make_shared<const Applicability>(std::move(trained));
 }
@@ -181,6 +184,29 @@ TEST(Controller, NoticesThatAllSensorsStandStillForLongerThanInTraining) {
     }
     EXPECT_EQ(step(16.5) & kMapFrozen, 0);
   }
+}
+
+// By 2 K at once, and by 0.01 K more in each second.
+TEST(Controller, RefusesASensorThatJumpedUntilItIsBack) {
+  const MapProgram program = LinearMap(10.0, {}, Standing(0.25, 0.0, 0.0, 0.2));
+  ControllerRun run(program, Precision::kDouble);
+  double error = kNaN;
+  const auto jumped = [&](double dt, double sensor) {
+    const int status = run.Step(dt, Vector4d(50.0, sensor, 16.0, 16.0), &error);
+    EXPECT_EQ((status & kMapUnhealthy) != 0, (status & kMapJumped) != 0);
+    return (status & kMapJumped) != 0;
+  };
+  EXPECT_FALSE(jumped(kLong, 16.0));
+  EXPECT_FALSE(jumped(1.0, 18.0));
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_TRUE(jumped(1.0, 13.0 + 0.01 * (i % 2))) << i;
+  }
+  EXPECT_FALSE(jumped(1.0, 17.0));
+  // Much may change while nothing is read, and before a session.
+  EXPECT_FALSE(jumped(1000.0, 12.0));
+  EXPECT_TRUE(jumped(1.0, 15.0));
+  run.Begin();
+  EXPECT_FALSE(jumped(1.0, 15.0));
 }
 
 TEST(Controller, HoldsTheLastGoodReadingsWhereTheAxisIs) {
