@@ -130,10 +130,10 @@ def missing(component, case, result):
     component.row(rows[6][0], rows[6][1:])
     result["after_gap"] = component.get("offset") + case["predicted_with_gap"]
     result["valid_again"] = component.get("valid")
-    # A little outside is extrapolated and said, not missing.
+    # A little outside, an hour later, is extrapolated and said, not missing.
     readings = list(rows[6][1:])
     readings[-1] = case["a_little_outside"]
-    component.row(1.0, readings)
+    component.row(3600.0, readings)
     result["outside"] = [component.get("outside"), component.get("valid")]
 
 
