@@ -118,7 +118,8 @@ def main():
                 last["value"] + predicted) < 1e-12)
             sys.path.insert(0, str(folder))
             import xup
-            settles = got[-1]["status"] & ~xup.SETTLING == 0
+            # Until it has settled it is not healthy.
+            settles = got[-1]["status"] & ~(xup.SETTLING | xup.UNHEALTHY) == 0
             held = send(inputs[:2], lambda last: bool(
                 last["status"] & xup.INVALID))
             kept = math.isclose(got[-1]["value"], -predicted, abs_tol=1e-12)
