@@ -71,52 +71,104 @@ Routine CheckReadings(const MapProgram& program) {
   return checks;
 }
 
+// The last step may have been long ago, but not while a reading is refused.
+Statement SpanOfChange() {
+  return If(Read(Cell::kLeapt) > 0.0,
+            {Set(Cell::kSpan, Cell::kDt)},
+            {Set(Cell::kSpan, Cell::kWaited)});
+}
+
+// What is kept of one that changed, or is new.
+Routine WatchAnew(int at, bool has_others) {
+  Routine anew{SetAt(Cell::kHeld, at, 0.0)};
+  if (has_others) {
+    anew.push_back(SetAt(Cell::kSince, at, Cell::kCommon));
+    anew.push_back(SetAt(Cell::kAlike, at, 0.0));
+  }
+  return anew;
+}
+
+// It holds its value.
+Routine WatchHeld(int at, bool has_others) {
+  const Expression alike{Cell::kAlike, at};
+  const Expression held{Cell::kHeld, at};
+  Routine watch{SetAt(Cell::kHeld, at, held + Cell::kDt)};
+  if (!has_others) return watch;
+  const Expression moved =
+      Absolute(Read(Cell::kCommon) - Expression{Cell::kSince, at});
+  watch.push_back(
+      If(alike < kQuietSteps, {SetAt(Cell::kAlike, at, alike + 1.0)}));
+  watch.push_back(
+      If((alike > kFrozenSteps && moved > Expression{Cell::kOthersMove, at}) ||
+             (alike >= kQuietSteps && held > Expression{Cell::kQuiet, at} &&
+              moved > Expression{Cell::kFinest, at}),
+         {Flag(kMapFrozen)}));
+  return watch;
+}
+
+// It has another value than in the step before.
+Routine WatchChanged(int at, bool has_others, bool jumps, bool has_silence) {
+  Routine changed;
+  if (jumps) {
+    const Expression allowed = Expression{Cell::kJump, at} +
+                               Expression{Cell::kFastest, at} *
+                                   (Expression{Cell::kHeld, at} + Cell::kSpan);
+    changed.push_back(If(Absolute(Expression{Cell::kReading, at} -
+                                  Expression{Cell::kLast, at}) > allowed,
+                         {Flag(kMapJumped)}));
+  }
+  Append(WatchAnew(at, has_others), &changed);
+  if (has_silence) changed.push_back(Set(Cell::kStood, 0.0));
+  return changed;
+}
+
+// Of each watched reading what `of_one` says of its place: few of them one by
+// one, since a loop takes longer than what it does.
+template <typename OfOne>
+Routine OfTheWatched(const MapProgram& program, const OfOne& of_one) {
+  constexpr int kFew = 4;
+  std::vector<int> watched;
+  for (std::size_t i = 0; i < program.readings.size(); ++i) {
+    if (program.readings[i].weight > 0.0)
+      watched.push_back(static_cast<int>(i));
+  }
+  if (std::ssize(watched) > kFew) {
+    return {EachReading(
+        {If(Read(Cell::kWeight) > 0.0, of_one(Expression::kLoop))})};
+  }
+  Routine all;
+  for (const int at : watched) Append(of_one(at), &all);
+  return all;
+}
+
+// Of the watched readings, which hang or jump, in a session that has begun.
 Routine WatchTheStill(const MapProgram& program) {
-  const Expression x{Cell::kReading};
-  const Expression common{Cell::kCommon};
-  const Expression alike{Cell::kAlike};
-  const Expression stood{Cell::kStood};
-  const double silence = program.limits.silence;
-  const Expression held{Cell::kHeld};
-  const Expression moved = Absolute(common - Cell::kSince);
+  const auto& readings = program.readings;
   const bool jumps = std::ranges::any_of(
-      program.readings,
-      [](const ProgramReading& reading) { return reading.jump < kHuge; });
-  Routine changed{
-      Set(Cell::kSince, common), Set(Cell::kAlike, 0.0), Set(Cell::kHeld, 0.0)};
-  if (jumps) {
-    const Expression way = Absolute(x - Cell::kLast);
-    const Expression allowed =
-        Read(Cell::kJump) + Read(Cell::kFastest) * (held + Cell::kSpan);
-    changed.insert(
-        changed.begin(),
-        If(Read(Cell::kBegun) > 0.0 && way > allowed, {Flag(kMapJumped)}));
-  }
-  if (silence > 0.0) changed.push_back(Set(Cell::kStood, 0.0));
-  Routine watch{
-      Set(Cell::kCommon, 0.0),
-      EachReading({Set(Cell::kCommon, common + Read(Cell::kWeight) * x)})};
-  if (jumps) {
-    watch.push_back(If(Read(Cell::kLeapt) > 0.0,
-                       {Set(Cell::kSpan, Cell::kDt)},
-                       {Set(Cell::kSpan, Cell::kWaited)}));
-  }
+      readings, [](const auto& reading) { return reading.jump < kHuge; });
+  const bool has_others = std::ranges::count_if(readings, [](const auto& it) {
+                            return it.weight > 0.0;
+                          }) > 1;
+  const double silence = program.limits.silence;
+  const Expression stood{Cell::kStood};
+
+  Routine watch;
+  if (jumps) watch.push_back(SpanOfChange());
   if (silence > 0.0) {
     const double most = silence / kFrozenSteps;
     watch.push_back(If(Read(Cell::kDt) < most,
                        {Set(Cell::kStood, stood + Cell::kDt)},
                        {Set(Cell::kStood, stood + most)}));
   }
-  watch.push_back(EachReading(
-      {If(Read(Cell::kWeight) > 0.0,
-          {If(Read(Cell::kBegun) > 0.0 && x == Cell::kLast,
-              {If(alike < kQuietSteps, {Set(Cell::kAlike, alike + 1.0)}),
-               Set(Cell::kHeld, held + Cell::kDt),
-               If((alike > kFrozenSteps && moved > Cell::kOthersMove) ||
-                      (alike >= kQuietSteps && held > Cell::kQuiet &&
-                       moved > Cell::kFinest),
-                  {Flag(kMapFrozen)})},
-              std::move(changed))})}));
+  Append(OfTheWatched(
+             program,
+             [&](int at) -> Routine {
+               const Expression x{Cell::kReading, at};
+               return {If(x == Expression{Cell::kLast, at},
+                          WatchHeld(at, has_others),
+                          WatchChanged(at, has_others, jumps, silence > 0.0))};
+             }),
+         &watch);
   if (silence > 0.0) {
     watch.push_back(If(stood > silence, {Flag(kMapFrozen)}));
   }
@@ -124,7 +176,25 @@ Routine WatchTheStill(const MapProgram& program) {
     watch.push_back(If(
         Any(kMapJumped), {Set(Cell::kLeapt, 1.0)}, {Set(Cell::kLeapt, 0.0)}));
   }
-  return watch;
+  Routine first =
+      OfTheWatched(program, [&](int at) { return WatchAnew(at, has_others); });
+  if (silence > 0.0) first.push_back(Set(Cell::kStood, 0.0));
+
+  Routine all;
+  if (has_others) {
+    all.push_back(Set(Cell::kCommon, 0.0));
+    Append(OfTheWatched(program,
+                        [](int at) -> Routine {
+                          const Expression x{Cell::kReading, at};
+                          return {Set(Cell::kCommon,
+                                      Cell::kCommon +
+                                          Expression{Cell::kWeight, at} * x)};
+                        }),
+           &all);
+  }
+  all.push_back(
+      If(Read(Cell::kBegun) > 0.0, std::move(watch), std::move(first)));
+  return all;
 }
 
 // Which of two maps acts: the position has gone one way, but for a little.
@@ -316,14 +386,13 @@ Statement TidyTime(bool says_so) {
             std::move(not_passed));
 }
 
-// `to` is what was set, where that is above 0 and not above `most`; else the
-// map's own.
-Routine UseLimit(Cell to, Cell set, double own, double most) {
+// `to` is what was set, where `is_one`; else the map's own.
+Routine UseLimit(Cell to, Cell set, double own, Expression is_one) {
   // A map without an error has nothing to set, but the parameter.
   if (!(own > 0.0))
     return {Set(to, set), If(!(Read(to) == 0.0), {Set(to, 0.0)})};
   return {Set(to, set),
-          If(!(Read(set) > 0.0 && Read(set) <= most),
+          If(!std::move(is_one),
              {Set(to, own), Flag(kMapParameter), Flag(kMapUnhealthy)})};
 }
 
@@ -376,9 +445,18 @@ Routine MoveRoutine(const ControllerLimits& limits) {
   const Expression target{Cell::kTarget};
   Routine move{TidyTime(false)};
   const double own = limits.max_error;
-  Append(UseLimit(Cell::kBound, Cell::kMostError, own, kMostTimesOwn * own),
+  const Expression bound{Cell::kMostError};
+  Append(UseLimit(Cell::kBound,
+                  Cell::kMostError,
+                  own,
+                  bound > 0.0 && bound <= kMostTimesOwn * own),
          &move);
-  Append(UseLimit(Cell::kPace, Cell::kMostRate, limits.max_rate, kHuge), &move);
+  // Any rate will do: the limit has the last word.
+  Append(UseLimit(Cell::kPace,
+                  Cell::kMostRate,
+                  limits.max_rate,
+                  Read(Cell::kMostRate) > 0.0),
+         &move);
   Append({Set(Cell::kRoom, room + Cell::kPace * Expression{Cell::kDt}),
           Set(Cell::kTarget, Cell::kWanted),
           If(target > limit, {Set(Cell::kTarget, limit), Flag(kMapLimited)}),
