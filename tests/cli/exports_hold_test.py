@@ -24,8 +24,8 @@ import subprocess
 import sys
 import tempfile
 
-import exports_fail_test as bench
-from exports_fail_test import Exported, check, run
+import exported_maps as bench
+from exported_maps import Exported, check, run
 from healthy_machines import DRIVER, answers, check_healthy_machines
 
 HOLD = 60.0  # s

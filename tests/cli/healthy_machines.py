@@ -6,7 +6,7 @@ import math
 import random
 import re
 
-from exports_fail_test import check, run
+from exported_maps import check, run
 
 DRIVER = """#include <stdio.h>
 #include "{0}.h"
