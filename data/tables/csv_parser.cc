@@ -73,7 +73,7 @@ class Parser {
       ReadRows();
     }
     JudgeOddRows();
-    SayWhatWasPassedOver();
+    for (const std::string& line : odd_rows_.PassedOver()) Say(line);
     LeaveEmptyColumns();
     table_.titles = std::move(layout_.titles);
     return std::move(table_);
@@ -312,7 +312,7 @@ class Parser {
         if (blank_line == 0) blank_line = cells_.line();
         cells_.SkipLine();
       } else {
-        if (blank_line != 0) ++num_blank_;
+        if (blank_line != 0) odd_rows_.AddBlank();
         if (blank_line != 0 && table_.columns.size() == 1) {
           throw InputError(File() + ": line " + std::to_string(blank_line) +
                            ": blank line inside the data; remove it, or start "
@@ -351,7 +351,7 @@ class Parser {
       TakeOddRow(line, found);
     } else if (num_numbers_ == 0 && AreNamesAgain()) {
       UndoRow();
-      ++num_names_again_;
+      odd_rows_.AddNames();
     } else if (num_numbers_ == 0 && AreOtherNames()) {
       ThrowAnotherTable(line, found);
     } else {
@@ -465,20 +465,6 @@ class Parser {
     Say(odd_rows_.LeftOutText(layout_));
   }
 
-  void SayWhatWasPassedOver() {
-    if (num_blank_ > 0) {
-      Say("blank lines between rows are passed over, in " +
-          std::to_string(num_blank_) +
-          (num_blank_ == 1 ? " place" : " places"));
-    }
-    if (num_names_again_ > 0) {
-      Say("the names stand between the rows again, " +
-          std::to_string(num_names_again_) +
-          (num_names_again_ == 1 ? " time" : " times") +
-          ": what is below them is read as the same table");
-    }
-  }
-
   void ForgetRows() {
     for (CsvColumn& column : table_.columns) {
       column.values = {};
@@ -491,7 +477,6 @@ class Parser {
     table_.num_rows = 0;
     odd_rows_ = {};
     short_rows_.clear();
-    num_blank_ = num_names_again_ = 0;
   }
 
   // ---- Cells.
@@ -574,8 +559,6 @@ class Parser {
   // Rows that are not in the table.
   OddRowList odd_rows_;
   std::vector<std::size_t> short_rows_;  // lines; they are in the table
-  std::size_t num_blank_ = 0;
-  std::size_t num_names_again_ = 0;
 };
 
 }  // namespace

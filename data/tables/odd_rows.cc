@@ -90,4 +90,20 @@ std::string OddRowList::RefusalText(const CsvLayout& layout,
   return what;
 }
 
+std::vector<std::string> OddRowList::PassedOver() const {
+  std::vector<std::string> lines;
+  if (blank_ > 0) {
+    lines.push_back("blank lines between rows are passed over, in " +
+                    std::to_string(blank_) +
+                    (blank_ == 1 ? " place" : " places"));
+  }
+  if (names_ > 0) {
+    lines.push_back("the names stand between the rows again, " +
+                    std::to_string(names_) +
+                    (names_ == 1 ? " time" : " times") +
+                    ": what is below them is read as the same table");
+  }
+  return lines;
+}
+
 }  // namespace errmap::data

@@ -12,12 +12,18 @@ namespace errmap::data {
 /// "1 field", "3 fields".
 std::string FieldsText(std::size_t count);
 
-/// The rows of a file that have another number of cells than its header.
+/// The lines of a file that are no rows of its table: rows that have another
+/// number of cells than its header, blank lines between rows, names again.
 class OddRowList {
  public:
   /// A line of so many cells, where the table has `num_rows` rows so far.
   void Add(std::size_t line, std::size_t cells, std::size_t num_rows);
   bool empty() const { return runs_.empty(); }
+  void AddBlank() { ++blank_; }
+  void AddNames() { ++names_; }
+
+  /// What is said of blank lines and of names between the rows.
+  std::vector<std::string> PassedOver() const;
 
   /// "2 rows are left out for another number of cells than the header's 3:
   /// line 8 has 2, line 9 has 4".
@@ -41,6 +47,8 @@ class OddRowList {
 
   std::vector<Run> runs_;
   std::size_t count_ = 0;
+  std::size_t blank_ = 0;
+  std::size_t names_ = 0;
   std::size_t first_row_ = kNoRow;
 };
 

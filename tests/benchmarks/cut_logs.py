@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Is a log that begins in the midst of a session known for one?
+"""Is a log that begins inside a session known for one?
 
     cut_logs.py ERRMAP [--seeds 1-20] [--train 6] [--cuts 10] [--model blend]
 

@@ -224,7 +224,7 @@ def _array(column: Any) -> Any:
 class ErrmapWarning(UserWarning):
     """What errmap warns of: rows that a map cannot know, a study cut short.
 
-    Where rows begin in the midst of a session that a map's memory needs whole,
+    Where rows begin inside a session that a map's memory needs whole,
     give the rows before them with ``after``. Say ``from_rest=True`` where the
     machine was at rest before the first of them.
     """

@@ -111,8 +111,8 @@ class MapFile:
         Warns
         -----
         ErrmapWarning
-            Once a map: rows are unlike those of training, or begin in the midst
-            of a session, so that the map's memory is not full.
+            Once a map: rows are unlike those of training, or begin inside
+            a session, so that the map's memory is not full.
         """
         columns = self._predict(frame, after, probes, options)
         for name in ("why", "offender", "unit"):

@@ -471,7 +471,7 @@ constexpr StatusBit kStatusBits[] = {
     {kMapLeverage, "LEVERAGE", "a thermal state far from the middle of them"},
     {kMapSettling,
      "SETTLING",
-     "begun in the midst of a session: filters settle, the zero is not known"},
+     "begun inside a session: filters settle, the zero is not known"},
     {kMapGap, "GAP", "readings were missing not long ago: filters settle"},
     {kMapParameter,
      "PARAMETER",

@@ -29,7 +29,7 @@ enum MapStatus : int {
   kMapRelation = 1024,    // a sensor does not go with the others as in training
   kMapDistance = 2048,    // a thermal state far from every trained one
   kMapLeverage = 4096,    // far from the middle of them
-  kMapSettling = 8192,    // begun in the midst of a session
+  kMapSettling = 8192,    // begun inside a session
   kMapGap = 16384,        // readings were missing not long ago
   kMapParameter = 32768,  // a limit was set to what is none
   kMapUnhealthy = 65536,  // what a control must not go on with

@@ -324,7 +324,7 @@ std::string OnlyGrowsSentence(const ComponentNumbers& component,
   if (remark.holdouts) {
     const std::string& holdout = First(*remark.holdouts);
     forward = fmt::format(
-        "; foretold from those before ({}) it has {}",
+        "; predicted from those before ({}) it has {}",
         holdout,
         component.error.WithUnit(component.Rmse(advice.model, holdout)));
   }
