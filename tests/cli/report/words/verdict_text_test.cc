@@ -283,7 +283,7 @@ TEST(Sentences, SayWhichMapHasLessErrorThanABlend) {
               EndsWith("The best single map is zero (0.800 um)."));
   record.recommendation->decided_by = "every:3";
   EXPECT_THAT(GroundOf(record, remark),
-              EndsWith("of single maps every:3 would choose zero (0.800 um)."));
+              EndsWith("Of single maps every:3 would choose zero (0.800 um)."));
 }
 
 models::VerdictRecord Hindered(models::Obstacle::Kind kind,
