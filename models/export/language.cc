@@ -257,7 +257,7 @@ std::string Language::Text(const Expression& it) const {
     case Kind::kNumber:
       return Number(it.number, false);
     case Kind::kCell: {
-      const std::string name = CellName(it.cell);
+      std::string name = CellName(it.cell);
       if (!InfoOf(it.cell).is_array) return name;
       return it.index == Expression::kLoop
                  ? fmt::format("{}[{}]", name, syntax_.index)

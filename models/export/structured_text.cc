@@ -293,9 +293,9 @@ void AddTables(const MapProgram& program,
                const StructuredTextLanguage& language,
                std::vector<TextVariable>* variables) {
   const auto add = [&](const std::string& name, std::vector<double> values) {
-    variables->push_back({.name = name,
-                          .size = static_cast<int>(values.size()),
-                          .initial = std::move(values)});
+    const auto size = static_cast<int>(values.size());
+    variables->push_back(
+        {.name = name, .size = size, .initial = std::move(values)});
   };
   for (const Cell cell : kTables) {
     if (!program.Uses(cell)) continue;
