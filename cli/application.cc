@@ -22,7 +22,6 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/fleet/fleet_commands.h"
 #include "cli/desk/provenance.h"
 #include "cli/report/shell_word.h"
 #include "cli/shell/command_reference.h"
@@ -32,6 +31,7 @@
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "cli/shell/topics.h"
+#include "cli/slice.h"
 #include "data/argument_name.h"
 #include "data/files/atomic_file.h"
 #include "data/files/shown_path.h"
@@ -224,16 +224,24 @@ std::string WithSuggestion(const CLI::App& app,
   return text + "; " + help;
 }
 
-using AddCommand = void (*)(CLI::App*, Run*);
-
 struct Purpose {
-  const char* name;
-  std::vector<AddCommand> commands;
+  std::string_view name;
+  std::vector<AddCommandTo> commands;
 };
 
+// Puts the command of a slice where it belongs.
+void Join(const SliceCommand& command, std::vector<Purpose>* purposes) {
+  auto purpose = std::ranges::find(*purposes, command.purpose, &Purpose::name);
+  if (purpose == purposes->end()) {
+    purpose = purposes->insert(std::prev(purpose), {command.purpose, {}});
+  }
+  std::vector<AddCommandTo>& commands = purpose->commands;
+  commands.insert(std::ranges::find(commands, command.before), command.add);
+}
+
 // Every command, under what it serves and in the order of the help.
-const std::vector<Purpose>& Purposes() {
-  static const std::vector<Purpose> purposes = {
+std::vector<Purpose> Purposes() {
+  std::vector<Purpose> purposes = {
       {"Judge: which map holds, and how sure",
        {AddCompareCommand,
         AddLearnCommand,
@@ -242,28 +250,20 @@ const std::vector<Purpose>& Purposes() {
         AddReadCommand,
         AddReportCommand}},
       {"Use a map", {AddFitCommand, AddPredictCommand, AddEvaluateCommand}},
-      {"Hand over to the control",
-       {AddExportCommand,
-        AddCostCommand,
-        AddIso230Command,
-        AddVolumetricCommand}},
+      {"Hand over to the control", {AddExportCommand, AddCostCommand}},
       {"Another day", {AddCheckCommand, AddWhenCommand, AddUpdateCommand}},
-      {"A fleet of machines",
-       {AddSubmitCommand, AddMergeCommand, AddDeployCommand, AddWatchCommand}},
-      {"Laboratory",
-       {AddSimulateCommand,
-        AddResidualsCommand,
-        AddConvertCommand,
-        AddNetcgCommand,
-        AddCertifyCommand}}};
+      {"Laboratory", {AddResidualsCommand, AddCertifyCommand}}};
+  for (const Slice& slice : Slices()) {
+    for (const SliceCommand& command : slice.commands) Join(command, &purposes);
+  }
   return purposes;
 }
 
 void AddCommands(CLI::App* app, Run* run) {
   for (const Purpose& purpose : Purposes()) {
-    for (const AddCommand add : purpose.commands) {
+    for (const AddCommandTo add : purpose.commands) {
       add(app, run);
-      app->get_subcommands(nullptr).back()->group(purpose.name);
+      app->get_subcommands(nullptr).back()->group(std::string(purpose.name));
     }
   }
 }
@@ -423,7 +423,10 @@ bool HasRoomForProducts() {
 std::string FlagOf(std::string_view member, std::string_view value) {
   if (member == "where") return "where in a study (errmap init writes one)";
   std::string flag = cli::FlagOf(member);
-  if (!value.empty()) flag += " " + report::ShellWord(std::string(value));
+  if (value.empty()) return flag;
+  // A value that begins as an option does is read as one behind a blank.
+  flag += value.starts_with('-') ? "=" : " ";
+  flag += report::ShellWord(std::string(value));
   return flag;
 }
 

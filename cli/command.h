@@ -35,6 +35,8 @@ struct Run {
   int status = kDone;
 };
 
+using AddCommandTo = void (*)(CLI::App* app, Run* run);
+
 /// Each adds its command to `app`; when chosen, it runs and leaves its exit
 /// status in `run`, which must outlive the parse.
 void AddCompareCommand(CLI::App* app, Run* run);
@@ -49,14 +51,9 @@ void AddReportCommand(CLI::App* app, Run* run);
 void AddCertifyCommand(CLI::App* app, Run* run);
 void AddCheckCommand(CLI::App* app, Run* run);
 void AddWhenCommand(CLI::App* app, Run* run);
-void AddSimulateCommand(CLI::App* app, Run* run);
-void AddNetcgCommand(CLI::App* app, Run* run);
-void AddConvertCommand(CLI::App* app, Run* run);
-void AddVolumetricCommand(CLI::App* app, Run* run);
 void AddExportCommand(CLI::App* app, Run* run);
 void AddCostCommand(CLI::App* app, Run* run);
 void AddUpdateCommand(CLI::App* app, Run* run);
-void AddIso230Command(CLI::App* app, Run* run);
 void AddModelsCommand(CLI::App* app, Run* run);
 
 }  // namespace errmap::cli

@@ -16,17 +16,26 @@ namespace errmap::data {
 /// not a finite number is kept apart as text, once per distinct text.
 struct CsvColumn {
   std::string name;
-  bool has_name = true;  // false: the header left it empty, `name` is ours
-  ColumnValues values;   // (rows) quiet NaN where `exceptions` has the row
+  bool has_name = true;      // false: the header left it empty, `name` is ours
+  ColumnValues values = {};  // (rows) quiet NaN where `exceptions` has the row
   /// Cells that are no finite number, ascending by row: (row, index in texts).
-  std::vector<std::pair<std::size_t, std::uint32_t>> exceptions;
-  std::vector<std::string> texts;  // distinct texts of those cells, trimmed
+  std::vector<std::pair<std::size_t, std::uint32_t>> exceptions = {};
+  std::vector<std::string> texts =
+      {};  // distinct texts of those cells, trimmed
   /// First rows written with a decimal comma and with a decimal point, or -1.
   std::ptrdiff_t first_decimal_comma = -1;
   std::ptrdiff_t first_decimal_point = -1;
 
   /// True where no cell is a number: fit for groups, never an input.
   bool is_text() const { return exceptions.size() == values.size(); }
+  /// The text of a cell; null where it is a number.
+  const std::string* TextAt(std::size_t row) const;
+  /// That a number of this row is written with a decimal comma or point.
+  void NoteMarks(std::size_t row, bool comma, bool point) {
+    const auto at = static_cast<std::ptrdiff_t>(row);
+    if (comma && first_decimal_comma < 0) first_decimal_comma = at;
+    if (point && first_decimal_point < 0) first_decimal_point = at;
+  }
 };
 
 /// A CSV file, or several as one: named columns of equal length.
@@ -82,7 +91,10 @@ enum class OddRows { kRefuse, kOffer, kLeaveOut };
 /// (x, x_2), columns that no row reaches, blank lines and names again between
 /// rows, points that part thousands ("1.050" where others are whole numbers of
 /// three digits), a last line cut off in mid number, which is left out; a
-/// column for each position ("e@-215.9mm_um") becomes a row for each reading.
+/// column for each position ("e@-215.9mm_um", "X=25 mm") or for each run ("Run
+/// 1 up [um]") becomes a row for each reading; numbers as people write them
+/// (tables/loose_numbers.h), lines of words among the rows, cells in single
+/// quotes, columns set apart by blanks (tables/rewritten_text.h).
 /// An unnamed column is called column_N (`has_name` is false).
 ///
 /// Throws InputError: unreadable file, empty file, header alone, a number where

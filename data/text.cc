@@ -102,6 +102,25 @@ bool StartsWithIgnoringCase(std::string_view text, std::string_view prefix) {
          EqualsIgnoringCase(text.substr(0, prefix.size()), prefix);
 }
 
+std::vector<std::string_view> SplitWords(std::string_view text) {
+  std::vector<std::string_view> words;
+  while (!text.empty()) {
+    const std::size_t blank = std::min(text.find(' '), text.size());
+    words.push_back(text.substr(0, blank));
+    text.remove_prefix(std::min(blank + 1, text.size()));
+  }
+  return words;
+}
+
+bool IsOneOf(std::string_view word, std::string_view words) {
+  while (!words.empty()) {
+    const std::size_t blank = std::min(words.find(' '), words.size());
+    if (EqualsIgnoringCase(word, words.substr(0, blank))) return true;
+    words.remove_prefix(std::min(blank + 1, words.size()));
+  }
+  return false;
+}
+
 bool ParseNumber(std::string_view text, double* value) {
   // from_chars takes no plus sign, but would take the minus of "+-1".
   if (text.starts_with('+')) {
@@ -197,6 +216,16 @@ std::string JoinWords(const std::vector<std::string>& words,
     text += word;
   }
   return text;
+}
+
+std::string ShortList(const std::vector<std::string>& words,
+                      std::size_t most,
+                      std::string_view between,
+                      std::string_view before_more) {
+  if (words.size() <= most) return JoinWords(words, between);
+  const auto end = words.begin() + static_cast<std::ptrdiff_t>(most);
+  return JoinWords({words.begin(), end}, between) + std::string(before_more) +
+         std::to_string(words.size() - most) + " more";
 }
 
 std::string NearestName(std::string_view name,

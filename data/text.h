@@ -15,6 +15,12 @@ std::string_view Trimmed(std::string_view text);
 bool EqualsIgnoringCase(std::string_view a, std::string_view b);
 bool StartsWithIgnoringCase(std::string_view text, std::string_view prefix);
 
+/// The words of "one two", parted by single blanks; views into the text.
+std::vector<std::string_view> SplitWords(std::string_view text);
+
+/// Whether a word is among those of "one two", in any case.
+bool IsOneOf(std::string_view word, std::string_view words);
+
 /// True, and the value in `value`, where the whole text is one finite decimal
 /// number: an optional sign, a decimal point, an exponent; no hexadecimal, no
 /// "inf" or "nan", nothing beyond the range of a double.
@@ -35,6 +41,13 @@ std::string PrintablePath(std::string_view path);
 std::string QuotedText(std::string_view text);
 std::string QuotedName(std::string_view name);
 
+/// "and 3 more" with `most` words and their `between` before it where there are
+/// more than that; else JoinWords of all.
+std::string ShortList(const std::vector<std::string>& words,
+                      std::size_t most,
+                      std::string_view between = ", ",
+                      std::string_view before_more = " and ");
+
 /// "x, y, z" of three words with ", " between them.
 std::string JoinWords(const std::vector<std::string>& words,
                       std::string_view between);
@@ -47,5 +60,13 @@ std::string AsUtf8(std::string_view text);
 /// letters amiss), or "".
 std::string NearestName(std::string_view name,
                         const std::vector<std::string>& candidates);
+
+/// The name of an enumerator by its place in `names`; "" beyond the last, as
+/// for whoever asks each number for its name.
+template <typename Names, typename Enumerator>
+constexpr std::string_view NameOf(const Names& names, Enumerator value) {
+  const auto place = static_cast<std::size_t>(value);
+  return place < names.size() ? names[place] : std::string_view();
+}
 
 }  // namespace errmap::data

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -11,7 +12,7 @@
 namespace errmap::data {
 
 /// Each distinct text of a column once: an open-addressing table of indices
-/// into CsvColumn::texts, without a second copy of them.
+/// into CsvColumn::texts (what it holds before counts), without a second copy.
 class TextIndex {
  public:
   std::uint32_t IndexOf(std::string_view text,
@@ -36,7 +37,7 @@ class TextIndex {
 
   void Grow(const std::vector<std::string>& texts) {
     constexpr std::size_t kLeast = 16;
-    slots_.assign(std::max(kLeast, 2 * slots_.size()), 0);
+    slots_.assign(std::max(kLeast, std::bit_ceil(2 * (texts.size() + 1))), 0);
     for (std::size_t i = 0; i < texts.size(); ++i) {
       slots_[SlotOf(texts[i], texts)] = static_cast<std::uint32_t>(i + 1);
     }

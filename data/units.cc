@@ -28,94 +28,91 @@ constexpr double kZeroCelsius = 273.15;     // K
 constexpr double kZeroFahrenheit = 459.67;  // degF above absolute zero
 constexpr double kDegree = std::numbers::pi / 180.0;
 
+using enum Quantity;
 constexpr auto kKnownUnits = std::to_array<KnownUnit>({
-    {"nm", Quantity::kLength, 1e-3, 0, "nanometer nanometre", ""},
+    {"nm", kLength, 1e-3, 0, "nanometer nanometre", ""},
     {"um",
-     Quantity::kLength,
+     kLength,
      1.0,
      0,
-     "micron microns micrometer micrometers micrometre micrometres",
-     ""},
+     "micron microns micrometer micrometers micrometre micrometres mikrometer "
+     "mikron",
+     "u 0.001mm 1/1000mm 1e-6m 10^-6m"},
     {"mm",
-     Quantity::kLength,
+     kLength,
      1e3,
      0,
      "millimeter millimeters millimetre millimetres",
      ""},
-    {"cm", Quantity::kLength, 1e4, 0, "centimeter centimetre", ""},
-    {"m", Quantity::kLength, 1e6, 0, "meter meters metre metres", "", true},
-    {"in", Quantity::kLength, 25400.0, 0, "inch inches", "", true},
-    {"ft", Quantity::kLength, 304800.0, 0, "feet", "", true},
-    {"mil", Quantity::kLength, 25.4, 0, "mils thou", ""},
-    {"uin", Quantity::kLength, 0.0254, 0, "microinch microinches", ""},
+    {"cm", kLength, 1e4, 0, "centimeter centimetre", ""},
+    {"m", kLength, 1e6, 0, "meter meters metre metres", "", true},
+    {"in", kLength, 25400.0, 0, "inch inches", "", true},
+    {"ft", kLength, 304800.0, 0, "feet", "", true},
+    {"mil", kLength, 25.4, 0, "mils thou", "0.001in 0.001inch"},
+    {"uin", kLength, 0.0254, 0, "microinch microinches", ""},
+    {"0.1um", kLength, 0.1, 0, "", "1/10um"},
+    {"0.0001in", kLength, 2.54, 0, "", "tenths 0.0001inch"},
     {"arcsec",
-     Quantity::kAngle,
+     kAngle,
      kDegree / 3600.0,
      0,
      "arcsecs arcsecond arcseconds",
      "\" \u2033 ''"},
     {"arcmin",
-     Quantity::kAngle,
+     kAngle,
      kDegree / 60.0,
      0,
      "arcmins arcminute arcminutes",
      "' \u2032"},
-    {"mrad", Quantity::kAngle, 1e-3, 0, "milliradian milliradians", ""},
-    {"urad",
-     Quantity::kAngle,
-     1e-6,
-     0,
-     "microrad microradian microradians",
-     ""},
-    {"rad", Quantity::kAngle, 1.0, 0, "radian radians", ""},
-    {"deg", Quantity::kAngle, kDegree, 0, "degree degrees \u00b0", ""},
+    {"mrad", kAngle, 1e-3, 0, "milliradian milliradians", ""},
+    {"urad", kAngle, 1e-6, 0, "microrad microradian microradians", ""},
+    {"rad", kAngle, 1.0, 0, "radian radians", ""},
+    {"deg", kAngle, kDegree, 0, "degree degrees \u00b0", ""},
     {"degC",
-     Quantity::kTemperature,
+     kTemperature,
      1.0,
      kZeroCelsius,
-     "celsius \u00b0C degreesC",
+     "celsius \u00b0C degreesC gradC gradCelsius",
      "C"},
-    {"K", Quantity::kTemperature, 1.0, 0, "kelvin", ""},
+    {"K", kTemperature, 1.0, 0, "kelvin", ""},
     {"degF",
-     Quantity::kTemperature,
+     kTemperature,
      5.0 / 9.0,
      kZeroFahrenheit,
      "fahrenheit \u00b0F degreesF",
      "F"},
-    {"us", Quantity::kTime, 1e-6, 0, "", ""},
-    {"ms", Quantity::kTime, 1e-3, 0, "", ""},
-    {"s", Quantity::kTime, 1.0, 0, "sec seconds", ""},
-    {"min", Quantity::kTime, 60.0, 0, "minutes", ""},
-    {"h", Quantity::kTime, 3600.0, 0, "hr hours", ""},
-    {"ppm", Quantity::kRatio, 1.0, 0, "", ""},
-    {"um/m", Quantity::kRatio, 1.0, 0, "", ""},
-    {"pct", Quantity::kRatio, 1e4, 0, "", ""},
-    {"percent", Quantity::kRatio, 1e4, 0, "", ""},
-    {"%", Quantity::kRatio, 1e4, 0, "", ""},
-    {"rpm",
-     Quantity::kOther,
-     1.0,
-     0,
-     "1/min U/min r/min rev/min min-1 min^-1",
-     ""},
-    {"Hz", Quantity::kOther, 1.0, 0, "", ""},
-    {"N", Quantity::kOther, 1.0, 0, "", ""},
-    {"kN", Quantity::kOther, 1.0, 0, "", ""},
-    {"Nm", Quantity::kOther, 1.0, 0, "", ""},
-    {"V", Quantity::kOther, 1.0, 0, "", ""},
-    {"mV", Quantity::kOther, 1.0, 0, "", ""},
-    {"A", Quantity::kOther, 1.0, 0, "", ""},
-    {"mA", Quantity::kOther, 1.0, 0, "", ""},
-    {"W", Quantity::kOther, 1.0, 0, "", ""},
-    {"kW", Quantity::kOther, 1.0, 0, "", ""},
-    {"g", Quantity::kOther, 1.0, 0, "", ""},
-    {"kg", Quantity::kOther, 1.0, 0, "", ""},
-    {"mg", Quantity::kOther, 1.0, 0, "", ""},
-    {"ug", Quantity::kOther, 1.0, 0, "", ""},
-    {"bar", Quantity::kOther, 1.0, 0, "", ""},
-    {"Pa", Quantity::kOther, 1.0, 0, "", ""},
-    {"kPa", Quantity::kOther, 1.0, 0, "", ""},
-    {"MPa", Quantity::kOther, 1.0, 0, "", ""},
+    {"100ns", kTime, 1e-7, 0, "", ""},
+    {"us", kTime, 1e-6, 0, "", ""},
+    {"ms", kTime, 1e-3, 0, "", ""},
+    {"s", kTime, 1.0, 0, "sec seconds", ""},
+    {"min", kTime, 60.0, 0, "minutes", ""},
+    {"h", kTime, 3600.0, 0, "hr hours", ""},
+    {"ppm", kRatio, 1.0, 0, "", ""},
+    {"um/m", kRatio, 1.0, 0, "", ""},
+    {"pct", kRatio, 1e4, 0, "", ""},
+    {"percent", kRatio, 1e4, 0, "", ""},
+    {"%", kRatio, 1e4, 0, "%RH %rF", ""},
+    {"rpm", kOther, 1.0, 0, "1/min U/min r/min rev/min min-1 min^-1", ""},
+    {"Hz", kOther, 1.0, 0, "", ""},
+    {"N", kOther, 1.0, 0, "", ""},
+    {"kN", kOther, 1.0, 0, "", ""},
+    {"Nm", kOther, 1.0, 0, "", ""},
+    {"V", kOther, 1.0, 0, "", ""},
+    {"mV", kOther, 1.0, 0, "", ""},
+    {"A", kOther, 1.0, 0, "", ""},
+    {"mA", kOther, 1.0, 0, "", ""},
+    {"W", kOther, 1.0, 0, "", ""},
+    {"kW", kOther, 1.0, 0, "", ""},
+    {"g", kOther, 1.0, 0, "", ""},
+    {"kg", kOther, 1.0, 0, "", ""},
+    {"mg", kOther, 1.0, 0, "", ""},
+    {"ug", kOther, 1.0, 0, "", ""},
+    {"bar", kOther, 1.0, 0, "", ""},
+    {"mbar", kOther, 1.0, 0, "", ""},
+    {"Pa", kOther, 1.0, 0, "", ""},
+    {"hPa", kOther, 1.0, 0, "", ""},
+    {"kPa", kOther, 1.0, 0, "", ""},
+    {"MPa", kOther, 1.0, 0, "", ""},
 });
 
 // Units that measure something here, yet nothing that we convert; and parts of
@@ -162,9 +159,12 @@ std::string Normalised(std::string_view text) {
              "\u00b0"
              "F",
              &unit);
+  ReplaceAll("\u00d7", "x", &unit);
+  if (unit.starts_with("x ") || unit.starts_with("x0")) unit.erase(0, 1);
   ReplaceAll("\u00b2", "2", &unit);
   ReplaceAll("\u00b3", "3", &unit);
   ReplaceAll(" ", "", &unit);
+  ReplaceAll(",", ".", &unit);
   return unit;
 }
 
@@ -383,9 +383,7 @@ bool MayMeanUnit(std::string_view word, const Unit& assumed) {
 bool NamesPosition(std::string_view name) {
   if (StartsWithIgnoringCase(name, "position")) return true;
   const Header header = ReadHeader(name);
-  if (header.source != UnitSource::kStated ||
-      (header.unit.quantity != Quantity::kLength &&
-       header.unit.quantity != Quantity::kAngle)) {
+  if (header.source != UnitSource::kStated || !IsLengthOrAngle(header.unit)) {
     return false;
   }
   const std::string base = LowerCase(header.base);
@@ -487,6 +485,10 @@ Header ReadHeader(std::string_view name) {
     header.source = UnitSource::kAssumed;
   }
   return header;
+}
+
+bool IsUnitOfErrors(const Unit& unit) {
+  return IsOneOf(unit.symbol, "nm 0.1um um uin 0.0001in arcsec urad");
 }
 
 Unit UnitOfColumn(std::string_view name) { return ReadHeader(name).unit; }

@@ -20,6 +20,14 @@ struct Unit {
   bool operator==(const Unit&) const = default;
 };
 
+inline bool IsLengthOrAngle(const Unit& unit) {
+  return unit.quantity == Quantity::kLength ||
+         unit.quantity == Quantity::kAngle;
+}
+
+/// Whether errors are stated in a unit and positions hardly ever: um, arcsec.
+bool IsUnitOfErrors(const Unit& unit);
+
 /// How the unit of a column came to be known.
 enum class UnitSource {
   kNone,      // the name says nothing: no unit

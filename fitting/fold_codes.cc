@@ -22,10 +22,4 @@ FoldCodes::Rows FoldCodes::Split(Index fold) const {
   return rows;
 }
 
-Index FoldCodes::NumJudged() const {
-  return std::count_if(codes.begin(), codes.end(), [&](Index code) {
-    return code >= first_judged();
-  });
-}
-
 }  // namespace errmap::fitting

@@ -6,11 +6,11 @@
 
 namespace errmap::fitting {
 
-/// Folds of a cross-validation, and which rows each is predicted from.
+/// Folds of a cross-validation, and the rows from which each is predicted.
 struct FoldCodes {
   std::vector<Eigen::Index> codes;  // (n) fold of each row, from 0
-  /// A fold is predicted from those before it alone, so the first is never
-  /// judged; else from all others.
+  /// True if a fold is predicted only from earlier folds, so that the first is
+  /// never judged. False if it is predicted from all others.
   bool forward = false;
 
   struct Rows {
@@ -18,17 +18,15 @@ struct FoldCodes {
     std::vector<Eigen::Index> test;
   };
 
-  /// 0 where there are no codes.
+  /// Number of folds; 0 if there are no codes.
   Eigen::Index count() const;
   Eigen::Index first_judged() const { return forward ? 1 : 0; }
-  /// True where `row` is among the rows that predict `fold`.
+  /// True if `row` is among the rows that predict `fold`.
   bool Fits(Eigen::Index fold, std::size_t row) const {
     return forward ? codes[row] < fold : codes[row] != fold;
   }
-  /// Rows of a judged fold, ascending.
+  /// Training and test rows of a judged fold, each ascending.
   Rows Split(Eigen::Index fold) const;
-  /// Rows of the judged folds.
-  Eigen::Index NumJudged() const;
 };
 
 }  // namespace errmap::fitting

@@ -5,16 +5,16 @@
 
 namespace errmap::fitting {
 
-/// Thrown where a computation is broken off from outside. A caller's mistake
-/// has the same type: whoever has no map yet reports both alike.
+/// Thrown if a computation is interrupted from outside. Derives from the type
+/// of a caller's mistake: code that has no map yet reports both alike.
 class Interrupted : public std::invalid_argument {
  public:
   Interrupted() : std::invalid_argument("interrupted") {}
 };
 
-/// While it lives, long computations of this thread that are not told of a stop
-/// token (products, factorisations, refinements) look at `stop`; null: at that
-/// of the scope around it. Must outlive what it is made for, `stop` both.
+/// While it exists, long computations of this thread that have no stop token
+/// (products, factorisations, refinements) check `stop`. If null, they check
+/// that of the enclosing scope. The scope must outlive them, `stop` the scope.
 class InterruptionScope {
  public:
   explicit InterruptionScope(const std::atomic<bool>* stop);
@@ -26,8 +26,8 @@ class InterruptionScope {
   const std::atomic<bool>* outer_;
 };
 
-/// Throws Interrupted where the scope's token is set. To be called every tenth
-/// of a second: an answer within half a second is what users are promised.
+/// Throws Interrupted if the scope's token is set. Call it every tenth of a
+/// second: users are promised an answer within half a second.
 void ThrowIfInterrupted();
 
 }  // namespace errmap::fitting

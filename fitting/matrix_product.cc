@@ -4,9 +4,10 @@
 #include <cassert>
 #include <cblas.h>
 #include <cstddef>
-#include <limits>
 #include <string_view>
 #include <vector>
+
+#include "stats/not_a_number.h"
 
 // LAPACK: Cholesky factorisation, and singular values by divide and conquer.
 extern "C" {
@@ -245,7 +246,7 @@ Eigen::VectorXd SingularValues(Eigen::MatrixXd a) {
   call(&best_size, -1);
   std::vector<double> work(static_cast<std::size_t>(best_size));
   call(work.data(), static_cast<int>(work.size()));
-  if (info != 0) values.setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (info != 0) values.setConstant(stats::kNaN);
   return values;
 }
 

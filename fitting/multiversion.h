@@ -1,9 +1,9 @@
 #pragma once
 
-// Elementwise loops are compiled for several instruction sets and picked at
-// run time; without contraction, and with sums in lanes of a fixed number, all
-// give the same bits. Not under ThreadSanitizer: the loader picks before the
-// sanitizer is there, and what picks is instrumented, too.
+// Elementwise loops are compiled for several instruction sets, one of which is
+// picked at run time. Without contraction, and with sums in a fixed number of
+// lanes, all give the same bits. Not under ThreadSanitizer: the loader picks
+// before the sanitizer is ready, and the code that picks is instrumented, too.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && \
     !defined(__SANITIZE_THREAD__)
 #define ERRMAP_MULTIVERSION \

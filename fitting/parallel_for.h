@@ -6,15 +6,15 @@
 namespace errmap::fitting {
 
 namespace parallel {
-/// ParallelFor, compiled once.
+/// The implementation of ParallelFor, compiled once.
 void Run(int threads,
          std::size_t count,
          const std::function<void(std::size_t)>& job);
 }  // namespace parallel
 
-/// job(0), job(1), ... job(count - 1) on so many threads, begun in this order,
-/// each where a thread is free; 0: one thread per core. Throws what was thrown
-/// first; jobs that have not begun by then never do.
+/// Calls job(0), job(1), ... job(count - 1) on `threads` threads (0: one per
+/// core), started in this order, each when a thread is free. Rethrows the first
+/// exception; jobs not started by then are skipped.
 template <typename Count, typename Job>
 void ParallelFor(int threads, Count count, const Job& job) {
   parallel::Run(threads, static_cast<std::size_t>(count), [&](std::size_t i) {

@@ -1,7 +1,6 @@
 #include "models/fault_effect.h"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "models/error_model.h"
 #include "models/inner_folds.h"
 #include "models/recipe_catalog.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
@@ -25,7 +25,7 @@ double RmseOfPlane(const data::Dataset& training, const data::Dataset& judged) {
     return std::sqrt(residuals.squaredNorm() /
                      static_cast<double>(residuals.size()));
   } catch (const std::invalid_argument&) {
-    return std::numeric_limits<double>::quiet_NaN();  // too few rows
+    return stats::kNaN;  // too few rows
   }
 }
 

@@ -8,14 +8,14 @@
 
 namespace errmap::models {
 
-/// The path in "file:model.json"; "" of any other SPEC.
+/// Returns the path in "file:model.json"; "" for any other SPEC.
 std::string FileOfSpec(std::string_view spec);
 
-/// "file:model.json": an existing map, judged as it is; nothing is fitted.
-/// Returns null where `spec` does not begin with "file:". Its Fit throws
-/// std::invalid_argument where the data lack an input of the map or measure
-/// target or input in another unit. Throws data::InputError where the file
-/// cannot be read or is no model file.
+/// Returns a recipe for "file:model.json", an existing map that is judged as it
+/// is, without a fit; null if `spec` does not begin with "file:". Its Fit
+/// throws std::invalid_argument if the data lack an input of the map, or if a
+/// unit differs from the map's. Throws data::InputError if the file is
+/// unreadable or not a model file.
 std::unique_ptr<ModelRecipe> MakeFileRecipe(std::string_view spec);
 
 }  // namespace errmap::models

@@ -1,13 +1,13 @@
 // FittedModel of models/error_model.h: derive, clip, predict, clip.
 
 #include <algorithm>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
 #include "models/error_model.h"
 #include "models/history/history.h"
 #include "models/row_scratch.h"
+#include "stats/indices.h"
 
 namespace errmap::models {
 namespace {
@@ -143,8 +143,7 @@ FittedModel MapOfModel(const ModelRecipe& recipe,
   fitted.kind = recipe.kind();
   fitted.target = training.target();
   fitted.align = training.align();
-  std::vector<Index> columns(static_cast<std::size_t>(training.num_inputs()));
-  std::iota(columns.begin(), columns.end(), Index{0});
+  const std::vector<Index> columns = stats::AllIndices(training.num_inputs());
   fitted.inputs = DescribeInputs(training, columns);
   fitted.model = std::move(model);
   fitted.summary.termination = fitting::Termination::kDirect;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "stats/holdout.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
@@ -116,7 +117,7 @@ InnerError TypicalError(const InnerFolds& folds,
                         double indifference) {
   const VectorXd shares = weights / weights.sum();
   const auto spread = [&](const VectorXd& values, double mean) {
-    if (values.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+    if (values.size() < 2) return stats::kNaN;
     const double variance =
         shares.dot(VectorXd((values.array() - mean).square()));
     return std::sqrt(variance / static_cast<double>(values.size() - 1));

@@ -10,41 +10,41 @@
 
 namespace errmap::models {
 
-/// Which whole groups a fold has where groups are held out: neighbours, so that
-/// a memory cannot carry over from them, or every fifth.
+/// How whole groups are dealt to folds: as runs of neighbours, or in turn
+/// (every fifth). No memory carries over between runs.
 enum class GroupDeal { kRuns, kInTurn };
 
-/// Folds for the choices made inside a fit, by context.inner_holdout, up to 5:
-/// runs of whole sessions or groups, contiguous runs of rows, seeded shares of
-/// the rows, or blocks of whole groups (rows where there are none) in order,
-/// each predicted from those before it. No row outside `training` has a part in
-/// it.
+/// Up to 5 folds for the choices inside a fit, by context.inner_holdout. They
+/// are runs of whole sessions or groups, contiguous runs of rows, or seeded
+/// shares of the rows. Forward folds are blocks of whole groups (of rows if
+/// there are none), each predicted from the earlier ones. Only rows of
+/// `training` take part.
 struct InnerFolds {
   fitting::FoldCodes folds;  // of the rows of `training`
   std::string text;  // "sessions:5 of day", "groups:5 of cycle", "kfold:5"
   bool whole_sessions = false;
-  bool in_turn = false;  // GroupDeal::kInTurn was heeded
-  /// Sessions or groups that are held out whole; else the folds.
+  bool in_turn = false;  // GroupDeal::kInTurn was used
+  /// Number of sessions or groups held out whole; else number of folds.
   Eigen::Index units = 0;
 };
 
-/// What a choice on inner hold-outs minimises.
+/// The error that a choice on inner hold-outs minimises.
 struct InnerError {
   double mean_square = 0.0;
   double standard_error = 0.0;  // of mean_square over folds; NaN for one fold
 };
 
-/// Of a candidate with these mean squares (judged folds), weighted by
-/// `weights`: their mean; over whole sessions their geometric mean, since one
-/// day far from all others would else decide alone, and for a map that leans
-/// on nothing. Errors far below `indifference` count alike.
+/// Returns the mean of `mean_squares` (judged folds), weighted by `weights`.
+/// Over whole sessions it is the geometric mean. With an arithmetic mean, one
+/// extreme day would decide alone, and favour a map that uses nothing. Errors
+/// far below `indifference` count the same.
 InnerError TypicalError(const InnerFolds& folds,
                         const Eigen::VectorXd& mean_squares,
                         const Eigen::VectorXd& weights,
                         double indifference);
 
-/// `deal` counts under InnerHoldout::kWholeGroups alone: what is to hold on
-/// another day is chosen on runs. Throws std::invalid_argument where there are
+/// `deal` matters under InnerHoldout::kWholeGroups only: choices that must hold
+/// on another day are made on runs. Throws std::invalid_argument if there are
 /// fewer than 2 rows.
 InnerFolds MakeInnerFolds(const data::Dataset& training,
                           const FitContext& context,

@@ -8,43 +8,57 @@
 
 #include "data/measurements/dataset.h"
 
-// What stands in model files beside the map itself, as plain data; how it is
-// made and used is told in models/promise/.
+// Plain data that model files hold besides the map itself. models/uncertainty/
+// documents how it is made and used.
 
 namespace errmap::models {
 
-/// What tells a sensor that hangs or jumps from a healthy one; of columns (s),
-/// or empty where nothing is known. How it is learnt: promise/standing_still.h.
+/// Limits that tell a stuck or jumping sensor from a healthy one, per column
+/// (s); empty if unknown. sensors/standing_still.h documents how they are
+/// learnt.
 struct StandingStill {
-  /// By how much of their ranges the others may move, on average, while a
-  /// column stands still. 0: it is not watched.
+  /// Mean movement of the other columns (in shares of their ranges) that is
+  /// allowed while a column holds its value. 0: the column is not watched.
   Eigen::VectorXd others_move = {};
-  Eigen::VectorXd resolution = {};  // of its range
-  /// How long its noise may leave it alone (s); 0: it has none to be seen.
+  Eigen::VectorXd resolution = {};  // in shares of its range
+  /// Longest time without noise (s); 0: the column shows no noise.
   Eigen::VectorXd quiet = {};
-  /// By how much of its range it may change at once, 0: not known, and by how
-  /// much more in each second.
+  /// Largest sudden change (in shares of the column's range; 0: unknown), and
+  /// how much more is allowed for each second.
   Eigen::VectorXd jump = {};
   Eigen::VectorXd pace = {};
-  /// How long all of them may hold their values together (s); 0: not known.
+  /// Longest time that all may hold their values at once (s); 0: unknown.
   double silence = 0.0;
 };
 
-/// Where a map was trained, besides the range of each of its columns: the
-/// ranges of what it derives from them, and its thermal states (the inputs that
-/// are no positions), taken together.
+/// What the readings of a whole session are judged by. Missing in older files,
+/// and for more than a hundred columns.
+struct SessionReadings {
+  /// (s x s) Inverse covariance of x', without a factor model. It is scaled so
+  /// that in held-out sessions the residual of a column, given the others, has
+  /// the variance that this says, in the mean over columns.
+  Eigen::MatrixXd precision;
+  /// (s) That variance of a column over the mean of all, 1 at least: a tank has
+  /// little to do with the other sensors.
+  Eigen::VectorXd scatter;
+  Eigen::Index units = 0;  // sessions, or what was held out in their place
+};
+
+/// Where a map was trained, beyond the range of each column. It holds the
+/// ranges of derived inputs, and the joint distribution of thermal states (the
+/// inputs that are not positions).
 ///
-/// States are described by a factor model: of x' = (x - mean) / scale the
-/// covariance is W W' + diag(rest), W the leading principal directions
-/// (Tipping & Bishop 1999, with a variance of its own for each column). Scores
-/// z = (W'W)^-1 W' x' have unit variance: the whitened space of distances.
+/// A factor model describes the states: x' = (x - mean) / scale has covariance
+/// W W' + diag(rest), with W the leading principal directions (Tipping & Bishop
+/// 1999, but with one variance for each column). Scores z = (W'W)^-1 W' x' have
+/// unit variance; distances are taken in this whitened space.
 struct Applicability {
   struct Derived {
     data::ColumnInfo column;
     double min = 0.0;
     double max = 0.0;
   };
-  /// Inputs of the form that are derived, in its order.
+  /// The form's derived inputs, in its order.
   std::vector<Derived> derived;
 
   std::vector<Eigen::Index> columns;  // (s) index into the map's inputs
@@ -53,58 +67,60 @@ struct Applicability {
   Eigen::VectorXd scale;              // (s) input's unit, above 0; one per unit
   Eigen::MatrixXd directions;         // (s x q) W
   Eigen::VectorXd rest;               // (s) variances of x', above 0
-  Eigen::MatrixXd states;             // (k x q) trained ones, spread evenly
+  Eigen::MatrixXd states;             // (k x q) trained states, spread evenly
 
-  // What rows held out with their whole unit reached, and half as much again.
+  // Limits: 1.5 times the values that rows of held-out units reached.
   double distance_limit = 0.0;     // to the nearest of `states`
   double leverage_limit = 0.0;     // 1 / rows + |z|^2 / (rows - 1)
   Eigen::VectorXd relation_limit;  // (s) StateMeasures::relation
 
-  /// (s) Of readings within sessions, those that repeat the one before to the
-  /// last digit; (0): not known.
+  /// (s) Share of readings within sessions that repeat the previous one to the
+  /// last digit; (0): unknown.
   Eigen::VectorXd repeats = {};
 
-  StandingStill standing = {};  // of nothing in older files
+  StandingStill standing = {};  // empty in older files
+
+  std::optional<SessionReadings> sessions = {};
 };
 
-/// Of its trained range an input may leave it by so much and is still inside:
-/// the noise of a reading must not flag a row at the end of a range.
+/// An input counts as inside up to this share of its trained range beyond it: a
+/// reading's noise must not flag a row at the end of the range.
 inline constexpr double kRangeTolerance = 0.02;
 
-/// Errors of a map on units that had no part in it, with the time and place of
-/// each: what probes of a further unit are judged and weighed by. Long units
-/// and many of them are thinned evenly; `rmse` and the units' own are of all
-/// rows.
+/// Errors of a map on held-out units, with the time and place of each.
+/// Probes of a new unit are judged and weighted against them. Long units,
+/// and many units, are thinned evenly; `rmse` and the units' own RMSE use
+/// all rows.
 struct HeldOutErrors {
   struct Unit {
     std::string label;
     double rmse = 0.0;          // target's unit
-    Eigen::VectorXd elapsed;    // (n) since the session began, in time_unit
+    Eigen::VectorXd elapsed;    // (n) since the session's start, in time_unit
     Eigen::VectorXd position;   // (n) of the first position input, or (0)
     Eigen::VectorXd residuals;  // (n) target less prediction, target's unit
     Eigen::VectorXd temperature = {};  // (n) of that input, or (0)
     Eigen::VectorXd predicted = {};    // (n) target's unit, or (0)
   };
-  /// "s", "rows", or "" where nothing is known of times: elapsed is then 0.
+  /// "s", "rows", or "" if times are unknown (then elapsed is 0).
   std::string time_unit;
-  std::string position;  // column; "" where there is none
-  /// The input whose changes tell most of the errors': column; "" for none.
+  std::string position;  // column; "" if there is none
+  /// Column whose changes explain most of the errors' changes; "" if none.
   std::string temperature = {};
-  double rmse = 0.0;  // of all units together: the error promised
+  double rmse = 0.0;  // over all units: the predicted error
   std::vector<Unit> units;
 };
 
-/// The rows that a map learnt from, to know them again where its training file
-/// is not at hand: Bloom filters (1970) of 16 bits a row, by which one other
-/// row in 2000 seems known, too (models/promise/learnt_rows.h).
+/// The training rows, to recognise them without the training file. They are
+/// stored as Bloom filters (1970) of 16 bits a row: one unknown row in 2000
+/// seems known (models/uncertainty/learnt_rows.h).
 struct LearntRows {
   struct Filter {
-    double alike = 0.0;  // share of rows that stand in another session, too
+    double alike = 0.0;  // share of rows also found in another session
     std::string bits;    // four in each hexadecimal digit
   };
-  Eigen::Index every = 1;          // one row of so many is kept, by its hash
-  std::optional<Filter> measured;  // of readings with their error
-  std::optional<Filter> readings;  // of readings alone, a sensor's among them
+  Eigen::Index every = 1;          // one row in `every` is kept, by its hash
+  std::optional<Filter> measured;  // readings with their error
+  std::optional<Filter> readings;  // readings alone, also those of one sensor
 };
 
 }  // namespace errmap::models

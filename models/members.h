@@ -7,16 +7,16 @@
 #include <type_traits>
 #include <utility>
 
-// The members of plain structs, in the order in which they are declared, with
-// their names: what is written, read and compared member by member has no list
-// of its own. C++ cannot ask for them before C++26, so the compiler is made to
-// tell: how many values build the struct, and how it prints the place of each.
+// The members of plain structs with their names, in declaration order. Code
+// that writes, reads or compares them needs no list of its own. C++ offers no
+// reflection before C++26. So the compiler is asked how many values build the
+// struct, and how it prints each member's place.
 
 namespace errmap::models {
 
-/// Whether T is taken apart into its members: a class without constructors,
-/// bases or private members, in a namespace that has a name. Specialised for
-/// those that are not to be.
+/// True if T is taken apart into its members: a class without constructors,
+/// bases or private members, in a named namespace. Specialise it to exclude a
+/// type.
 template <typename T>
 inline constexpr bool kIsRecord =
     std::is_class_v<T>&& std::is_aggregate_v<T> && !requires {
@@ -28,7 +28,7 @@ concept Record = kIsRecord<T>;
 
 namespace members {
 
-/// Stands for a value of any type where nothing is run.
+/// Stands for a value of any type in unevaluated code.
 struct Anything {
   template <typename T>
   operator T() const;  // NOLINT(google-explicit-constructor): that is its use
@@ -51,9 +51,9 @@ constexpr std::size_t Count() {
 template <typename T>
 inline constexpr std::size_t kCount = Count<T>();
 
-/// A std::tuple of references whose parts the compiler finds without working
-/// through all before them: half of the time of what is written member by
-/// member.
+/// A std::tuple of references whose elements the compiler finds without working
+/// through all earlier ones. It halves the compile time of code that visits
+/// members.
 template <std::size_t kPlace, typename T>
 struct Reference {
   T& value;
@@ -79,7 +79,7 @@ constexpr void Apply(const Take& take,
 
 }  // namespace members
 
-/// References to all members.
+/// Returns references to all members.
 template <typename T>
 requires Record<std::remove_const_t<T>>
 constexpr auto MembersOf(T& record) {
@@ -138,7 +138,7 @@ namespace members {
 #pragma clang diagnostic push
 #pragma clang diagnostic ignored "-Wundefined-var-template"
 #endif
-/// A struct somewhere, for the names of the places in it.
+/// A declared object, used for the names of its members only.
 template <typename T>
 extern const T kSome;
 

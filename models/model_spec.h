@@ -14,14 +14,15 @@ struct ModelSpec {
   std::vector<std::pair<std::string, std::string>> options;  // in order
 };
 
-/// Splits a SPEC at colons outside double quotes; quotes are taken off values
-/// (but not in formula, include and exclude, whose names may need them).
+/// Splits a SPEC at colons outside double quotes. Removes the quotes around
+/// values, except in formula, include and exclude, whose names may need them.
 /// Throws std::invalid_argument: empty, open quote, a word after an option, an
 /// option given twice.
 ModelSpec ParseModelSpec(std::string_view text);
 
 /// Splits a list ("zero,net:scg") at commas outside double quotes; an item
-/// wholly in quotes keeps them. Throws std::invalid_argument on an empty place.
+/// wholly in quotes keeps them. Throws std::invalid_argument if an item is
+/// empty.
 std::vector<std::string> SplitList(std::string_view text);
 
 /// Throws std::invalid_argument, "model '<spec>': <why>".

@@ -19,26 +19,26 @@
 
 namespace errmap::models {
 
-// The list of a family's options, from which come reading and writing SPECs,
-// their error messages, the options in effect, what `Validate` refuses, help
-// and completion. An option more is a member and a line of the list.
+// The list of a family's options. It yields reading and writing of SPECs, their
+// error messages, the options in effect, the checks of `Validate`, help and
+// completion. To add an option, add a member and one list entry.
 
 using OptionText = decltype(EffectiveOption::value);
 
-/// What people read of an option.
+/// An option as users read of it.
 struct OptionInfo {
   std::string name;
   std::string about;   // "hidden nodes"
   std::string values;  // "a whole number from 1 to 10000"
 };
 
-// Kinds of value: each reads words, knows what is allowed, and writes a value
-// so that it reads back.
+// Kinds of value. Each one reads words, checks the range, and writes a value so
+// that it reads back.
 
 struct Whole {
   using Value = std::int64_t;
   std::int64_t least;
-  std::int64_t most;  // the largest of all: none
+  std::int64_t most;  // no limit if the largest int64_t
 
   std::string values() const;
   std::optional<Value> Read(const std::string& text) const;
@@ -49,7 +49,7 @@ struct Whole {
 struct Number {
   using Value = double;
   double least;
-  double most;  // the largest of all: none
+  double most;  // no limit if the largest double
 
   std::string values() const;
   std::optional<Value> Read(const std::string& text) const;
@@ -57,7 +57,7 @@ struct Number {
   OptionText Write(Value value) const { return value; }
 };
 
-/// Any text but none.
+/// Any text that is not empty.
 struct Words {
   using Value = std::string;
 
@@ -99,7 +99,7 @@ struct OneOf {
   }
 };
 
-/// The values of an enumeration in its order, without those past the words.
+/// Returns the values of an enumeration in its order, one for each word.
 template <typename Enum>
 OneOf<Enum> EnumWords(const std::vector<std::string>& words) {
   OneOf<Enum> kind;
@@ -109,7 +109,7 @@ OneOf<Enum> EnumWords(const std::vector<std::string>& words) {
   return kind;
 }
 
-/// The same after "auto", which leaves the choice to the fit.
+/// Returns the same values after "auto", which lets the fit choose.
 template <typename Enum>
 OneOf<std::optional<Enum>> AutoOrEnum(const std::vector<std::string>& words) {
   OneOf<std::optional<Enum>> kind{{{"auto", std::nullopt}}};
@@ -119,7 +119,7 @@ OneOf<std::optional<Enum>> AutoOrEnum(const std::vector<std::string>& words) {
   return kind;
 }
 
-/// `special`, which is written as a word, or a value of another kind.
+/// A value of another kind, or `special`, which is written as a word.
 template <typename T, typename Kind>
 struct WordOr {
   using Value = T;
@@ -147,14 +147,14 @@ struct WordOr {
 /// One option of `Options`.
 template <typename Options>
 struct Option : OptionInfo {
-  /// Takes a word; false where it is no allowed value.
+  /// Reads a word; false if it is not an allowed value.
   std::function<bool(const std::string& text, Options*)> read;
   std::function<bool(const Options&)> allows;
-  /// Nothing where the options do not have it, or leave it open.
+  /// Returns nothing if the options lack the value or leave it open.
   std::function<std::optional<OptionText>(const Options&)> write;
-  /// Whether it differs from what `defaults` have.
+  /// True if it differs from its value in `defaults`.
   std::function<bool(const Options&, const Options& defaults)> is_set;
-  /// Whether it is named among those in effect; empty: where it is set.
+  /// True if it is listed among those in effect; empty: listed if set.
   std::function<bool(const Options&)> is_shown;
   bool always_in_spec = false;
 
@@ -175,8 +175,8 @@ struct Option : OptionInfo {
 template <typename Options>
 using OptionList = std::vector<Option<Options>>;
 
-/// An option whose place `at(options)` points at, null where these options do
-/// not have it (its word is then only checked). Where the place is a
+/// An option whose value is at `at(options)`. A null pointer means that these
+/// options lack it; its word is then only checked. If the place is a
 /// std::optional of the kind's value, an empty one is always allowed.
 template <typename Options, typename At, typename Kind>
 requires std::invocable<At, Options&> Option<Options> OptionFor(
@@ -240,8 +240,8 @@ Option<Options> OptionFor(std::string name,
       std::move(kind));
 }
 
-/// The options of a part of `Options`, which `at(options)` points at or, where
-/// there is none, is null.
+/// An option of a part of `Options`: `at(options)` points at the part, or is
+/// null if there is none.
 template <typename Options, typename Part, typename At>
 Option<Options> Within(const Option<Part>& part, At at) {
   Option<Options> option;
@@ -283,7 +283,7 @@ void AddWithin(const OptionList<Part>& parts, At at, OptionList<Options>* all) {
   }
 }
 
-/// A list that is built where it is first asked for.
+/// A list that is built at its first use.
 template <typename Options>
 class LazyOptionList {
  public:
@@ -316,26 +316,26 @@ struct ListedModel {
   std::string about;
   Options defaults;
   LazyOptionList<Options> options;
-  /// What of these, each allowed, contradicts; "" where nothing does.
+  /// Returns why these options, each allowed, contradict; "" if they do not.
   std::string (*contradiction)(const Options&) = nullptr;
-  /// Makes a SPEC say what it implies, where it does.
+  /// Adds to a SPEC what it implies, if anything.
   void (*complete)(ModelSpec*) = nullptr;
-  /// Whether it is among the models compared when none are named.
+  /// True if it is compared when no models are named.
   bool is_compared = true;
 };
 
-/// The models of a family; specialised beside its options. Each `Options` has
-/// `type()`, the name of its model.
+/// The models of a family; specialised next to its options. Each `Options` type
+/// has `type()`, the name of its model.
 template <typename Options>
 const std::vector<ListedModel<Options>>& ListedModels();
 
 [[noreturn]] void RefuseValue(std::string_view spec,
                               const OptionInfo& option,
                               const std::string& found);
-/// Refuses options of the SPEC that are not among `known`.
+/// Throws if the SPEC has options that are not among `known`.
 void RefuseOthers(const ModelSpec& spec, const std::vector<OptionInfo>& known);
 std::string TextOf(const OptionText& value);
-/// ":key=value", quoted where it must be.
+/// Returns ":key=value", with quotes if needed.
 std::string SpecWord(const std::string& key, const OptionText& value);
 
 template <typename Options>
@@ -396,8 +396,8 @@ std::string SpecOf(const Options& options) {
   return spec;
 }
 
-/// Throws std::invalid_argument naming option, value and range, or what
-/// contradicts.
+/// Throws std::invalid_argument naming the option, its value and range, or the
+/// contradiction.
 template <typename Options>
 void ValidateOptions(const Options& options) {
   const auto& model = ListedModelNamed<Options>("", options.type());
@@ -411,15 +411,15 @@ void ValidateOptions(const Options& options) {
   }
 }
 
-/// The name of a recipe of these options: `name`, or their SPEC where it is
-/// empty. Throws as ValidateOptions.
+/// Returns the name of a recipe of these options: `name`, or their SPEC if it
+/// is empty. Throws as ValidateOptions.
 template <typename Options>
 std::string CheckedName(const Options& options, std::string name) {
   ValidateOptions(options);
   return name.empty() ? SpecOf(options) : std::move(name);
 }
 
-/// Those in effect, of options that leave nothing open which is to be named.
+/// Returns the options in effect, without those that are left open.
 template <typename Options>
 std::vector<EffectiveOption> InEffect(const Options& options) {
   const auto& model = ListedModelNamed<Options>("", options.type());
@@ -442,7 +442,7 @@ struct ModelType {
   std::function<std::vector<OptionInfo>()> options;
   bool is_compared;
   std::unique_ptr<ModelRecipe> (*make)(const ModelSpec& spec);
-  /// The SPEC as its options write it.
+  /// Returns the SPEC as its options write it.
   std::string (*rewrite)(const ModelSpec& spec);
 };
 

@@ -4,10 +4,10 @@
 
 namespace errmap::models {
 
-/// Where inner hold-outs choose among views and bases, one is given up that,
-/// shrunk in the first few ways, errs more than so many times as much as one
-/// before it: of 1,095 searches for a ridge none lost by that, and of 467
-/// choices of a net's view 10 became another, with the same errors elsewhere.
+/// Limits for giving up a view or a basis on inner hold-outs. It is given up
+/// if, shrunk in the first few ways, its error exceeds this multiple of an
+/// earlier one's. Of 1,095 searches for a ridge none lost by that; of 467
+/// choices of a net's view 10 changed, with the same errors elsewhere.
 inline constexpr std::size_t kTrialsBeforeGivenUp = 3;
 inline constexpr double kOutOfReach = 2.0;
 

@@ -62,7 +62,7 @@ const ModelType& TypeOf(const ModelSpec& spec) {
                   data::JoinWords(ModelTypes(), ", ")));
 }
 
-// Types that cannot be fitted for want of one thing.
+// Types that cannot be fitted because one thing is missing.
 struct LackingTypes {
   std::string what;
   std::vector<std::string> types;

@@ -1,21 +1,21 @@
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "fitting/least_squares/regression_diagnostics.h"
 #include "fitting/selection/stepwise_selection.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 
-/// A term of a fitted polynomial with its line of the coefficient table, in
-/// the inputs' own units.
+/// A term of a fitted polynomial with its line in the coefficient table, in the
+/// inputs' own units.
 struct ReportTerm {
   std::string name;
   fitting::CoefficientEstimate numbers;
-  /// Share of the bootstrap repetitions that chose it; NaN: none were made.
-  double inclusion = std::numeric_limits<double>::quiet_NaN();
+  /// Share of the bootstrap repetitions that chose it; NaN if none were made.
+  double inclusion = stats::kNaN;
 };
 
 struct ReportStep {
@@ -25,9 +25,9 @@ struct ReportStep {
 
 struct ExcludedReport {
   std::string name;
-  double f = std::numeric_limits<double>::quiet_NaN();
-  double p = std::numeric_limits<double>::quiet_NaN();
-  double inclusion = std::numeric_limits<double>::quiet_NaN();
+  double f = stats::kNaN;
+  double p = stats::kNaN;
+  double inclusion = stats::kNaN;
 };
 
 struct AliasReport {
@@ -35,10 +35,10 @@ struct AliasReport {
   std::string why;  // "is constant", "repeats t1_degC", "follows from ..."
 };
 
-/// What a statistician asks of a fitted polynomial.
+/// Regression results of a fitted polynomial, for a statistician.
 struct RegressionReport {
   std::string method;  // one line
-  // How terms were chosen; empty where they were given.
+  // How terms were chosen; empty if they were given.
   Eigen::Index candidates = 0;
   std::vector<ReportStep> steps;
   std::size_t chosen_step = 0;
@@ -46,7 +46,7 @@ struct RegressionReport {
   bool selected = false;         // p-values are after selection
   int bootstrap = 0;             // repetitions
   std::string bootstrap_unit;    // "cycle" or "row"
-  std::string cross_validation;  // "groups:5 of cycle"; "" where there is none
+  std::string cross_validation;  // "groups:5 of cycle"; "" if there is none
   std::vector<ExcludedReport> excluded;  // falling F
   std::vector<AliasReport> aliased;
   // The fit itself.
@@ -54,7 +54,7 @@ struct RegressionReport {
   fitting::RowDiagnostics rows;
   ReportTerm intercept;
   std::vector<ReportTerm> terms;
-  /// In the table each of these inputs stands for its value less this centre.
+  /// The table's terms use each of these inputs minus this centre.
   std::vector<std::pair<std::string, double>> centres;
   bool weighted = false;
   // A penalised fit has estimates only; its table says so.

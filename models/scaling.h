@@ -12,36 +12,36 @@ struct ColumnScaling {
   Eigen::VectorXd offset;  // (p) unit of the column
   Eigen::VectorXd scale;   // (p) per unit of the column
 
-  /// Scaled copy of `values` (m x p).
+  /// Returns a scaled copy of `values` (m x p).
   Eigen::MatrixXd Apply(const Eigen::MatrixXd& values) const;
 };
 
-/// Leaves every value as it is.
+/// Leaves every value unchanged.
 ColumnScaling IdentityScaling(Eigen::Index num_columns);
 
-/// Maps the range of each column to [0, 1]; a constant column to 0.
+/// Maps the range of each column to [0, 1], and a constant column to 0.
 ColumnScaling UnitRangeScaling(const Eigen::MatrixXd& values);
 
-/// Maps each column to mean 0 and sd 1 (n - 1); a constant column to 0.
+/// Maps each column to mean 0 and sd 1 (n - 1), and a constant column to 0.
 ColumnScaling StandardScaling(const Eigen::MatrixXd& values);
 
-/// Maps each column to mean square 1, its zero kept; a column of zeros to 0.
+/// Maps each column to mean square 1 and keeps its zero; zeros stay 0.
 ColumnScaling RootMeanSquareScaling(const Eigen::MatrixXd& values);
 
-/// Of columns (m x p) in these units (p): the root mean square of what all
-/// columns of the same unit have about their means, 1 where that is 0. A
-/// thermometer that hardly moves is not magnified beside those that do.
+/// Returns for each column (p) of `values` (m x p) the RMS deviation from the
+/// means, over all columns with its unit; 1 if that is 0. So a thermometer that
+/// hardly moves is not magnified over the others.
 Eigen::VectorXd SpreadsOfUnits(const Eigen::MatrixXd& values,
                                const std::vector<std::string>& units);
 
-/// z = slope t + offset, from error in the target's unit to a net's output.
+/// z = slope t + offset, from error t in the target's unit to a net's output.
 struct TargetScaling {
   double slope = 1.0;
   double offset = 0.0;
 };
 
 /// Maps the range of `targets` to 0.01 .. 0.99, the sigmoid's usable range
-/// (NISTIR 5367, Appendix A, getpat). Throws std::invalid_argument where the
+/// (NISTIR 5367, Appendix A, getpat). Throws std::invalid_argument if the
 /// targets do not vary.
 TargetScaling SigmoidTargetScaling(
     const Eigen::Ref<const Eigen::MatrixXd>& targets);

@@ -9,13 +9,13 @@
 
 namespace errmap::models {
 
-/// Results that several recipes need of the same training rows, each made once
-/// by whoever asks first; the others wait for it. What is made must depend on
-/// its key and the rows alone, and its making must neither ask for the same
-/// key nor run other fits meanwhile. Safe to use from several threads.
+/// Results that several recipes need for the same training rows. Each is made
+/// once, by whoever asks first; the others wait. A result must depend on its
+/// key and the rows alone. Making it must neither ask for the same key nor run
+/// other fits meanwhile. Safe to use from several threads.
 class SharedWork {
  public:
-  /// Whether every penalty of a basis will be asked for, as blends do: one pass
+  /// True if every penalty of a basis will be asked for, as blends do: one pass
   /// over the rows then makes them all.
   bool every_penalty = false;
 
@@ -47,8 +47,8 @@ class SharedWork {
     return std::static_pointer_cast<const Result>(result.get());
   }
 
-  /// The same of what is large and quickly made again: kept while somebody
-  /// holds it.
+  /// As Get, for results that are large and quickly made again: kept only while
+  /// somebody holds them.
   template <typename Result>
   std::shared_ptr<const Result> GetWhileHeld(
       const std::string& key,

@@ -1,6 +1,9 @@
 #include "models/trained_range.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace errmap::models {
 namespace {
@@ -37,14 +40,19 @@ std::vector<InputOutside> InputsOutside(const std::vector<TrainedInput>& inputs,
   std::vector<InputOutside> outside;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const auto column = values.col(static_cast<Index>(i));
-    InputOutside found{.input = static_cast<Index>(i)};
+    InputOutside found{.input = static_cast<Index>(i),
+                       .min = std::numeric_limits<double>::infinity(),
+                       .max = -std::numeric_limits<double>::infinity()};
+    Index num_readings = 0;
     for (const double value : column) {
+      if (std::isnan(value)) continue;
+      ++num_readings;
       found.num_rows += IsWithin(inputs[i], value) ? 0 : 1;
+      found.min = std::min(found.min, value);
+      found.max = std::max(found.max, value);
     }
     if (found.num_rows == 0) continue;
-    found.min = column.minCoeff();
-    found.max = column.maxCoeff();
-    if (2 * found.num_rows > values.rows()) {
+    if (2 * found.num_rows > num_readings) {
       found.looks_like = LooksLike(inputs[i], found.min, found.max);
     }
     outside.push_back(std::move(found));

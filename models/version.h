@@ -2,7 +2,7 @@
 
 namespace errmap::models {
 
-/// Version of errmap, written into every output.
+/// Returns the version of errmap, which every output contains.
 const char* Version();
 
 }  // namespace errmap::models

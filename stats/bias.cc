@@ -1,12 +1,12 @@
 #include "stats/bias.h"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "stats/distributions.h"
+#include "stats/not_a_number.h"
 #include "stats/summary.h"
 
 namespace errmap::stats {
@@ -14,8 +14,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 

@@ -15,32 +15,32 @@ struct LevelBias {
   double standard_error = 0.0;  // own sd / sqrt(n); NaN for n < 2
 };
 
-/// Means per level and whether they differ by more than chance.
+/// Means per level, and a test of whether they differ by more than chance.
 struct BiasByLevel {
-  std::vector<LevelBias> levels;  // by code 0, 1, ...; n = 0 where unused
-  /// One-way analysis of variance, F = between / within mean squares; p
-  /// assumes independent normal values of one sd. Needs 2 levels in use, one
-  /// of them with 2 values.
+  std::vector<LevelBias> levels;  // indexed by code; n = 0 for a code not used
+  /// One-way analysis of variance: F = between / within mean squares. p assumes
+  /// independent normal values of one sd. Needs at least 2 levels with values,
+  /// and one level with at least 2 values.
   TestResult anova;
   /// Share of the sum of squares that the level means explain (eta squared).
-  double explained = 0.0;  // NaN where the values do not vary
+  double explained = 0.0;  // NaN if the values do not vary
 };
 
-/// Biases of `values` (n) by level; `codes` (n) are >= 0. Throws
+/// Returns the biases of `values` (n) by level. `codes` (n) are >= 0. Throws
 /// std::invalid_argument unless there are n codes, none negative.
 BiasByLevel ComputeBias(const Eigen::Ref<const Eigen::VectorXd>& values,
                         const std::vector<Eigen::Index>& codes);
 
-/// Codes 0, 1 ... of the distinct values of `at` (n), ascending; `distinct`
-/// gets them (may be null).
+/// Returns a code 0, 1 ... for each value of `at` (n), numbered by ascending
+/// distinct value. `distinct` (may be null) receives the distinct values.
 std::vector<Eigen::Index> CodesOfValues(
     const Eigen::Ref<const Eigen::VectorXd>& at, std::vector<double>* distinct);
 
-/// Does the variance of `residuals` (n) change with `fitted` (n)? Breusch &
-/// Pagan (1979) in Koenker's (1981) studentised form: n R^2 of the regression
-/// of e^2 on the fitted value, p of chi-squared with 1 degree of freedom;
-/// assumes independent residuals, not that they are normal. n >= 4. Throws
-/// std::invalid_argument on sizes that do not agree.
+/// Tests whether the variance of `residuals` (n) changes with `fitted` (n).
+/// Breusch & Pagan (1979) in Koenker's (1981) studentised form: n R^2 of the
+/// regression of e^2 on the fitted value, p from chi-squared with 1 degree of
+/// freedom. Assumes independent residuals, not normal ones. Needs n >= 4.
+/// Throws std::invalid_argument if the sizes differ.
 TestResult BreuschPagan(const Eigen::Ref<const Eigen::VectorXd>& residuals,
                         const Eigen::Ref<const Eigen::VectorXd>& fitted);
 

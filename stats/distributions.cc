@@ -11,6 +11,8 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <boost/version.hpp>
 
+#include "stats/not_a_number.h"
+
 namespace errmap::stats {
 namespace {
 
@@ -41,8 +43,7 @@ double LogNormalCdf(double z) {
 
 double NormalQuantile(double p) {
   if (!(p > 0.0)) {
-    return p == 0.0 ? -std::numeric_limits<double>::infinity()
-                    : std::numeric_limits<double>::quiet_NaN();
+    return p == 0.0 ? -std::numeric_limits<double>::infinity() : kNaN;
   }
   return -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * p, Policy());
 }

@@ -5,11 +5,11 @@
 
 namespace errmap::stats {
 
-/// Standard normal distribution function, relative error a few units in the
-/// last place on both tails.
+/// Standard normal distribution function. Relative error: a few units in the
+/// last place in both tails.
 double NormalCdf(double z);
 
-/// log of NormalCdf, finite for every finite z (an asymptotic series where the
+/// log of NormalCdf, finite for every finite z (by an asymptotic series if the
 /// probability itself underflows).
 double LogNormalCdf(double z);
 
@@ -39,7 +39,7 @@ double StudentQuantile(double p, double degrees_of_freedom);
 /// log n! for n >= 0.
 long double LogFactorial(std::ptrdiff_t n);
 
-/// Version of Boost, whose special functions these are: "1.74.0".
+/// Version of Boost, which computes these functions: "1.74.0".
 std::string BoostVersion();
 
 }  // namespace errmap::stats

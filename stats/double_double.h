@@ -11,16 +11,16 @@ namespace errmap::stats {
 /// A number as the unevaluated sum hi + lo of two doubles, |lo| at most half a
 /// unit in the last place of hi: 106 bits, the range of double.
 ///
-/// Sums after Knuth, products after Dekker, results renormalised (Hida, Li &
-/// Bailey, ARITH-15, 2001); relative errors of a few 2^-104. Exact rounding of
-/// every single operation is relied on: no -ffast-math, no contraction. An
+/// Addition by Knuth, multiplication by Dekker, results renormalised (Hida, Li
+/// & Bailey, ARITH-15, 2001). Relative error: a few 2^-104. Relies on exact
+/// rounding of every operation: no -ffast-math, no contraction. Usable as an
 /// Eigen scalar.
 struct DoubleDouble {
   double hi = 0.0;
   double lo = 0.0;
 
   constexpr DoubleDouble() = default;
-  // Implicit, as from int to double: formulas mix both.
+  // Implicit, as from int to double: formulas mix both types.
   constexpr DoubleDouble(double value) : hi(value) {}
   constexpr DoubleDouble(double high, double low) : hi(high), lo(low) {}
 
@@ -45,13 +45,13 @@ inline DoubleDouble TwoSum(double a, double b) {
   return {sum, (a - (sum - part)) + (b - part)};
 }
 
-// a + b exactly where |a| >= |b|.
+// a + b exactly if |a| >= |b|.
 inline DoubleDouble QuickTwoSum(double a, double b) {
   const double sum = a + b;
   return {sum, b - (sum - a)};
 }
 
-// a b exactly, but for overflow and underflow.
+// a b exactly, unless it overflows or underflows.
 inline DoubleDouble TwoProduct(double a, double b) {
   const double product = a * b;
   return {product, std::fma(a, b, -product)};
@@ -63,7 +63,7 @@ inline DoubleDouble operator-(const DoubleDouble& a) { return {-a.hi, -a.lo}; }
 
 inline DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
   DoubleDouble high = internal::TwoSum(a.hi, b.hi);
-  // Without this, inf - inf in the error would make a NaN of an infinity.
+  // Without this, inf - inf in the error term would turn an infinity into NaN.
   if (!std::isfinite(high.hi)) return high.hi;
   const DoubleDouble low = internal::TwoSum(a.lo, b.lo);
   high = internal::QuickTwoSum(high.hi, high.lo + low.hi);
@@ -118,9 +118,9 @@ inline bool operator>=(const DoubleDouble& a, const DoubleDouble& b) {
   return b <= a;
 }
 
-// Found by argument-dependent lookup where a formula says "using std::exp" and
-// by Eigen, which is why they are not in CamelCase. Outside a function's range
-// the result is what <cmath> gives for hi.
+// Found by argument-dependent lookup after "using std::exp" and by Eigen, hence
+// not in CamelCase. Outside a function's domain the result is that of <cmath>
+// for hi.
 DoubleDouble sqrt(const DoubleDouble& x);
 DoubleDouble exp(const DoubleDouble& x);
 DoubleDouble log(const DoubleDouble& x);
@@ -132,14 +132,14 @@ inline DoubleDouble abs(const DoubleDouble& x) { return x.hi < 0.0 ? -x : x; }
 inline DoubleDouble abs2(const DoubleDouble& x) { return x * x; }
 inline bool isfinite(const DoubleDouble& x) { return std::isfinite(x.hi); }
 
-/// The number that a decimal text such as "-1.25E-03" stands for, to 106 bits
-/// rather than the nearest double. Throws std::invalid_argument where `text` is
-/// anything else.
+/// Returns the number written in a decimal text such as "-1.25E-03", to 106
+/// bits instead of the nearest double. Throws std::invalid_argument if `text`
+/// is not a decimal number.
 DoubleDouble ParseDoubleDouble(std::string_view text);
 
-/// The shortest decimal that reads back to `x`, to 106 bits: the number that a
-/// file said from which `x` was read, and never more than half a unit in the
-/// last place away from `x`. What is not finite stays as it is.
+/// Returns the shortest decimal that reads back as `x`, to 106 bits: the number
+/// in the file from which `x` was read, at most half a unit in the last place
+/// from `x`. Returns `x` itself if it is not finite.
 DoubleDouble DecimalOf(double x);
 
 }  // namespace errmap::stats

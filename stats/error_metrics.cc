@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "stats/not_a_number.h"
 #include "stats/power_of_two.h"
 
 namespace errmap::stats {
@@ -28,6 +29,11 @@ double RootMeanSquare(const Eigen::Ref<const Eigen::VectorXd>& residuals) {
   return RootMeanSquare(residuals, CompensatedSum(residuals.cwiseAbs2()));
 }
 
+double GeometricMean(const Eigen::Ref<const Eigen::VectorXd>& sizes) {
+  constexpr double kLeast = std::numeric_limits<double>::min();
+  return std::exp(sizes.array().max(kLeast).log().mean());
+}
+
 ErrorMetrics ComputeErrorMetrics(
     const Eigen::Ref<const Eigen::VectorXd>& targets,
     const Eigen::Ref<const Eigen::VectorXd>& residuals,
@@ -49,8 +55,7 @@ ErrorMetrics ComputeErrorMetrics(
   metrics.rmse = RootMeanSquare(residuals, squared_error);
   metrics.mae = CompensatedSum(magnitudes) / n;
   const double total = CompensatedSum(spread);
-  metrics.r2 = total > 0.0 ? 1.0 - squared_error / total
-                           : std::numeric_limits<double>::quiet_NaN();
+  metrics.r2 = total > 0.0 ? 1.0 - squared_error / total : kNaN;
   return metrics;
 }
 

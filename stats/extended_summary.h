@@ -6,26 +6,26 @@
 
 namespace errmap::stats {
 
-/// Mean, sd (divisor n - 1) and autocorrelation at lag 1,
-/// sum d_i d_(i+1) / sum d_i^2, of a sample kept to 106 bits: the digits of
-/// decimals far from zero that their nearest doubles have lost.
+/// Mean, sd (divisor n - 1) and autocorrelation at lag 1, sum d_i d_(i+1) / sum
+/// d_i^2, of a sample held to 106 bits. Keeps the digits of decimals far from
+/// zero that their nearest doubles lose.
 struct ExtendedSummary {
   DoubleDouble mean;
   DoubleDouble sd;
   DoubleDouble autocorrelation;
-  /// sqrt(1 + (mean / sd)^2), by which relative errors of the data grow in the
-  /// sd (Chan & Lewis 1979).
+  /// Condition number of the sd, sqrt(1 + (mean / sd)^2): the factor from
+  /// relative errors of the data to those of the sd (Chan & Lewis 1979).
   double condition = 0.0;
 };
 
-/// Two-pass summary of `sample` (n >= 2); throws std::invalid_argument for
-/// fewer values.
+/// Returns the two-pass summary of `sample`. Throws std::invalid_argument if n
+/// < 2.
 ExtendedSummary SummarizeExtended(
     const Eigen::Ref<const Eigen::Matrix<DoubleDouble, Eigen::Dynamic, 1>>&
         sample);
 
-/// The autocorrelation at lag 1 of double data (n >= 2), the sums compensated.
-/// NaN where all are equal; throws std::invalid_argument for fewer values.
+/// Returns the autocorrelation at lag 1 of double data, with compensated sums.
+/// NaN if all values are equal. Throws std::invalid_argument if n < 2.
 double LagOneAutocorrelation(const Eigen::Ref<const Eigen::VectorXd>& sample);
 
 }  // namespace errmap::stats

@@ -1,22 +1,17 @@
 #include "stats/f_test.h"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
+#include "stats/not_a_number.h"
+
 namespace errmap::stats {
-namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
-
 double FTestPValue(double f, double df1, double df2) {
-  if (std::isnan(f) || !(df1 > 0.0) || !(df2 > 0.0)) return kNan;
+  if (std::isnan(f) || !(df1 > 0.0) || !(df2 > 0.0)) return kNaN;
   if (f <= 0.0) return 1.0;
   if (std::isinf(f)) return 0.0;
   return boost::math::cdf(
@@ -24,7 +19,7 @@ double FTestPValue(double f, double df1, double df2) {
 }
 
 double StudentTwoSidedP(double t, double df) {
-  if (std::isnan(t) || !(df > 0.0)) return kNan;
+  if (std::isnan(t) || !(df > 0.0)) return kNaN;
   if (std::isinf(t)) return 0.0;
   return 2.0 * boost::math::cdf(boost::math::complement(
                    boost::math::students_t(df), std::abs(t)));
@@ -37,7 +32,7 @@ double StudentTwoSidedQuantile(double confidence, double df) {
         "found " +
         std::to_string(confidence));
   }
-  if (!(df > 0.0)) return kNan;
+  if (!(df > 0.0)) return kNaN;
   return boost::math::quantile(boost::math::complement(
       boost::math::students_t(df), 0.5 * (1.0 - confidence)));
 }

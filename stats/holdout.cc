@@ -4,11 +4,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
+#include "stats/indices.h"
 #include "stats/random.h"
 
 namespace errmap::stats {
@@ -64,11 +64,7 @@ std::vector<std::vector<Index>> CutIntoRuns(const std::vector<Index>& items,
   return runs;
 }
 
-std::vector<Index> Range(Index size) {
-  std::vector<Index> indices(static_cast<std::size_t>(size));
-  std::iota(indices.begin(), indices.end(), Index{0});
-  return indices;
-}
+std::vector<Index> Range(Index size) { return AllIndices(size); }
 
 // Splits rows by a flag per row: true = test.
 Fold FoldOf(const std::vector<bool>& is_test) {

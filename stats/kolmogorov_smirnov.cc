@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "stats/distributions.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::stats {
 
@@ -13,10 +13,10 @@ double KsDistanceFromNormal(const Eigen::Ref<const Eigen::VectorXd>& sample,
                             double mean,
                             double sd) {
   const Eigen::Index n = sample.size();
-  if (n == 0 || !(sd > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  if (n == 0 || !(sd > 0.0)) return kNaN;
   Eigen::VectorXd sorted = (sample.array() - mean) / sd;
   // A NaN has no place in an order.
-  if (sorted.hasNaN()) return std::numeric_limits<double>::quiet_NaN();
+  if (sorted.hasNaN()) return kNaN;
   std::sort(sorted.begin(), sorted.end());
   return KsDistanceFromStandardNormal(sorted);
 }
@@ -41,7 +41,7 @@ double KsProbabilityMeanSdGiven(double d, Eigen::Index n) {
 double KolmogorovComplement(double lambda) {
   if (std::isnan(lambda)) return lambda;
   if (lambda <= 0.0) return 1.0;
-  // Where the two forms are equally fast; each term falls steeply there.
+  // The two forms are equally fast here, where each term falls steeply.
   constexpr double kCrossover = 1.0;
   if (lambda < kCrossover) {
     // 1 - sqrt(2 pi)/lambda sum_k exp(-(2k-1)^2 pi^2 / (8 lambda^2)).

@@ -4,19 +4,20 @@
 
 namespace errmap::stats {
 
-/// Digits that certified values of the NIST StRD sets can confirm: they are
-/// given to 11 digits (nonlinear) and to 15 (linear, univariate).
+/// Digits to which NIST StRD sets are certified: 11 (nonlinear) and 15 (linear,
+/// univariate).
 inline constexpr double kLreCapNonlinear = 11.0;
 inline constexpr double kLreCapLinear = 15.0;
 
-/// Agreeing digits of `value` with `certified`, McCullough's log relative error
-/// (The American Statistician 52, 1998): -log10(|x - c| / |c|), with |x - c|
-/// where c = 0; at most `cap`, which equal numbers get; 0 where negative or
-/// either number is not finite. Throws std::invalid_argument unless cap > 0.
+/// Returns the number of digits in which `value` agrees with `certified`:
+/// McCullough's log relative error (The American Statistician 52, 1998),
+/// -log10(|x - c| / |c|), or -log10 |x - c| if c = 0. Clamped to [0, `cap`];
+/// `cap` if equal, 0 if one is not finite. Throws std::invalid_argument unless
+/// cap > 0.
 double LogRelativeError(double value, double certified, double cap);
 
-/// Smallest LogRelativeError over the elements of two vectors (n >= 1). Throws
-/// std::invalid_argument unless both have the same n >= 1.
+/// Returns the smallest LogRelativeError over the elements of two vectors.
+/// Throws std::invalid_argument unless both have the same n >= 1.
 double SmallestLogRelativeError(
     const Eigen::Ref<const Eigen::VectorXd>& values,
     const Eigen::Ref<const Eigen::VectorXd>& certified,

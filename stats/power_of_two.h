@@ -1,20 +1,20 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 
 #include <Eigen/Core>
 
+#include "stats/not_a_number.h"
+
 namespace errmap::stats {
 
-/// The power of two that brings the largest of `values` (n) to between 1 and 2
-/// where they are divided by it, which is exact: squares of very large or small
-/// values are lost. NaN where all are 0 or one is not finite.
+/// Returns a power of two: dividing `values` (n) by it is exact and brings the
+/// largest into [1, 2). Else squares of very large or small values are lost.
+/// NaN if all are 0 or one is not finite.
 inline double PowerOfTwoOf(const Eigen::Ref<const Eigen::VectorXd>& values) {
   const double size = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0;
-  return size > 0.0 && std::isfinite(size)
-             ? std::scalbn(1.0, std::ilogb(size))
-             : std::numeric_limits<double>::quiet_NaN();
+  return size > 0.0 && std::isfinite(size) ? std::scalbn(1.0, std::ilogb(size))
+                                           : kNaN;
 }
 
 }  // namespace errmap::stats

@@ -8,18 +8,22 @@
 namespace errmap::stats {
 
 /// Random numbers that are the same with every standard library: the engine is
-/// the standard's mt19937_64, the mappings are ours.
+/// the standard mt19937_64, the mappings are our own.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
 
-  /// Uniform in [0, 1): the upper 53 bits.
+  /// Returns a uniform value in [0, 1), from the upper 53 bits.
   double Uniform() {
     constexpr double kUnit = 0x1.0p-53;
     return static_cast<double>(engine_() >> 11) * kUnit;
   }
 
-  /// Uniform in 0 .. bound-1 without bias (rejection); bound > 0.
+  /// Returns a standard normal value: the quantile of the middle of the step in
+  /// which Uniform() lies, so always finite.
+  double Normal();
+
+  /// Returns a uniform integer below `bound` > 0, without bias (rejection).
   std::uint64_t Below(std::uint64_t bound) {
     // The largest multiple of bound that fits: draws above it are unfair.
     const std::uint64_t unfair = (0 - bound) % bound;
@@ -28,7 +32,7 @@ class Random {
     return draw % bound;
   }
 
-  /// Fisher-Yates.
+  /// Shuffles `items` (Fisher-Yates).
   template <typename T>
   void Shuffle(std::vector<T>& items) {
     for (std::size_t i = items.size(); i > 1; --i) {

@@ -8,6 +8,8 @@
 #include <string>
 
 #include "stats/distributions.h"
+#include "stats/not_a_number.h"
+#include "stats/order_statistic.h"
 #include "stats/random.h"
 #include "stats/two_sample_ks.h"
 
@@ -183,10 +185,7 @@ Index NumLags(const Segments& segments) {
   }
   std::vector<Index> lengths;
   for (const VectorXd& segment : segments) lengths.push_back(segment.size());
-  std::nth_element(lengths.begin(),
-                   lengths.begin() + static_cast<Index>(lengths.size() / 2),
-                   lengths.end());
-  return std::clamp<Index>(lengths[lengths.size() / 2] / 2, 1, kMostLags);
+  return std::clamp<Index>(UpperMedian(std::move(lengths)) / 2, 1, kMostLags);
 }
 
 TestResult TestLjungBox(const Segments& deviations, Index num_lags) {
@@ -306,7 +305,7 @@ SerialShuffles ShuffleSerially(const Segments& segments,
   const auto share = [draws](const TestResult& test, Index extreme) {
     return test.ok() ? static_cast<double>(extreme) /
                            (static_cast<double>(draws) + 1.0)
-                     : std::numeric_limits<double>::quiet_NaN();
+                     : kNaN;
   };
   return {.draws = draws,
           .runs = share(observed.runs, runs),

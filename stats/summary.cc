@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
+#include "stats/not_a_number.h"
 #include "stats/power_of_two.h"
 
 namespace errmap::stats {
 namespace {
-
-constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
 // Neumaier's running sum: the rounding error of each addition is collected.
 class RunningSum {
@@ -43,7 +41,7 @@ SampleSummary Summarize(const Eigen::Ref<const Eigen::VectorXd>& sample) {
   summary.n = sample.size();
   if (summary.n == 0) {
     summary.mean = summary.sd = summary.min = summary.max = summary.range =
-        kUndefined;
+        kNaN;
     return summary;
   }
   const double n = static_cast<double>(summary.n);
@@ -59,7 +57,7 @@ SampleSummary Summarize(const Eigen::Ref<const Eigen::VectorXd>& sample) {
     deviations.Add(deviation);
   }
   if (summary.range > 0.0 && !std::isnormal(squares.value())) {
-    // Of values whose squares are no numbers: found of those brought to size 1.
+    // For values whose squares overflow: computed on values scaled to size 1.
     const double scale = PowerOfTwoOf(sample);
     if (std::isfinite(scale) && scale != 1.0) {
       const SampleSummary scaled = Summarize(sample / scale);
@@ -74,7 +72,7 @@ SampleSummary Summarize(const Eigen::Ref<const Eigen::VectorXd>& sample) {
   const double sum_of_squares =
       squares.value() - deviations.value() * mean_error;
   summary.sd = summary.n < 2
-                   ? kUndefined
+                   ? kNaN
                    : std::sqrt(std::max(0.0, sum_of_squares) / (n - 1.0));
   return summary;
 }
@@ -95,6 +93,14 @@ Eigen::VectorXd Standardise(const Eigen::Ref<const Eigen::VectorXd>& sample) {
   return (scaled.array() - summary.mean) / summary.sd;
 }
 
+double Correlation(const Eigen::Ref<const Eigen::VectorXd>& a,
+                   const Eigen::Ref<const Eigen::VectorXd>& b) {
+  constexpr double kLeast = 1e-300;
+  const Eigen::VectorXd u = a.array() - a.mean();
+  const Eigen::VectorXd v = b.array() - b.mean();
+  return u.dot(v) / std::max(u.norm() * v.norm(), kLeast);
+}
+
 double Quantile(const Eigen::Ref<const Eigen::VectorXd>& ascending,
                 double probability) {
   if (!(probability >= 0.0 && probability <= 1.0)) {
@@ -103,7 +109,7 @@ double Quantile(const Eigen::Ref<const Eigen::VectorXd>& ascending,
         std::to_string(probability));
   }
   const Eigen::Index n = ascending.size();
-  if (n == 0) return kUndefined;
+  if (n == 0) return kNaN;
   const double at = probability * static_cast<double>(n - 1);
   const auto below = static_cast<Eigen::Index>(at);
   const Eigen::Index above = std::min(below + 1, n - 1);

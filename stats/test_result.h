@@ -1,24 +1,25 @@
 #pragma once
 
-#include <limits>
 #include <string>
 #include <utility>
 
+#include "stats/not_a_number.h"
+
 namespace errmap::stats {
 
-/// Outcome of one statistical test: a statistic and its probability, or the
+/// Result of one statistical test: a statistic and its probability, or the
 /// reason why there is none.
 struct TestResult {
-  double statistic = std::numeric_limits<double>::quiet_NaN();
+  double statistic = kNaN;
   /// Probability, under the null hypothesis, of a statistic at least as
-  /// extreme; NaN where only the statistic applies.
-  double p = std::numeric_limits<double>::quiet_NaN();
-  std::string why_not = {};  // "" where the statistic applies
+  /// extreme. NaN if there is only a statistic.
+  double p = kNaN;
+  std::string why_not = {};  // "" if the statistic applies
 
   bool ok() const { return why_not.empty(); }
 };
 
-/// A test that does not apply, and why.
+/// Returns the result of a test that does not apply, with the reason.
 inline TestResult NotApplicable(std::string why) {
   TestResult result;
   result.why_not = std::move(why);

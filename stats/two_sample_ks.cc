@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <stdexcept>
 #include <vector>
 
 #include "stats/kolmogorov_smirnov.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::stats {
 namespace {
@@ -45,8 +45,8 @@ Distance FindDistance(const VectorXd& a, const VectorXd& b) {
   return distance;
 }
 
-// Probability that a random path from (0, 0) to (n, m) reaches the distance
-// where it may count; all terms positive, so small ones keep their digits.
+// Probability that a random path from (0, 0) to (n, m) reaches the distance at
+// a point that counts. All terms are positive, so small ones keep their digits.
 double PathsThatReach(const Distance& distance, Index n, Index m) {
   const auto reached = [&](Index i, Index j) {
     return distance.ends_tie[static_cast<std::size_t>(i + j)] &&
@@ -95,7 +95,7 @@ TwoSampleKs ComputeTwoSampleKs(const Eigen::Ref<const VectorXd>& a,
       KolmogorovComplement(std::sqrt(n * m / (n + m)) * result.d);
   result.p_exact = n * m <= kMostPairsForExactKs
                        ? PathsThatReach(distance, a.size(), b.size())
-                       : std::numeric_limits<double>::quiet_NaN();
+                       : kNaN;
   return result;
 }
 

@@ -56,11 +56,13 @@ gallery)
 developers)
   pages="README.md cli/desk/README.md models/README.md
   models/polynomial/README.md models/net/README.md models/history/README.md
-  models/study/README.md models/promise/README.md models/promise/measured.md
+  models/study/README.md models/uncertainty/README.md \
+  models/uncertainty/measured.md models/session/README.md \
+  models/session/measured.md
   models/export/README.md
-  models/certification/README.md models/netcg/README.md
+  models/certification/README.md cli/netcg/README.md
   data/sets/nistir5367_xdisp_down.md data/sets/turning_centre/README.md
-  data/turning_centre/README.md
+  cli/turning_centre/README.md
   data/sets/nistir5367_appendix_b.md data/sets/machines/README.md"
   ;;
 *)

@@ -4,8 +4,8 @@
     additions_test.py SOURCE_FOLDER BUILD_FOLDER CMAKE
 
 Each patch of additions/ adds one, in as many files as the READMEs of the rooms
-say. A column, a format of tables, a hold-out, a certified problem and a filter of
-a map's memory are applied to a copy of the sources and the program is built with them: the rooms whose sources they edit are compiled anew and linked before the
+say. A column, a format of tables, a hold-out, a certified problem, a filter of
+a map's memory and a remark on the recommended map are applied to a copy of the sources and the program is built with them: the rooms whose sources they edit are compiled anew and linked before the
 libraries of BUILD_FOLDER, which is made by Ninja with its rooms together (else
 skipped, status 77; so where there is no patch(1)). Rooms that only include an
 edited header are not: an enumerator or a declaration more at its end changes
@@ -39,7 +39,7 @@ import tempfile
 SKIPPED = 77
 # Files that each addition may edit or make, beside READMEs.
 MOST_FILES = {"column": 1, "format": 1, "holdout": 3, "problem": 2,
-              "filter": 4}
+              "filter": 4, "remark": 1}
 # Likewise, without what they make, and the headers of their lists.
 OF_STRUCTS = {"option": (3, "cli/desk/study_options.h"),
               "family": (6, "models/file/map_members_json.h")}
@@ -69,6 +69,13 @@ def cached(build, name):
     text = (build / "CMakeCache.txt").read_text()
     found = re.search(rf"^{name}:[^=]*=(.*)$", text, re.M)
     return found[1] if found else ""
+
+
+def compile_objects(ninja, build, objects):
+    """The suite forbids the program its cache; the compiler may have its own."""
+    environment = {name: value for name, value in os.environ.items()
+                   if name != "XDG_CACHE_HOME"}
+    run(ninja, "-C", build, "-j2", *objects, env=environment)
 
 
 def copy_of_program(source, folder):
@@ -138,10 +145,7 @@ def build_program(folder, build, cmake, edited):
                           run(ninja, "-C", anew, "-t", "targets", "all"), re.M)
     expect(0 < len(objects) <= len(sources) + 1,
            f"compiles {objects} of {sources}")
-    # The suite forbids the program its cache; the compiler may have its own.
-    os.environ.pop("XDG_CACHE_HOME", None)
-    run(ninja, "-C", anew, "-j2", *objects)
-    os.environ["XDG_CACHE_HOME"] = "/dev/null"
+    compile_objects(ninja, anew, objects)
     program = folder / "errmap"
     link = run(ninja, "-C", build, "-t", "commands", "errmap").splitlines()[-1]
     before, after = link.split(" -o errmap ")
@@ -219,6 +223,15 @@ def check_problem(program):
                    found["lre_rss"]) >= 10.0, str(found))
 
 
+def check_remark(program, table):
+    common = [program, "compare", table, "--models", "mean,poly:eq8", "--quiet"]
+    expect("  largest error    " in run(*common, "--details"), "no remark")
+    record = json.loads(run(*common, "--format", "json"))
+    expect(any(reason.startswith("Largest error: ") for reason in
+               record["components"][0]["recommendation"]["reasons"]),
+           "no reason")
+
+
 def check_filter(program, folder):
     """A map with one lag made a lead predicts what that is by hand, and its
     exported program does."""
@@ -282,6 +295,7 @@ def main():
         check_format(program, table)
         check_holdout(program, table)
         check_problem(program)
+        check_remark(program, table)
         check_filter(program, folder)
     with tempfile.TemporaryDirectory() as scratch:
         units = check_structs(source, pathlib.Path(scratch), build, sys.argv[3])

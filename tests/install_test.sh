@@ -201,12 +201,12 @@ rm -r lib s theirs.json
 
 # Schemas.
 count=0
-for schema in "$root"/cli/schemas/*.json; do
+for schema in "$root"/cli/*/*.schema.json; do
   count=$((count + 1))
   cmp -s "$schema" "$share/schemas/$(basename "$schema")" ||
     fail "$(basename "$schema") is not installed"
 done
-[ "$count" -ge 4 ] || fail "only $count schemas in cli/schemas"
+[ "$count" -ge 4 ] || fail "only $count schemas in cli"
 
 # The manual, where it could be made.
 if [ -e "$build/manual/index.html" ]; then

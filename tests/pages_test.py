@@ -8,6 +8,7 @@ of folders keep to what a developer needs. With --list the sentences of each
 page are counted, and nothing is judged.
 """
 
+import os
 import pathlib
 import re
 import sys
@@ -161,7 +162,12 @@ def main(root, listed):
     files = [str(p.relative_to(root)) for p in root.rglob("*") if p.is_file()
              and not p.relative_to(root).parts[0].startswith(("build", ".git"))]
     pages = sorted(root / f for f in files if f.endswith(".md"))
-    manual = [p for p in pages if p.parent == root / "cli" / "manual"]
+    listed_pages = (root / "cli/manual/pages.cmake").read_text()
+    names = re.search(r"set\(manual_pages(.*?)\)", listed_pages,
+                      flags=re.S).group(1).split()
+    here = root / "cli/manual"
+    manual = [p for p in pages if p.parent == here] + \
+             [(here / f"{name}.md").resolve() for name in names if "/" in name]
     users = [root / "README.md", root / "data/sets/examples.md"] + manual
     for page in pages:
         check_links(root, page, problems)
@@ -173,15 +179,13 @@ def main(root, listed):
     check_length(root, root / "README.md", README_LINES, problems)
     for page in users:
         check_sentences(root, page, problems, listed)
-    listed_pages = (root / "cli/manual/pages.cmake").read_text()
-    names = re.search(r"set\(manual_pages(.*?)\)", listed_pages,
-                      flags=re.S).group(1).split()
     for page in manual:
         check_code(root, page, problems)
-        if page.name != "README.md" and page.stem not in names:
+        name = os.path.relpath(page.with_suffix(""), here)
+        if name != "README" and name not in names:
             problems.append(f"{page.name} is not in pages.cmake")
-        if page.name != "README.md" and \
-                f"]({page.name})" not in (page.parent / "README.md").read_text():
+        if name != "README" and \
+                f"]({name}.md)" not in (here / "README.md").read_text():
             problems.append(f"cli/manual/README.md does not lead to {page.name}")
     stories = re.findall(r"^## \d+\.",
                          (root / "data/sets/examples.md").read_text(),

@@ -18,6 +18,7 @@
 #include "cli/shell/standard_streams.h"
 #include "data/files/shown_path.h"
 #include "data/measurements/joined_tables.h"
+#include "data/measurements/reading/reading.h"
 #include "models/model_spec.h"
 #include "models/recipe_catalog.h"
 #include "models/study/journal/kept_fits.h"
@@ -195,6 +196,7 @@ data::PreparedDataset ReadData(const DataArguments& arguments) {
   SayUnless(arguments.quiet, read.remarks);
   data::PreparedDataset prepared =
       data::MakeDataset(read.table, arguments.selection);
+  SayUnless(arguments.quiet, data::ReadingLines(prepared.reading));
   SayUnless(arguments.quiet, prepared.remarks);
   SayUnless(arguments.quiet,
             report::FaultLines(

@@ -21,27 +21,27 @@ class App;
 
 namespace errmap::cli {
 
-/// What a command is told about the data files.
+/// Arguments of a command about its data files.
 struct DataArguments {
-  std::vector<std::string> files;  // or folders
+  std::vector<std::string> files;  // or folders of files
   data::DatasetSelection selection;
   bool quiet = false;
 
-  /// What the command reads: these files and `others`.
+  /// Returns all paths that the command reads: these files and `others`.
   std::vector<std::string> PathsWith(std::vector<std::string> others) const;
 };
 
-/// "--keep-dead" of "keep_dead".
+/// Returns the flag of a study file's key: "--keep-dead" for "keep_dead".
 std::string FlagOf(std::string_view key);
 
-/// Visitor of a list of cli/desk/study_options.h: adds the flag of each option
-/// to a command. The members must outlive it.
+/// Visits a list of cli/desk/study_options.h and adds the flag of each option
+/// to a command. The visited members must outlive the command.
 class FlagAdder {
  public:
   explicit FlagAdder(CLI::App* command) : command_(command) {}
 
   void operator()(const desk::StudyOption& option, std::string& text) const;
-  /// Separated by commas.
+  /// The flag takes names separated by commas.
   void operator()(const desk::StudyOption& option,
                   std::vector<std::string>& names) const;
   void operator()(const desk::StudyOption& option, bool& flag) const;
@@ -64,52 +64,57 @@ class FlagAdder {
 /// Adds DATA.csv and its options to a command.
 void AddDataArguments(CLI::App* command, DataArguments* arguments);
 
-/// Reads the files and picks their columns; remarks go to stderr unless quiet.
+/// Reads the files and selects their columns. Remarks go to stderr unless
+/// quiet.
 data::PreparedDataset ReadData(const DataArguments& arguments);
 
-/// --missing and --faults, as commands that read measurements have them.
+/// Adds --missing and --faults to a command that reads measurements.
 void AddRowOptions(CLI::App* command,
                    data::MissingPolicy* missing,
                    data::FaultPolicy* faults);
 
 /// Adds --after, --time and --session to a command.
 void AddMapLogArguments(CLI::App* command, models::MapLogArguments* arguments);
-/// --from-rest, where rows are predicted.
+/// Adds --from-rest to a command that predicts rows.
 void AddFromRest(CLI::App* command, models::MapLogArguments* arguments);
 
-/// "2um" or "0.002" of a flag that was given; throws UsageError naming `flag`.
+/// Parses the value of `flag`, such as "2um" or "0.002". Throws UsageError
+/// naming `flag`.
 desk::GivenError ErrorOfFlag(const char* flag,
                              const std::optional<std::string>& text,
                              bool may_be_zero);
 
-/// --goal in the target's unit, NaN where none is given. Throws UsageError.
+/// Returns --goal in the target's unit, or NaN if it is not given. Throws
+/// UsageError.
 double GoalOrNone(const std::optional<std::string>& goal,
                   const data::Unit& target);
 
-/// --jobs, or where it is 0 the processors of the machine.
+/// Returns --jobs, or the number of the machine's processors if it is 0.
 int JobsOf(int jobs);
 
-/// Recipe of a SPEC; throws UsageError where it is wrong.
+/// Returns the recipe of a SPEC. Throws UsageError if the SPEC is wrong.
 std::unique_ptr<models::ModelRecipe> RecipeFromArgument(
     const std::string& spec);
 
-/// Says something about the run on stderr: "errmap: ...".
+/// Writes a message about the run to stderr: "errmap: ...".
 void Say(const std::string& line);
-/// Each of `lines`, unless `quiet`.
+/// Says each of `lines`, unless `quiet`.
 void SayUnless(bool quiet, const std::vector<std::string>& lines);
-/// Say, or nothing where `quiet`.
+/// Returns Say, or an empty function if `quiet`.
 std::function<void(const std::string&)> Sayer(bool quiet);
 
-/// --keep-paths, which the program looks for before any command does.
+/// Adds --keep-paths to the help. The program itself reads it, before any
+/// command runs.
 void AddKeepPathsFlag(CLI::App* command);
 
-/// --no-cache: `cache` is models::DefaultCacheFolder() without it, else "".
+/// Adds --no-cache. Without the flag `cache` is models::DefaultCacheFolder(),
+/// with it "".
 void AddCacheFlag(CLI::App* command, std::string* cache);
 
-/// --force, which lets a command replace files that errmap did not write.
+/// Adds --force, which lets a command replace files that errmap did not write.
 void AddForceFlag(CLI::App* command, bool* force);
 
-/// --seed N, a whole number from 0.
+/// Adds --seed N, a whole number from 0.
 void AddSeedOption(CLI::App* command,
                    std::uint64_t* seed,
                    const std::string& what = "Seed of all random choices");

@@ -8,11 +8,11 @@ class App;
 
 namespace errmap::cli {
 
-/// --format table|json, as commands without more formats have it.
+/// Adds --format table|json, for commands without more formats.
 void AddFormatOption(CLI::App* command, std::string* format);
 
-/// --format table|json and the formats of report/table.h; `words` say what is
-/// printed.
+/// Adds --format with table, json and the formats of report/table.h. `words`
+/// explain the option in the help.
 void AddTableFormatOption(CLI::App* command,
                           const std::string& words,
                           std::string* format);

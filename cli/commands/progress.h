@@ -8,26 +8,27 @@
 
 namespace errmap::cli {
 
-/// What is done so far, for people who wait.
+/// The state of a run, for people who wait.
 struct ProgressState {
   int done = 0;
   int all = 0;
   double seconds = 0.0;  // since the start
-  /// Seconds that it will still take; NaN: as the fits done did, once a
-  /// twentieth is done, since before that it is a guess.
+  /// Seconds left. NaN: estimated from the finished fits, once a twentieth of
+  /// all is done; before that it would be a guess.
   double left = std::numeric_limits<double>::quiet_NaN();
-  std::string best = {};     // model so far and its error; "": none yet
-  std::string holdout = {};  // that it is the best under
+  std::string best = {};     // best model so far, its error; "": none yet
+  std::string holdout = {};  // the hold-out under which it is the best
   const char* what = "fits";
 };
 
-/// "112/238 fits, 12.3 s, about 14 s left, best so far poly:eq8 1.9 um
-/// (groups:5)", at most `width` columns: what matters less is left out first.
+/// Returns "112/238 fits, 12.3 s, about 14 s left, best so far poly:eq8 1.9 um
+/// (groups:5)" in at most `width` columns. Omits the least important parts
+/// first.
 std::string ProgressText(const ProgressState& state, std::size_t width);
 
-/// Says on stderr how far fits are: on a terminal a bar, elsewhere a plain line
-/// every ten seconds, so that short runs say nothing. Safe to call from any
-/// thread.
+/// Shows the progress of fits on stderr: a bar on a terminal, elsewhere a plain
+/// line every ten seconds, so that short runs say nothing. Safe to call from
+/// any thread.
 class Progress {
  public:
   explicit Progress(bool enabled);
@@ -35,7 +36,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// `state.seconds` is filled in.
+  /// Shows the state; fills in `state.seconds` itself.
   void Show(ProgressState state);
 
  private:

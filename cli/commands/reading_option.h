@@ -6,9 +6,9 @@
 
 namespace errmap::cli {
 
-/// Makes `selection` name what the reading in a file names (`errmap read
-/// --format json`): columns, sign, units and the pause that parts sessions.
-/// Throws data::InputError where the file is no reading.
+/// Copies a reading from a file (`errmap read --format json`) to `selection`:
+/// columns, sign, units and the pause that separates sessions. Throws
+/// data::InputError if the file is not a reading.
 void TakeReading(const std::string& path, data::DatasetSelection* selection);
 
 }  // namespace errmap::cli

@@ -22,6 +22,7 @@
 #include "data/files/shown_path.h"
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
+#include "data/measurements/column_roles.h"
 #include "data/measurements/dataset.h"
 #include "data/text.h"
 #include "models/study/record/making/fit_blocks.h"
@@ -173,8 +174,9 @@ models::ResidualInputs ReadInputs(const ResidualsArguments& arguments) {
   std::string group = arguments.group;
   if (!group.empty()) {
     data::RequireColumn(table, group, "--group");
-  } else if (table.Find("cycle") >= 0 && arguments.column != "cycle") {
-    group = "cycle";
+  } else if (const std::ptrdiff_t cycle = data::CycleColumn(table);
+             cycle >= 0 && arguments.column != table.At(cycle).name) {
+    group = table.At(cycle).name;
   }
   if (!group.empty()) {
     data::Grouping grouping = data::GroupByColumn(table, group, rows);
@@ -380,6 +382,8 @@ void AddResidualsCommand(CLI::App* app, Run* run) {
           arguments->as_printed_1995,
           "Also what the program of NISTIR 5367 prints for them");
   AddFormatOption(command, &arguments->format);
+  SetFooter(command,
+            "Example: errmap residuals study/residuals.csv --column blend");
   OnRun(command, [arguments, run] {
     run->status = RunResiduals(*arguments, run->command_line);
   });

@@ -5,11 +5,11 @@
 
 namespace errmap::desk {
 
-/// A study's configuration by the keys of a study file, for provenance:
+/// Returns a study's configuration by the keys of a study file, for provenance:
 /// {"seed","goal","indifference","holdouts","models",
-/// "component":[{"name","data","where","target",...}]}. Paths are as they are
-/// shown, and what was left to the defaults and could not be decided is left
-/// out, so that no study file need follow from it.
+/// "component":[{"name","data","where","target",...}]}. Paths are as results
+/// show them. Defaults that were not decided are left out, so a study file made
+/// from it may be incomplete.
 models::ConfigurationRecord EffectiveConfiguration(const StudyConfig& config);
 
 }  // namespace errmap::desk

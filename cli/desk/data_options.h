@@ -9,13 +9,13 @@
 
 namespace errmap::desk {
 
-/// The options with which compare, fit and learn read measurements like this:
-/// what differs from the defaults, by the names of a study file, a flag with
-/// an empty value. `where` has none.
+/// Returns the options that make compare, fit and learn read measurements as
+/// `selection` says: those that differ from the defaults, by the keys of a
+/// study file. A flag has an empty value. There is no option for `where`.
 models::ByName<std::string> DataOptions(const data::DatasetSelection& selection,
                                         std::uint64_t seed);
 
-/// Names as --inputs takes them.
+/// Joins names as --inputs takes them.
 std::string NameList(const std::vector<std::string>& names);
 
 }  // namespace errmap::desk

@@ -10,8 +10,8 @@
 
 namespace errmap::desk {
 
-/// A size of errors as people give it: "2um" says its unit, a bare number is
-/// in that of the target, which is known only with the data.
+/// A size of errors as people give it: "2um" has a unit, a bare number is in
+/// the target's unit, which only the data tell.
 struct GivenError {
   double value = std::numeric_limits<double>::quiet_NaN();  // NaN: not given
   data::Unit unit = {};                                     // "": the target's
@@ -22,19 +22,19 @@ struct GivenError {
   std::string Text() const;
 };
 
-/// Of "0.002", "2um", "2 µm", "5arcsec". Throws std::invalid_argument, to
-/// follow the name of what is given: "must be ..., found ...".
+/// Parses "0.002", "2um", "2 µm", "5arcsec". Throws std::invalid_argument with
+/// "must be ..., found ..."; callers put the option's name before it.
 GivenError ParseGivenError(std::string_view text, bool may_be_zero);
 
-/// The value in `target`, NaN where none is given. Throws
-/// std::invalid_argument where it has a unit of another quantity.
+/// Returns the value in `target`, or NaN if none is given. Throws
+/// std::invalid_argument if its unit is of another quantity.
 double InUnitOf(const data::Unit& target, const GivenError& given);
 
-/// Checks the words of --rezero as far as they can be without data. Throws
-/// std::invalid_argument, to follow the name of what is given.
+/// Checks the text of --rezero as far as possible without data. Throws
+/// std::invalid_argument; callers put the option's name before the message.
 void CheckRezero(std::string_view text);
 
-/// The rule, its noise in `target`. Throws std::invalid_argument.
+/// Returns the rule, with its noise in `target`. Throws std::invalid_argument.
 models::RezeroRule RezeroIn(const data::Unit& target, std::string_view text);
 
 }  // namespace errmap::desk

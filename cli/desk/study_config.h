@@ -11,17 +11,17 @@
 
 namespace errmap::desk {
 
-/// Predictions made elsewhere, to stand in the table as model `name`.
+/// Predictions made elsewhere, which enter the table as model `name`.
 struct PredictionsFile {
   std::string name;
   std::string file;
 };
 
-/// One error component to be mapped, as the user asks for it: empty texts and
-/// NaN leave the choice to the defaults (models/study/study_defaults.h).
+/// One error component to be mapped, as the user asks for it. Empty texts and
+/// NaN stand for the defaults (models/study/study_defaults.h).
 struct ComponentConfig {
   std::string name;  // default: the data file's name without its ending
-  std::string data;  // path as it can be opened, of a file or a folder
+  std::string data;  // a file or folder, as it can be opened
   std::vector<std::string> more_data;  // further files of the same component
   data::DatasetSelection selection;    // of the file's rows and columns
   GivenError goal;  // RMSE wanted on held-out rows; default: the study's
@@ -31,18 +31,19 @@ struct ComponentConfig {
   std::string save_split;  // file that gets the folds
   std::vector<PredictionsFile> predictions;
   std::vector<std::string> later;  // sessions that no fit may see
-  /// All that `data` and `more_data` name; may be folders.
+  /// Returns `data` and `more_data`; both may be folders.
   std::vector<std::string> AllData() const {
     std::vector<std::string> all{data};
     all.insert(all.end(), more_data.begin(), more_data.end());
     return all;
   }
-  /// Of a plan: the options by which a command reads the same measurements.
+  /// Set by a plan: the options with which a command reads the same
+  /// measurements.
   models::ByName<std::string> options = {};
 };
 
-/// A study as the user asks for it, on the command line or in a study file,
-/// but for jobs, the folder of results and what is judged besides.
+/// A study as the user asks for it, on the command line or in a study file.
+/// Jobs, the output folder and what slices judge are not part of it.
 struct StudyConfig {
   std::uint64_t seed = 1;
   /// For components without their own; default: none.

@@ -7,34 +7,34 @@
 
 namespace errmap::desk {
 
-/// Of how many components the word of a flag may be true.
+/// To how many components of a study a flag may apply.
 enum class Reach {
   kOne,
-  kMachine,  // one, or all of a machine
+  kAlike,  // one, or several that a slice makes alike
   kAll,
 };
 
 /// An option of a study, wherever it is given.
 struct StudyOption {
-  /// Of study files and results.json; its flag has - for _.
+  /// The key in study files and results.json. The flag has - for _.
   const char* key;
-  const char* value = "";  // what help calls its value; words name themselves
+  const char* value = "";  // placeholder in help; a choice needs none
   const char* help;
   Reach reach = Reach::kAll;
-  bool seldom = false;       // leaves short help
-  bool may_be_zero = false;  // of a size of errors
-  const char* example = "";  // a line of errmap init where nothing was found
-  /// Throws std::invalid_argument where a text (of a list) is wrong without
-  /// data; may be null.
+  bool seldom = false;       // shown only by help with --all
+  bool may_be_zero = false;  // for a size of errors
+  const char* example = "";  // line of errmap init if nothing was found
+  /// Throws std::invalid_argument if a text (or a list item) is wrong whatever
+  /// the data are; may be null.
   void (*check)(const std::string& text) = nullptr;
 };
 
-/// The options of how a file's rows and columns are read: calls
-/// visit(option, member), of words visit(option, member, values), which
-/// ToString names. This is the one list from which flags, help, completion,
-/// study files and --set, what errmap init writes, the printed next command
-/// and the configuration in results.json are made; `selection` is a
-/// data::DatasetSelection, const or not.
+/// Visits the options of how a file's rows and columns are read. Calls
+/// visit(option, member), or for a choice visit(option, member, values), where
+/// ToString names the values. Everything else is made from this list: flags,
+/// help, completion, keys of study files, --set, what errmap init writes, the
+/// printed next command, and the configuration in results.json. `selection` is
+/// a data::DatasetSelection, const or not.
 template <typename Selection, typename Visit>
 void ForSelectionOptions(Selection& selection, const Visit& visit) {
   visit(StudyOption{.key = "target",
@@ -50,14 +50,14 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
   visit(StudyOption{.key = "exclude",
                     .value = "A,B,...",
                     .help = "Columns never to map from",
-                    .reach = Reach::kMachine,
+                    .reach = Reach::kAlike,
                     .example = "exclude = [\"humidity\"]"},
         selection.exclude);
   visit(StudyOption{.key = "group",
                     .value = "COL",
                     .help = "Column of warm-up cycles (default: cycle)\nor of "
                             "days or segments: what tells groups of rows apart",
-                    .reach = Reach::kMachine,
+                    .reach = Reach::kAlike,
                     .example = "group = \"cycle\""},
         selection.group);
   visit(StudyOption{.key = "time",
@@ -65,7 +65,7 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
                     .help =
                         "Column of times (default: by name and values)\nor of "
                         "dates; none: the number of the row counts",
-                    .reach = Reach::kMachine,
+                    .reach = Reach::kAlike,
                     .example = "time = \"time_s\""},
         selection.time);
   visit(StudyOption{.key = "session",
@@ -73,14 +73,14 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
                     .help = "Column of sessions (default: by name, else "
                             "nights)\nwhich are uninterrupted runs; none: cut "
                             "where time breaks off",
-                    .reach = Reach::kMachine,
+                    .reach = Reach::kAlike,
                     .example = "session = \"day\""},
         selection.session);
   visit(StudyOption{.key = "position",
                     .value = "COL",
                     .help = "Column of the axis position (default: the one "
                             "whose values\ncome again as commanded ones do)",
-                    .reach = Reach::kMachine,
+                    .reach = Reach::kAlike,
                     .seldom = true,
                     .example = "position = \"x_pos_mm\""},
         selection.position);
@@ -88,7 +88,7 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
                     .value = "up|down|COL",
                     .help = "Rows of one way along the axis, or the column "
                             "that tells the ways",
-                    .reach = Reach::kMachine,
+                    .reach = Reach::kAlike,
                     .seldom = true,
                     .example = "direction = \"up\""},
         selection.direction);
@@ -96,7 +96,7 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
                     .value = "2h",
                     .help = "A longer pause parts sessions (default: pauses "
                             "of another order than those between cycles)",
-                    .reach = Reach::kMachine,
+                    .reach = Reach::kAlike,
                     .seldom = true,
                     .example = "gap = \"2h\""},
         selection.gap);
@@ -104,7 +104,7 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
                     .value = "s|ms|min|h|days",
                     .help = "Unit of a time column of numbers (default: that "
                             "of its name, else by its steps)",
-                    .reach = Reach::kMachine,
+                    .reach = Reach::kAlike,
                     .seldom = true,
                     .example = "time_unit = \"s\""},
         selection.time_unit);
@@ -166,8 +166,8 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
         selection.keep_dead);
 }
 
-/// The sizes of errors, of a study for the components without their own, or
-/// of a component.
+/// Visits the sizes of errors of a component, or of a study, whose sizes apply
+/// to components without their own.
 template <typename Config, typename Visit>
 void ForErrorOptions(Config& config, const Visit& visit) {
   visit(StudyOption{.key = "goal",
@@ -186,15 +186,15 @@ void ForErrorOptions(Config& config, const Visit& visit) {
       config.indifference);
 }
 
-/// All that a component of a study is told by one word.
+/// Visits all options of one component of a study.
 template <typename Component, typename Visit>
 void ForComponentOptions(Component& component, const Visit& visit) {
   ForSelectionOptions(component.selection, visit);
   ForErrorOptions(component, visit);
 }
 
-/// What a study is told of all its components, in the same way; its seed
-/// (AddSeedOption, Keys::TakeSeed) and its models stand beside them.
+/// Visits the options that apply to all components of a study. Its seed
+/// (AddSeedOption, Keys::TakeSeed) and its models are given separately.
 template <typename Config, typename Visit>
 void ForStudyOptions(Config& config, const Visit& visit) {
   ForErrorOptions(config, visit);

@@ -26,7 +26,8 @@ names=$(sed -n '/^set(manual_pages/,/)/p' cli/manual/pages.cmake |
   printf '\n## Files\n\nResults are JSON with published schemas.\n\n'
   printf '| schema | what it describes |\n|---|---|\n'
   mkdir -p "$out/cli/schemas"
-  for schema in cli/schemas/*.json; do
+  # By name, wherever they are.
+  for schema in $(printf '%s\n' cli/*/*.schema.json | sort -t/ -k3); do
     cp "$schema" "$out/cli/schemas/"
     printf '| [%s](../schemas/%s) | %s |\n' "$(basename "$schema" .schema.json)" \
       "$(basename "$schema")" \

@@ -1,12 +1,15 @@
 # The users' pages in the order in which they are offered. Each is NAME.md here,
-# "errmap help NAME" in the program and NAME.html in the manual.
+# or that of a slice, ../SLICE/NAME; "errmap help NAME" in the program and
+# NAME.html in the manual.
 set(manual_pages
   tutorial
   words
   csv
   which-map
   how-sure
+  hold-outs
   why-not-the-net
+  model-options
   fewer-sensors
   measure-next
   controller
@@ -14,7 +17,8 @@ set(manual_pages
   still-holds
   re-zero
   components
-  machines
+  study-files
+  ../fleet/machines
   python
   r
   library

@@ -10,14 +10,14 @@
 
 namespace errmap::cli {
 
-/// Removes what a killed run had begun to write into a folder and its models/.
+/// Removes what a killed run left half-written in a folder and its models/.
 void RemoveAbandoned(const std::string& folder);
 
-/// Names of all files that WriteOutputs may write of a study.
+/// Returns the names of all files that WriteOutputs may write for a study.
 std::vector<std::string> OutputNames(const desk::StudyPlan& plan);
 
-/// Writes the files of a run (desk::WriteRunFiles) and the report.
-/// Throws std::system_error naming the path that could not be written.
+/// Writes the files of a run (desk::WriteRunFiles) and the report. Throws
+/// std::system_error naming a path that cannot be written.
 void WriteOutputs(const desk::StudyRun& run,
                   const models::StudyRecord& record,
                   ClaimedFolder* folder);

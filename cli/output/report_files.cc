@@ -13,7 +13,7 @@
 #include "cli/shell/standard_streams.h"
 #include "data/files/atomic_file.h"
 #include "data/text.h"
-#include "models/promise/learning_record.h"
+#include "models/learning/learning_record.h"
 
 namespace errmap::cli {
 namespace {

@@ -9,21 +9,22 @@
 
 namespace errmap::cli {
 
-/// Names of the two files that WriteReport draws.
+/// Names of the two files that WriteReport writes.
 inline constexpr const char* kReportPage = "report.html";
 inline constexpr const char* kReportText = "report.md";
 
-/// "learn-sessions": the files of `errmap learn --by sessions` less their ends.
+/// "learn-sessions": file names of `errmap learn --by sessions`, without
+/// extension.
 std::string LearningStem(std::string_view by);
 
-/// All figures of a study in its folder, those of what errmap learn --out left
-/// there among them; a file of it that cannot be read is named on stderr and
-/// passed over.
+/// Returns all figures of a study in its folder, including those that errmap
+/// learn --out left there. A file of these that cannot be read is named on
+/// stderr and skipped.
 report::FigureSet FiguresInFolder(const models::StudyRecord& record,
                                   const std::string& folder);
 
-/// Draws report.html and report.md; `errmap report` draws the same bytes from
-/// results.json later. Each file appears whole or not at all. Throws
+/// Writes report.html and report.md; `errmap report` later makes the same bytes
+/// from results.json. Each file appears completely or not at all. Throws
 /// std::system_error naming what could not be written.
 void WriteReport(const models::StudyRecord& record, ClaimedFolder* folder);
 

@@ -2,9 +2,13 @@
 # include, below `ERRMAP_INCLUDE`/errmap, where they include each other by that
 # name; and errmap.h, which includes all of the public ones.
 #
-# ERRMAP_SOURCE: root of the sources.
+# ERRMAP_SOURCE: root of the sources; ERRMAP_SLICES: those with headers of their
+# own.
 cmake_policy(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/public_headers.cmake)
+foreach(slice IN LISTS ERRMAP_SLICES)
+  include(${ERRMAP_SOURCE}/cli/${slice}/public_headers.cmake)
+endforeach()
 
 set(waiting ${ERRMAP_PUBLIC_HEADERS})
 set(done "")
@@ -12,7 +16,7 @@ while(waiting)
   list(POP_FRONT waiting header)
   list(APPEND done ${header})
   file(READ ${ERRMAP_SOURCE}/${header} text)
-  set(own "#include \"((cli/report|cli/desk|data|fitting|models|stats)/[^\"]+)\"")
+  set(own "#include \"((cli/[a-z_]+|data|fitting|models|stats)/[^\"]+)\"")
   string(REGEX MATCHALL "${own}" includes "${text}")
   foreach(include IN LISTS includes)
     string(REGEX REPLACE "${own}" "\\1" included "${include}")

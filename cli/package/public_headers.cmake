@@ -8,8 +8,6 @@ set(ERRMAP_PUBLIC_HEADERS
   data/input_error.h
   data/measurements/dataset.h
   data/measurements/sessions.h
-  data/turning_centre/machine.h
-  data/turning_centre/simulation.h
   data/units.h
   fitting/information_criteria.h
   fitting/least_squares/linear_least_squares.h
@@ -42,6 +40,9 @@ set(ERRMAP_PUBLIC_HEADERS
   models/kinematics/machine.h
   models/kinematics/plane_cells.h
   models/kinematics/volumetric.h
+  models/learning/learning_curve.h
+  models/learning/next_states.h
+  models/learning/sensor_curve.h
   models/map_experience.h
   models/model_file.h
   models/model_options.h
@@ -51,31 +52,24 @@ set(ERRMAP_PUBLIC_HEADERS
   models/net/net_options.h
   models/polynomial/polynomial_model.h
   models/polynomial/polynomial_options.h
-  models/promise/applicability.h
-  models/promise/kept_promise.h
-  models/promise/learning_curve.h
-  models/promise/map_update.h
-  models/promise/next_states.h
-  models/promise/promise.h
-  models/promise/sensitivity.h
-  models/promise/sensor_curve.h
-  models/promise/session_check.h
-  models/promise/session_offset.h
   models/recipe_catalog.h
   models/regression_report.h
-  cli/report/report.h
   models/scaling.h
+  models/sensors/applicability.h
+  models/sensors/sensitivity.h
+  models/session/kept_promise.h
+  models/session/session_check.h
+  models/session/session_offset.h
   models/study/given_predictions.h
   models/study/judgement/verdict.h
   models/study/record/make_study_record.h
   models/study/record/study_record.h
   models/study/study.h
   models/study/study_defaults.h
-  cli/desk/machine/machine_file.h
-  cli/desk/machine/machine_judge.h
-  cli/desk/machine/machine_study.h
+  models/uncertainty/map_update.h
+  models/uncertainty/promise.h
+  cli/report/report.h
   cli/desk/plan/run_files.h
-  cli/desk/plan/run_record.h
   cli/desk/plan/study_plan.h
   cli/desk/plan/study_run.h
   cli/desk/study_config.h

@@ -12,7 +12,6 @@
 #include "cli/commands/studies/compare_plan.h"
 #include "cli/desk/plan/rough_time.h"
 #include "cli/desk/plan/run_files.h"
-#include "cli/desk/plan/run_record.h"
 #include "cli/desk/plan/study_forecast.h"
 #include "cli/desk/plan/study_run.h"
 #include "cli/output/claimed_folder.h"
@@ -133,7 +132,7 @@ Study Compare(const Words& words,
   const auto work = [&] {
     const cli::CompareArguments arguments = cli::ReadCompareArguments(words);
     const int jobs = cli::JobsOf(arguments.jobs);
-    desk::StudyPlan plan = cli::PlanOf(arguments, std::nullopt, own);
+    desk::StudyPlan plan = cli::PlanOf(arguments, own);
     study.outputs = cli::OutputNames(plan);
     desk::StudyForecast forecast(plan, jobs);
     const auto note = [&](std::size_t component,
@@ -172,7 +171,7 @@ py::list Forecast(const Words& words,
   cli::Host host{.stop = &stop};
   const auto work = [&] {
     const cli::CompareArguments arguments = cli::ReadCompareArguments(words);
-    const desk::StudyPlan plan = cli::PlanOf(arguments, std::nullopt);
+    const desk::StudyPlan plan = cli::PlanOf(arguments);
     seconds = desk::RoughSecondsOfModels(plan.components.front());
   };
   if (RunHostedWork({tables, {}}, &host, &stop, work, {})) {

@@ -5,20 +5,20 @@
 
 namespace errmap::report {
 
-/// Text as it must stand in HTML, in an attribute in quotes too: & < > " '
-/// become entities, control characters blanks, and bytes that are no UTF-8 are
-/// taken for Latin-1.
+/// Escapes text for HTML, also in quoted attributes: & < > " ' become entities,
+/// control characters become blanks. Bytes that are not UTF-8 are read as
+/// Latin-1.
 std::string HtmlText(std::string_view text);
 
-/// The same, and no line ends between a figure and its % or unit.
+/// The same, without line breaks between a number and its % or unit.
 std::string HtmlSentence(std::string_view text);
 
-/// A name out of somebody's data: escaped, and kept from turning the text
-/// around it (<bdi>).
+/// Escapes a name from somebody's data, and isolates its writing direction from
+/// the text around it (<bdi>).
 std::string HtmlName(std::string_view name);
 
-/// A text in backquotes and names alike, for Markdown: what it means there is
-/// escaped, line breaks become blanks.
+/// Escapes backquoted text and names for Markdown; line breaks become
+/// blanks.
 std::string MarkdownText(std::string_view text);
 
 }  // namespace errmap::report

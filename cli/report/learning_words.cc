@@ -8,7 +8,7 @@
 
 #include "cli/report/number_text.h"
 #include "data/text.h"
-#include "models/promise/sensor_curve.h"
+#include "models/learning/sensor_curve.h"
 
 namespace errmap::report {
 namespace {

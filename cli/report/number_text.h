@@ -8,16 +8,16 @@ namespace errmap::report {
 
 inline constexpr double kPercent = 100.0;
 
-/// Writes errors for people: in the unit's display unit, all with the same
+/// Formats errors for people: in the unit's display unit, all with the same
 /// number of decimals.
 class ErrorText {
  public:
-  /// Three significant digits of `smallest`, the smallest error that matters
-  /// (in `unit`), decide the decimals.
+  /// Chooses the decimals so that `smallest`, the smallest error that matters
+  /// (in `unit`), has three significant digits.
   ErrorText(const data::Unit& unit, double smallest);
 
-  /// "0.938"; "n/a" where not finite; "1.2e+07" where the decimals mean
-  /// nothing any more.
+  /// "0.938"; "n/a" if not finite; "1.2e+07" if the number is too large for
+  /// decimals.
   std::string operator()(double value) const;
   /// "0.938 um".
   std::string WithUnit(double value) const;
@@ -29,10 +29,10 @@ class ErrorText {
   int decimals_;
 };
 
-/// A probability in a table: "0.0123", "2.1e-06", "<1e-300"; "n/a" where there
-/// is none. Tables and sentences write p by this and the next only.
+/// Formats a probability in a table: "0.0123", "2.1e-06", "<1e-300"; "n/a" if
+/// there is none. Tables and sentences write p only by PText and PWords.
 std::string PText(double p);
-/// In a sentence: "0.012", "below 0.0001".
+/// Formats it in a sentence: "0.012", "below 0.0001".
 std::string PWords(double p);
 
 /// "3 rows", "1 row".

@@ -10,7 +10,7 @@
 
 namespace errmap::report {
 
-/// How a series is drawn, and the columns that it needs.
+/// The marks of a series, and the columns that each needs.
 enum class Mark {
   kPoints,  // x, y
   kLine,    // x, y
@@ -26,17 +26,17 @@ enum class Shape { kDot, kCircle, kSquare, kDiamond };
 struct Series {
   std::string label = {};  // "": not in the legend
   Mark mark = Mark::kPoints;
-  /// (columns x n) equal lengths; a point with a value that is not finite is
-  /// left out, and breaks a line.
+  /// (columns x n) equal lengths. A point with a value that is not finite is
+  /// left out, and interrupts a line.
   std::vector<std::vector<double>> columns = {};
   std::string colour = "#0072B2";  // #rrggbb
   double size = 1.0;  // of points in diameters of 4.4 px, of lines in pixels
   Shape shape = Shape::kDot;
   bool dashed = false;
-  /// What a browser says of each point or bar when pointed at; or empty.
+  /// The browser's tooltip for each point or bar; or empty.
   std::vector<std::string> hints = {};
 
-  /// Adds a point: a value for each of its first columns.
+  /// Adds a point: one value for each of the first columns.
   void Add(std::initializer_list<double> point) {
     auto column = columns.begin();
     for (const double value : point) (column++)->push_back(value);
@@ -45,36 +45,36 @@ struct Series {
 
 constexpr double kAutomatic = std::numeric_limits<double>::quiet_NaN();
 
-/// A quantity and how much of it is shown. Ends that are given hold unless
-/// data lie beyond them; low > high turns the axis round.
+/// A quantity and its range shown. Given ends hold unless data lie beyond them;
+/// low > high reverses the axis.
 struct Axis {
   std::string quantity = {};
   std::string unit = {};  // "": none
   bool logarithmic = false;
   double low = kAutomatic;
   double high = kAutomatic;
-  /// Names at places instead of numbers: the axis has categories, no unit.
+  /// Names at positions instead of numbers: the axis has categories, no unit.
   std::vector<std::pair<std::string, double>> names = {};
 
-  /// "residual (µm)"; of categories, and without a unit, the quantity alone.
+  /// "residual (µm)"; only the quantity for categories or without a unit.
   std::string Label() const;
 };
 
 /// One plot as plain data.
 struct Plot {
-  std::string name;  // of its files and ids: a-z, 0-9 and '-' only
+  std::string name;  // for files and ids: only a-z, 0-9 and '-'
   int width = 390;   // pixels; 72 make an inch on paper
   int height = 260;  // without the legend
   Axis x;
   Axis y;
-  /// Of the values of kCells, from -high to high; from 0 where low is 0.
+  /// For the values of kCells, from -high to high; from 0 if low is 0.
   Axis colour;
   std::vector<Series> series;
 };
 
 /// Colours of cells from the lowest value (0) to the highest (1): blue, white,
-/// vermillion; told apart in every kind of colour vision and, by depth, not by
-/// sign, in grey print.
+/// vermillion. They can be told apart in every kind of colour vision; grey
+/// print shows size, not sign.
 constexpr std::array<std::pair<double, std::string_view>, 5> kPalette = {
     {{0.0, "#004B7A"},
      {0.2, "#56B4E9"},
@@ -82,22 +82,22 @@ constexpr std::array<std::pair<double, std::string_view>, 5> kPalette = {
      {0.8, "#E69F00"},
      {1.0, "#8C2D04"}}};
 
-/// Where the plot's colours begin: at minus their high end, or at 0.
+/// Returns the low end of the plot's colours: minus their high end, or 0.
 double ColourLow(const Plot& plot);
 
-/// Whether the plot can show that point of the series: finite, and positive
-/// along an axis with logarithms.
+/// True if the plot can show this point of the series: finite, and positive on
+/// a logarithmic axis.
 bool IsShown(const Plot& plot, const Series& series, std::size_t point);
 
-/// Whether there is anything to draw. Throws std::invalid_argument where the
-/// series has not the columns that its mark needs, or of different lengths.
+/// True if there is anything to draw. Throws std::invalid_argument if the
+/// series lacks columns that its mark needs, or their lengths differ.
 bool HasPoints(const Plot& plot, const Series& series);
 bool HasPoints(const Plot& plot);
 
-/// "residual (µm)"; without a unit the quantity alone.
+/// "residual (µm)"; without a unit only the quantity.
 std::string WithUnit(std::string_view what, std::string_view unit);
 
-/// At most `most` characters (not bytes), the middle replaced by "…".
+/// Cuts to `most` characters (not bytes); "…" replaces the middle.
 std::string Shortened(std::string_view text, std::size_t most);
 
 }  // namespace errmap::report

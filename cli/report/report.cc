@@ -35,7 +35,7 @@ models::StudyRecord MakeRecord(
 std::string VerdictText(const models::ComponentRecord& component,
                         std::size_t columns) {
   const std::vector<std::string> lines =
-      AnswerLines(FirstAnswerOf(component), columns);
+      AnswerLines(FirstAnswerOf(component), columns).lines;
   return data::JoinWords(lines, "\n");
 }
 

@@ -10,9 +10,9 @@
 #include "models/study/record/component_study.h"
 #include "models/study/record/study_record.h"
 
-// What a study found, for people and for other programs. All is drawn from the
-// record and decides nothing: one that models::FromJsonText read from a
-// results.json gives the same bytes as one that was just made.
+// The results of a study, for people and for other programs. Everything is
+// drawn from the record, without decisions: a record that models::FromJsonText
+// read from results.json gives the same bytes as a new one.
 //
 //   auto x = models::CompareMaps("xdown.csv", {}, {.jobs = 2});
 //   auto record = report::MakeRecord({x}, 1);
@@ -21,37 +21,37 @@
 
 namespace errmap::report {
 
-/// The record of components that were studied with one seed, put into words.
-/// Its provenance has the program and the components' files; command line and
-/// configuration are left to the caller. `jobs`: threads that may assess
-/// residuals; it changes no bit.
+/// Makes the record, with sentences, of components studied with one seed. Its
+/// provenance has the program and the components' files; the caller adds
+/// command line and configuration. `jobs`: number of threads that assess
+/// residuals, without effect on the result.
 models::StudyRecord MakeRecord(
     const std::vector<models::ComponentStudy>& components,
     std::uint64_t seed,
     int jobs = 1);
 
-/// The first answer in lines of at most so many columns: which map, how wrong,
-/// how sure, what next; why there is none, where there is none.
+/// Returns the first answer in lines of at most `columns`: which map, its
+/// error, how sure, what next; or why there is no map.
 std::string VerdictText(const models::ComponentRecord& component,
                         std::size_t columns = 80);
 
-/// What `errmap compare` shows on a terminal of so many columns: verdict, table
-/// and what to do next; of several components a row each.
+/// Returns what `errmap compare` shows on a terminal of `columns`: verdict,
+/// table and next steps; with several components one row each.
 std::string ScreenText(const models::StudyRecord& record,
                        std::size_t columns = 80);
 
-/// The table of what models achieved, a row per component, hold-out and model,
-/// as "csv" with every figure, or as "md"; nothing where no format of tables
+/// Returns the table of results, a row per component, hold-out and model, as
+/// "csv" with full precision or as "md". Returns nothing if no table format
 /// (report/table.h) has this name.
 std::optional<std::string> TableText(const models::StudyRecord& record,
                                      std::string_view format);
 
-/// report.html: one page with its figures, which needs no network. Of a study
-/// that is incomplete or failed it says what is not there.
+/// Returns report.html: one page with its figures, without network access. For
+/// an incomplete or failed study, it says what is missing.
 std::string ReportHtml(const models::StudyRecord& record);
 
-/// report.md: the answer, the tables and the equations, for repositories; no
-/// figures.
+/// Returns report.md: the answer, the tables and the equations, for
+/// repositories; no figures.
 std::string ReportMarkdown(const models::StudyRecord& record);
 
 }  // namespace errmap::report

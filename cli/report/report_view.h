@@ -12,50 +12,50 @@ using models::ComponentRecord;
 using models::ModelRecord;
 using models::ResultRecord;
 
-/// What all parts of a report take from one component; it refers to the
-/// record, which must outlive it.
+/// What all parts of a report use of one component. It refers to the record,
+/// which must outlive it.
 struct ReportView {
   const ComponentRecord* component = nullptr;
   std::string name;
-  std::string shown_unit;  // of the target as people read it: "µm"
+  std::string shown_unit;  // of the target, for display: "µm"
   double scale = 1.0;      // shown value = value * scale
   std::vector<std::string> holdouts;
-  /// The hold-out that the recommendation follows; "" = none.
+  /// The hold-out of the recommendation, else the first one; "" = none.
   std::string decisive;
-  bool decisive_is_unseen = false;  // it holds out whole groups
-  std::string neighbours;           // the one beside it, "" = none
-  std::string later;  // later sessions foretold from earlier ones, "" = none
+  bool decisive_is_unseen = false;  // whole groups or sessions are held out
+  std::string neighbours;           // the one compared with it, "" = none
+  std::string later;  // predicts later sessions from earlier ones, "" = none
   std::string recommended;  // model, "" = none
-  /// By the test RMSE under `decisive`, failed ones last.
+  /// By test RMSE under `decisive`, failed ones last.
   std::vector<const ModelRecord*> models;
 };
 
 ReportView ViewOf(const ComponentRecord& component);
 
-/// A hold-out by its name, or null.
+/// Returns a hold-out by its name, or null.
 const models::HoldoutRecord* HoldoutOf(const ReportView& view,
                                        const std::string& holdout);
-/// A model by its name, or null.
+/// Returns a model by its name, or null.
 const ModelRecord* ModelOf(const ReportView& view, const std::string& model);
 
-/// Its place in view.models, of which it is one.
+/// Returns the index of `model`, which must be one of view.models.
 std::size_t PlaceOf(const ReportView& view, const ModelRecord& model);
 
-/// Figures of a model under a hold-out, or null.
+/// Returns the results of a model under a hold-out, or null.
 const ResultRecord* ResultOf(const ModelRecord& model,
                              const std::string& holdout);
 const ResultRecord* ResultOf(const ReportView& view,
                              const std::string& model,
                              const std::string& holdout);
-/// Its test RMSE in the target's unit, or NaN.
+/// Returns its test RMSE in the target's unit, or NaN.
 double TestRmse(const ModelRecord& model, const std::string& holdout);
 
-/// Errors as the report shows them.
+/// Formats errors as in the report.
 ErrorText ErrorTextOf(const ReportView& view);
-/// Errors as a terminal shows them.
+/// Formats errors as on a terminal.
 ErrorText ErrorTextOf(const ComponentRecord& component);
 
-/// A unit's symbol as people write it: "um" -> "µm", "degC" -> "°C".
+/// Returns a unit's symbol for display: "um" -> "µm", "degC" -> "°C".
 std::string PrettyUnit(const std::string& symbol);
 
 }  // namespace errmap::report

@@ -7,20 +7,20 @@
 
 namespace errmap::report {
 
-/// What text is shown on.
+/// The medium on which text is shown.
 struct Terminal {
   std::size_t columns = 80;
-  std::size_t rows = 0;  // 0: no end, as of a pipe or a file
+  std::size_t rows = 0;  // 0: no limit, as for a pipe or a file
   bool colour = false;
 
-  /// Of text that is read: longer lines are hard to follow.
+  /// Width of running text: longer lines are hard to follow.
   std::size_t text_columns() const;
 };
 
-/// Text with lines that stand out.
+/// Text with emphasised lines.
 struct Screen {
   std::string text;
-  std::vector<std::size_t> strong;  // numbers of lines, from 0
+  std::vector<std::size_t> strong;  // line numbers, from 0
 
   void Add(std::string_view more, bool is_strong = false);
 };

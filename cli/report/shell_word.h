@@ -6,11 +6,11 @@
 
 namespace errmap::report {
 
-/// A word as a shell reads it back: in quotes where it needs them.
+/// Quotes a word so that a shell reads it back, if it needs quotes.
 std::string ShellWord(const std::string& word);
 
-/// A command that begins in column `indent` and goes on in the next line, four
-/// columns further in, where it would pass `width`.
+/// Writes a command from column `indent`. It continues on a new line, indented
+/// by four more columns, before it would exceed `width`.
 std::string ShellCommand(const std::vector<std::string>& words,
                          std::size_t width,
                          std::size_t indent);

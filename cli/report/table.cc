@@ -138,7 +138,14 @@ std::string LineAbove(const Table& table,
   return line;
 }
 
-// Columns in which no row has anything are dropped, but for the first.
+}  // namespace
+
+std::string Table::Shown(const Cell& cell) const {
+  const std::string text = std::visit(Pen(*this), cell.value());
+  const bool known = std::holds_alternative<std::string>(cell.value());
+  return text.empty() && !known ? nothing : text;
+}
+
 Table WithoutEmptyColumns(Table table) {
   const auto is_empty = [&](std::size_t column) {
     return std::ranges::all_of(table.rows, [&](const std::vector<Cell>& row) {
@@ -157,14 +164,6 @@ Table WithoutEmptyColumns(Table table) {
     }
   }
   return table;
-}
-
-}  // namespace
-
-std::string Table::Shown(const Cell& cell) const {
-  const std::string text = std::visit(Pen(*this), cell.value());
-  const bool known = std::holds_alternative<std::string>(cell.value());
-  return text.empty() && !known ? nothing : text;
 }
 
 std::vector<std::string> TerminalLines(const Table& table, std::size_t width) {

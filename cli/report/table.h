@@ -11,34 +11,34 @@
 #include "cli/report/number_text.h"
 #include "models/study/record/study_record.h"
 
-// Tables of typed cells, which are written for terminals, spreadsheets,
-// Markdown and pages by the functions below and nowhere else.
+// Tables of typed cells. Only the functions below write them, for terminals,
+// spreadsheets, Markdown and pages.
 
 namespace errmap::report {
 
-/// A number with so many significant digits; shown as value * scale.
+/// A number with `digits` significant digits; shown as value * scale.
 struct Number {
   double value;
   int digits = 4;
   double scale = 1.0;
 };
-/// A number with so many decimals.
+/// A number with a fixed number of decimals.
 struct Fixed {
   double value;
   int decimals;
 };
-/// An error in the target's unit; shown with the table's ErrorText, or else
+/// An error in the target's unit. Shown with the table's ErrorText, or else
 /// with four digits of value * scale.
 struct Error {
   double value;
   double scale = 1.0;
 };
-/// A 95 % interval of an error, of `of` if that is known.
+/// A 95 % interval of an error, namely of `of` if that is known.
 struct Interval {
   models::IntervalRecord ends;
   double of = models::kNotKnown;
 };
-/// A probability, with a remark on it.
+/// A probability with a remark.
 struct P {
   double value;
   const char* remark = "";
@@ -48,15 +48,15 @@ struct Statistic {
   double value;
   double p;
 };
-/// A word that terminals have no room for, or that files have in another form.
+/// A word too long for terminals, or with another form in files.
 struct Word {
   std::string text;
   std::string on_terminal;
   std::string in_csv;
 };
 
-/// Nothing, a text, a whole number, or one of the above. What is not known is
-/// NaN, and stands in the table as nothing does.
+/// Nothing, a text, a whole number, or one of the above. An unknown value is
+/// NaN, and is shown as nothing.
 class Cell {
  public:
   using Value = std::variant<std::monostate,
@@ -91,9 +91,9 @@ struct Table {
   struct Column {
     std::string name;
     bool is_number = true;
-    std::string explanation = {};  // of pages; "" where the name says it all
-    /// On terminals: what stands over the name, columns of one `group` having
-    /// it in common; least width; blanks before it.
+    std::string explanation = {};  // on pages; "" if the name is enough
+    /// On terminals: the text above the name, shared by columns of one `group`;
+    /// the least width; the blanks before it.
     std::string above = {};
     std::string group = {};
     std::size_t width = 0;
@@ -103,38 +103,41 @@ struct Table {
   std::string note = {};
   std::vector<Column> columns = {};
   std::vector<std::vector<Cell>> rows = {};
-  std::size_t marked = std::string::npos;  // row that stands out
-  /// Why there are no rows; shown in their place.
+  std::size_t marked = std::string::npos;  // emphasised row
+  /// Why there are no rows; shown instead of them.
   std::string missing = {};
-  std::string nothing = "-";  // stands where nothing is known
+  std::string nothing = "-";  // shown for an unknown value
   std::optional<ErrorText> error = {};
 
-  /// A cell as people read it.
+  /// Returns a cell's text for people.
   std::string Shown(const Cell& cell) const;
 };
 
-/// Aligned in columns, numbers to the right; words are cut in the middle where
-/// a line would be longer than `width`. First what stands above the names, if
-/// anything, then the names, then the rows.
+/// Drops the columns in which no row has anything, but for the first.
+Table WithoutEmptyColumns(Table table);
+
+/// Aligns columns, numbers to the right. Cuts words in the middle if a line
+/// would exceed `width`. The order is: text above the names, if any, the names,
+/// the rows.
 std::vector<std::string> TerminalLines(const Table& table, std::size_t width);
 std::string TerminalTable(const Table& table,
                           std::size_t width = std::string::npos);
-/// A header and a line per row, values in full.
+/// Writes a header and one line for each row, with full precision.
 std::string CsvTable(const Table& table);
-/// `level`: what marks the title, "###". Like HtmlTable without columns that
-/// are empty.
+/// `level` is the title's markup, "###". Omits empty columns, as HtmlTable
+/// does.
 std::string MarkdownTable(const Table& whole, const std::string& level = "");
-/// "" for a table that says only what it misses.
+/// Returns "" for a table that has only a reason for missing rows.
 std::string HtmlTable(const Table& whole);
 
 /// A way to write tables for other programs.
 struct TableFormat {
-  std::string_view name;  // as --format has it: "csv"
+  std::string_view name;  // the value of --format: "csv"
   std::string (*text)(const Table& table);
 };
-/// Whatever offers such formats offers these.
+/// The formats offered wherever tables are written.
 const std::vector<TableFormat>& TableFormats();
-/// Nothing where no format has this name.
+/// Returns nothing if no format has this name.
 std::optional<std::string> TableText(const Table& table,
                                      std::string_view format);
 

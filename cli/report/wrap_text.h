@@ -7,22 +7,22 @@
 
 namespace errmap::report {
 
-/// Words that are longer than a line: broken anywhere, or left whole, as paths
-/// and commands that are to be copied want it.
+/// Words longer than a line: broken anywhere, or kept whole, as for paths and
+/// commands to be copied.
 enum class LongWords { kBroken, kWhole };
 
-/// `text` in lines of at most `width` columns, broken at blanks.
+/// Breaks `text` at blanks into lines of at most `width` columns.
 std::vector<std::string> WrapLines(std::string_view text,
                                    std::size_t width,
                                    LongWords long_words = LongWords::kBroken);
 
-/// The same with line feeds between them.
+/// Joins the same lines with line feeds.
 std::string WrapText(std::string_view text, std::size_t width);
 
-/// Characters, where a text may be no ASCII.
+/// Number of characters, not bytes: a text may not be ASCII.
 std::size_t WidthOf(std::string_view text);
 
-/// At most `most` characters, "..." in place of the middle.
+/// Cuts to `most` characters; "..." replaces the middle.
 std::string Squeezed(const std::string& text, std::size_t most);
 
 }  // namespace errmap::report

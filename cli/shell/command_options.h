@@ -11,38 +11,38 @@ class App;
 class Option;
 }  // namespace CLI
 
-// How commands say what they take. In this room and in cli/application.cc alone
-// CLI11 is known by its headers: they take a compiler three seconds, used or
+// Declares the arguments of commands. Only this room and cli/application.cc
+// include CLI11's headers: these take a compiler three seconds, used or
 // not.
 
 namespace errmap::cli {
 
-/// An option or a positional word of a command, for as long as that lives; each
-/// call says one thing more of it.
+/// An option or a positional argument of a command, valid as long as the
+/// command is. Each call sets one property.
 class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
 
   const Option& Required(bool required = true) const;
-  /// What stands for its value in help: "FILE.csv".
+  /// Sets the placeholder of its value in help: "FILE.csv".
   const Option& Value(const std::string& name) const;
-  /// Help shows this default, or what the variable holds now.
+  /// Shows this default in help, or the variable's present value.
   const Option& Default(const std::string& text) const;
   const Option& ShowDefault() const;
-  /// Whole numbers from `low` to `high`.
+  /// Accepts whole numbers from `low` to `high`.
   const Option& Range(long long low, long long high) const;
-  /// `complaint` of a text: "" where it will do.
+  /// `complaint` returns what is wrong with a text; "" if it is valid.
   const Option& Check(
       std::function<std::string(const std::string&)> complaint) const;
   const Option& Positive() const;
   const Option& NotNegative() const;
-  /// Its value is one of `words`, and help says so.
+  /// Accepts only one of `words`, and says so in help.
   const Option& OneOf(const std::vector<std::string>& words) const;
-  /// Takes "a,b" for two values.
+  /// Accepts "a,b" as two values.
   const Option& SeparatedBy(char delimiter) const;
-  /// May be repeated, a value each time.
+  /// Accepts repetition, with one value each time.
   const Option& OneAtATime() const;
-  /// Left to help COMMAND --all.
+  /// Shown only by help COMMAND --all.
   const Option& Seldom() const;
   const Option& About(const std::string& text) const;
 
@@ -54,10 +54,10 @@ CLI::App* AddCommand(CLI::App* app,
                      const std::string& name,
                      const std::string& about);
 
-/// `usage`: names and what stands for the value in help, "-o,--output
-/// FILE.csv", or the word of a positional in the place of names. T: a whole
-/// number, double, std::string, an optional of these two, or a vector of int,
-/// long or std::string. The value must outlive the parse.
+/// `usage`: names and the value's placeholder in help, "-o,--output FILE.csv";
+/// for a positional argument its word instead of the names. T: a whole number,
+/// double, std::string, an optional of these two, or a vector of int, long or
+/// std::string. The value must outlive the parse.
 template <typename T>
 Option AddOption(CLI::App* command,
                  const std::string& usage,
@@ -73,7 +73,7 @@ Option AddOption(
     const std::function<void(const std::vector<std::string>&)>& take,
     const std::string& about);
 
-/// One that takes one of `words`; `choose` is told which.
+/// Adds an option that accepts one of `words`; `choose` gets its index.
 void AddWordOption(CLI::App* command,
                    const std::string& name,
                    const std::string& about,
@@ -81,7 +81,7 @@ void AddWordOption(CLI::App* command,
                    const std::string& usual,
                    std::function<void(std::size_t)> choose);
 
-/// One of words, each of which stands for a value that ToString names.
+/// Adds an option with one word for each value, as ToString names it.
 template <typename Value>
 void AddChoice(CLI::App* command,
                const std::string& name,
@@ -107,23 +107,23 @@ Option AddFlag(CLI::App* command,
                std::function<void()> act,
                const std::string& about);
 
-/// One that is there already.
+/// Returns an existing option.
 Option FindOption(CLI::App* command, const std::string& name);
 
-/// Leaves options that are there already to help COMMAND --all.
+/// Shows existing options only in help COMMAND --all.
 void MarkSeldom(CLI::App* command, const std::vector<const char*>& names);
 
-/// What help ends with.
+/// Sets the last text of a command's help.
 void SetFooter(CLI::App* command, const std::string& text);
 
-/// What is done where the command is chosen.
+/// Sets the action of a command.
 void OnRun(CLI::App* command, std::function<void()> run);
 
-/// Names of the options that the parsed words held.
+/// Returns the names of the options among the parsed words.
 std::set<std::string> GivenOptions(const CLI::App& command);
 
-/// Reads words by the options that `add` adds; returns the names of those
-/// given. Throws UsageError.
+/// Parses words with the options that `add` adds; returns the names of the
+/// given ones. Throws UsageError.
 std::set<std::string> ParseWords(std::vector<std::string> words,
                                  const std::function<void(CLI::App*)>& add);
 

@@ -17,8 +17,8 @@ constexpr std::string_view kExitStatus =
     "Exit status: 0 done, 2 wrong command line, 3 unusable input, 4 no result, "
     "130 interrupted.";
 
-// `name` with `text` beside it from `column` on; below it where they would
-// overlap, or where too few columns were left.
+// Writes `name` with `text` to its right from `column` on; below it if they
+// would overlap, or if too few columns were left.
 std::string Entry(const std::string& name,
                   const std::string& text,
                   std::size_t column,

@@ -7,21 +7,21 @@
 
 namespace errmap::cli {
 
-/// All commands under what each serves, a line each.
+/// Returns all commands, one line each, grouped by purpose.
 std::string ProgramHelp(const ProgramReference& program, std::size_t width);
 
-/// Which options a command's help names.
+/// Which options a command's help shows.
 enum class HelpOptions { kUsual, kAll };
 
-/// How a command is called, its options, an example.
+/// Returns a command's usage, its options and an example.
 std::string CommandHelp(const CommandReference& command,
                         HelpOptions options,
                         std::size_t width);
 
-/// For who calls the program and nothing else: what to begin with.
+/// Returns the first steps, for a call without arguments.
 std::string FirstSteps();
 
-/// "FILE.csv --model SPEC [options]": what `command` must have.
+/// Returns "FILE.csv --model SPEC [options]": what `command` requires.
 std::string UsageOf(const CommandReference& command);
 
 }  // namespace errmap::cli

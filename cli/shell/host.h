@@ -6,18 +6,18 @@
 
 namespace errmap::cli {
 
-/// What stands for the streams and signals of the process where another
-/// program runs commands in itself (RunHosted).
+/// Replaces the streams and signals of the process if another program runs
+/// commands in itself (RunHosted).
 struct Host {
   const std::atomic<bool>* stop = nullptr;  // set: a command ends early
   std::string printed = {};                 // to standard output
   std::vector<std::string> messages = {};   // without "errmap: "
 };
 
-/// Null where the process is errmap's own.
+/// Returns null if the process is errmap's own.
 Host* CurrentHost();
 
-/// Makes `host` the current one while it lives. One at a time.
+/// Makes `host` the current one for its lifetime; only one at a time.
 class HostedRun {
  public:
   explicit HostedRun(Host* host);

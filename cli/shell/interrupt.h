@@ -4,9 +4,9 @@
 
 namespace errmap::cli {
 
-/// Turns Ctrl-C (SIGINT), SIGTERM and SIGHUP (a terminal that closes) into a
-/// flag that fits look at; a second signal ends the program at once, and one
-/// that was ignored when the program began stays ignored.
+/// Turns Ctrl-C (SIGINT), SIGTERM and SIGHUP (a closed terminal) into a flag
+/// that fits check. A second signal ends the program at once. A signal that was
+/// ignored at the program's start stays ignored.
 const std::atomic<bool>& InstallInterruptFlag();
 
 }  // namespace errmap::cli

@@ -6,9 +6,9 @@
 
 namespace errmap::cli {
 
-/// The page Reference of the manual in Markdown: every command with its
-/// options, models with theirs, hold-outs, exit statuses, columns' names, as
-/// the program itself has them.
+/// Returns the manual's page Reference in Markdown, from the program itself:
+/// every command with its options, models with theirs, hold-outs, exit statuses
+/// and column names.
 std::string ReferencePage(const ProgramReference& program);
 
 }  // namespace errmap::cli

@@ -28,7 +28,7 @@ bool OpensQuotation(std::string_view text, std::size_t at) {
           std::isalnum(static_cast<unsigned char>(text[at - 1])) == 0);
 }
 
-// Where the quotation that begins there ends; there where it never does.
+// Returns the end of the quotation that begins there; `at` if it never ends.
 std::size_t EndOfQuotation(std::string_view text, std::size_t at) {
   const std::size_t end = text.find(text[at], at + 1);
   return end == text.npos ? at : end;

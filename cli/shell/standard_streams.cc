@@ -42,8 +42,8 @@ int WriteAll(int descriptor, std::string_view text) {
   return 0;
 }
 
-// Bytes of the character that begins at `at`; 0 where that is no UTF-8. What is
-// overlong or beyond Unicode does no harm.
+// Number of bytes of the character at `at`; 0 if it is not UTF-8. Overlong
+// forms and code points beyond Unicode do no harm.
 std::size_t CharacterLength(std::string_view text, std::size_t at) {
   const auto lead = static_cast<unsigned char>(text[at]);
   if (lead < 0x80U) return 1;

@@ -7,35 +7,36 @@
 
 namespace errmap::cli {
 
-/// Gives standard streams that are closed a place where nothing can be read or
-/// printed, so that no file which is opened later gets their numbers and with
-/// them our messages. To be called before any file is opened.
+/// Opens closed standard streams so that they can be neither read nor printed
+/// to. No file opened later then gets their numbers, and with them our
+/// messages. Call it before any file is opened.
 void HoldStandardStreams();
 
-/// Text that commands no terminal: controls (C0 but line feed and tab, DEL, C1)
-/// and bytes that are no UTF-8 as \\u00XX, which JSON reads back.
+/// Returns text that cannot control a terminal. Controls (C0 but line feed and
+/// tab, DEL, C1) and bytes that are not UTF-8 become \\u00XX, which JSON reads
+/// back.
 std::string WithoutControls(std::string_view text);
 
-/// The one way of results to standard output, WithoutControls. A write that
-/// fails is kept for PrintError, so that one lost answer does not cost the
-/// files after it; what comes after it is not written.
+/// The only function that writes results to standard output, WithoutControls.
+/// PrintError keeps a failed write, so that one lost answer does not cost the
+/// files after it. Later results are then not written.
 void PrintResult(std::string_view text);
 
-/// The same in bold; for terminals.
+/// As PrintResult, but bold; for terminals.
 void PrintStrong(std::string_view text);
 
-/// errno of the first write of PrintResult that failed; 0: none.
+/// Returns errno of the first failed write of PrintResult; 0 if none.
 int PrintError();
 
-/// The one way of messages to standard error: "errmap: ...", one line whatever
-/// stands in it. One that cannot be written is lost: there is nowhere to say
-/// so.
+/// The only function that writes messages to standard error: "errmap: ...", in
+/// one line. If a message cannot be written, it is lost: there is nowhere to
+/// report it.
 void WriteMessage(std::string_view text);
 
-/// From now on messages advise none but these options (WithOwnRemedies).
+/// From now on, messages advise only these options (WithOwnRemedies).
 void AdviseOnly(std::set<std::string, std::less<>> options);
 
-/// What draws on a terminal, as it is; only of our own words.
+/// Draws on a terminal, unfiltered; only for text of our own.
 void DrawOnTerminal(std::string_view text);
 
 }  // namespace errmap::cli

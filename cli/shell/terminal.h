@@ -7,18 +7,18 @@
 
 namespace errmap::cli {
 
-/// What standard output can show; 80 columns where it is no terminal. COLUMNS,
-/// LINES and NO_COLOR of the environment come first.
+/// Returns what standard output can show; 80 columns if it is not a terminal.
+/// The environment's COLUMNS, LINES and NO_COLOR take precedence.
 report::Terminal OutputTerminal();
 
-/// PrintResult, the strong lines bold where standard output has colours.
+/// PrintResult with bold strong lines if standard output has colours.
 void PrintScreen(const report::Screen& screen);
 
-/// A message with a line feed; where standard error is a terminal, broken at
-/// blanks to fit it.
+/// Returns a message with a line feed. If standard error is a terminal, breaks
+/// it at blanks to fit.
 std::string MessageLines(std::string_view line);
 
-/// PrintResult of text that is read: no line is wider than OutputTerminal().
+/// PrintResult of running text, in lines no wider than OutputTerminal().
 void PrintFitted(std::string_view text);
 
 }  // namespace errmap::cli

@@ -8,8 +8,8 @@
 namespace errmap::cli {
 namespace {
 
-// Without the marks of Markdown: "[words](page.md)" is "words", `code` and
-// **strong** are what they enclose; of a picture it is said what it shows.
+// Removes the marks of Markdown: "[words](page.md)" becomes "words", `code` and
+// **strong** become what they enclose, a picture becomes its description.
 std::string Unmarked(std::string_view text) {
   std::string plain;
   for (std::size_t at = 0; at < text.size(); ++at) {

@@ -7,23 +7,23 @@
 
 namespace errmap::cli {
 
-/// A page of cli/manual, as it was built into the program.
+/// A page of cli/manual, built into the program.
 struct Topic {
   std::string name;       // "tutorial"
   std::string_view page;  // Markdown
 };
 
-/// In the order of cli/manual/pages.cmake; written by CMake.
+/// Returns the topics in the order of cli/manual/pages.cmake; written by CMake.
 const std::vector<Topic>& Topics();
 
 std::vector<std::string> TopicNames();
 
-/// Its first heading.
+/// Returns its first heading.
 std::string TitleOf(const Topic& topic);
 
-/// The page to be read on a terminal: headings, paragraphs and lists in lines
-/// of `width`, blocks of code and tables as they are, links and pictures as
-/// their words.
+/// Formats the page for a terminal: headings, paragraphs and lists in lines of
+/// `width`, code blocks and tables unchanged, links and pictures as their
+/// words.
 std::string TopicText(const Topic& topic, std::size_t width);
 
 }  // namespace errmap::cli

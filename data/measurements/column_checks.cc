@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "data/argument_name.h"
+#include "data/columns.h"
 #include "data/text.h"
 #include "data/units.h"
 
@@ -36,6 +37,11 @@ bool HasDecimalComma(std::string_view text) {
   return with_point != text && ParseNumber(with_point, &value);
 }
 
+// A word that no list has ("No Signal", "****") is no reading all the same.
+bool HasNoDigit(std::string_view text) {
+  return text.find_first_of("0123456789") == text.npos && !IsInfinity(text);
+}
+
 // Whether a word is a unit where it is sure to mean one.
 bool IsUnit(std::string_view word) {
   return ReadHeader("x [" + std::string(word) + "]").source ==
@@ -58,6 +64,7 @@ std::string Complaint(std::string_view text) {
   const std::string quoted = QuotedText(text);
   if (IsMissingNumber(text)) return quoted + " is a missing value; fill it in";
   if (IsInfinity(text)) return quoted + " is not finite; correct it";
+  if (HasNoDigit(text)) return quoted + " is no number; fill it in";
   if (IsOutOfRange(text)) {
     return quoted + " is beyond the range of a double; correct it";
   }
@@ -79,13 +86,13 @@ struct BadCell {
   std::size_t row;
   const CsvColumn* column;
   ColumnUse use;
-  std::uint32_t text;
+  const std::string* text;
 };
 
 [[noreturn]] void ThrowBadCell(const CsvTable& table,
                                const BadCell& cell,
                                std::size_t num_missing) {
-  const std::string& text = cell.column->texts[cell.text];
+  const std::string& text = *cell.text;
   std::string what =
       table.Where(cell.row, cell.column->name) + ": " + Complaint(text);
   if (cell.use == ColumnUse::kInput) {
@@ -93,7 +100,7 @@ struct BadCell {
         ", or leave the column out with " +
         ArgumentName("exclude", Printable(cell.column->name, text.max_size()));
   }
-  if (IsMissingNumber(text)) {
+  if (IsMissingNumber(text) || HasNoDigit(text)) {
     what += ", or drop such rows with " + ArgumentName("missing", "drop-rows");
     if (num_missing > 1) {
       what += " (the columns in use have " + std::to_string(num_missing) +
@@ -103,30 +110,12 @@ struct BadCell {
   throw InputError(what);
 }
 
-// The exception that stands at `row`, or null where there is a number.
-const std::pair<std::size_t, std::uint32_t>* FindException(
-    const CsvColumn& column, std::size_t row) {
-  const auto found = std::lower_bound(
-      column.exceptions.begin(),
-      column.exceptions.end(),
-      row,
-      [](const auto& exception, std::size_t r) { return exception.first < r; });
-  const bool is_there = found != column.exceptions.end() && found->first == row;
-  return is_there ? &*found : nullptr;
-}
-
 [[noreturn]] void ThrowNothingPasses(const CsvTable& table,
                                      const CsvColumn& column,
                                      const std::vector<ColumnFilter>& filters,
                                      const ColumnFilter& filter) {
-  std::vector<std::string> values;
-  for (std::size_t row = 0; row < table.num_rows; ++row) {
-    const std::string value = table.CellText(column, row);
-    if (std::find(values.begin(), values.end(), value) == values.end()) {
-      values.push_back(value);
-    }
-    if (values.size() == kMostNames) break;
-  }
+  std::vector<std::string> values =
+      LabelsOf(table, column, AllRows(table.num_rows), kMostNames - 1).labels;
   throw InputError(PrintablePath(table.file) + ": no row is left where " +
                    QuotedName(filter.column) + " is " +
                    QuotedText(ValueText(filter)) +
@@ -154,11 +143,12 @@ BadCells FindBadCells(const CsvTable& table,
   for (const ColumnInUse& used : columns) {
     const CsvColumn& column = table.columns[used.index];
     std::vector<bool> text_is_missing(column.texts.size());
-    std::transform(
-        column.texts.begin(),
-        column.texts.end(),
-        text_is_missing.begin(),
-        used.use == ColumnUse::kGroup ? IsMissingText : IsMissingNumber);
+    for (std::size_t i = 0; i < column.texts.size(); ++i) {
+      const std::string& text = column.texts[i];
+      text_is_missing[i] = used.use == ColumnUse::kGroup
+                               ? IsMissingText(text)
+                               : IsMissingNumber(text) || HasNoDigit(text);
+    }
     std::size_t missing_here = 0;
     for (const auto& [row, text] : column.exceptions) {
       if (!passes[row]) continue;
@@ -167,7 +157,7 @@ BadCells FindBadCells(const CsvTable& table,
       std::optional<BadCell>& first =
           is_missing ? bad.first_missing : bad.first_wrong;
       if (!first.has_value() || row < first->row) {
-        first = BadCell{row, &column, used.use, text};
+        first = BadCell{row, &column, used.use, &column.texts[text]};
       }
       if (is_missing) {
         ++missing_here;
@@ -194,20 +184,14 @@ std::string NameInRemark(const std::string& name) {
 }
 
 std::string ListOfNames(const std::vector<std::string>& names) {
-  std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), kMostNames); ++i) {
-    if (i > 0) list += ", ";
-    list += QuotedName(names[i]);
-  }
-  if (names.size() > kMostNames) {
-    list += " and " + std::to_string(names.size() - kMostNames) + " more";
-  }
-  return list;
+  std::vector<std::string> quoted;
+  for (const std::string& name : names) quoted.push_back(QuotedName(name));
+  return ShortList(quoted, kMostNames);
 }
 
 std::string NearestColumn(std::string_view name,
                           const std::vector<std::string>& known) {
-  const std::string nearest = NearestName(name, known);
+  std::string nearest = NearestName(name, known);
   if (!nearest.empty()) return nearest;
   std::vector<std::string> without_unit;
   for (const std::string& column : known) {
@@ -251,23 +235,16 @@ void RequireNumbers(const CsvTable& table, const ColumnInUse& column) {
     what += " holds no numbers (data row 0 is " +
             QuotedText(table.CellText(cells, 0)) + ")";
   }
-  switch (column.use) {
-    case ColumnUse::kTarget:
-      what +=
-          "; name a column of measured errors with " + ArgumentName("target");
-      break;
-    case ColumnUse::kInput:
-      what +=
-          " and cannot be an input; leave it out of " + ArgumentName("inputs");
-      break;
-    case ColumnUse::kWeight:
-      what +=
-          "; name a column of positive numbers with " + ArgumentName("weight");
-      break;
-    case ColumnUse::kGroup:
-    case ColumnUse::kOther:
-      what += "; name a column of numbers";
-      break;
+  if (column.use == ColumnUse::kTarget) {
+    what += "; name a column of measured errors with " + ArgumentName("target");
+  } else if (column.use == ColumnUse::kInput) {
+    what +=
+        " and cannot be an input; leave it out of " + ArgumentName("inputs");
+  } else if (column.use == ColumnUse::kWeight) {
+    what +=
+        "; name a column of positive numbers with " + ArgumentName("weight");
+  } else {
+    what += "; name a column of numbers";
   }
   throw InputError(what);
 }
@@ -427,14 +404,12 @@ void RefuseMissingCell(const CsvTable& table,
                        const ColumnInUse& column,
                        std::size_t row) {
   const CsvColumn& cells = table.columns[column.index];
-  const auto* const exception = FindException(cells, row);
-  if (exception == nullptr) return;
-  const std::string& text = cells.texts[exception->second];
-  if (!(column.use == ColumnUse::kGroup ? IsMissingText(text)
-                                        : IsMissingNumber(text))) {
-    return;
-  }
-  ThrowBadCell(table, {row, &cells, column.use, exception->second}, 1);
+  const std::string* const text = cells.TextAt(row);
+  if (text == nullptr) return;
+  const bool is_missing = column.use == ColumnUse::kGroup
+                              ? IsMissingText(*text)
+                              : IsMissingNumber(*text);
+  if (is_missing) ThrowBadCell(table, {row, &cells, column.use, text}, 1);
 }
 
 Eigen::VectorXd ValuesOfRows(const CsvColumn& column,

@@ -3,72 +3,23 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_set>
 #include <utility>
 
 #include "data/argument_name.h"
+#include "data/column_words.h"
+#include "data/columns.h"
 #include "data/measurements/column_checks.h"
-#include "data/measurements/reading/column_words.h"
+#include "data/measurements/reading/derived_columns.h"
 #include "data/measurements/reading/reading.h"
 #include "data/measurements/sessions.h"
 #include "data/text.h"
 
 namespace errmap::data {
 namespace {
-
-// A name less "no.", "number" and marks, in small letters: "cycle" of
-// "Cycle No.", "Cycle_Number" and "cycle#".
-std::string CounterStem(std::string_view name) {
-  std::string stem;
-  std::string word;
-  const auto end_word = [&] {
-    constexpr auto kNumber = std::to_array<std::string_view>(
-        {"no", "nr", "num", "number", "nummer", "id", "index", "count"});
-    const bool is_number =
-        std::ranges::find(kNumber, word) != kNumber.end() && !stem.empty();
-    if (!is_number) stem += word;
-    word.clear();
-  };
-  for (const char c : name) {
-    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-    if (letter) {
-      word += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    } else if (std::string_view("_ -.#:()").find(c) != std::string_view::npos) {
-      end_word();
-    } else {
-      return "";  // "cycle2" is another name
-    }
-  }
-  end_word();
-  return stem;
-}
-
-constexpr auto kCounters = std::to_array<std::string_view>(
-    {"cycle",   "zyklus",  "takt",      "lauf",  "session", "day",    "tag",
-     "run",     "segment", "record",    "index", "row",     "id",     "sample",
-     "messung", "versuch", "durchgang", "nr",    "no",      "number", "nummer",
-     "zeile",   "test",    "trial",     "repeat"});
-
-bool IsOneOf(std::span<const std::string_view> names, std::string_view name) {
-  return std::ranges::find(names, name) != names.end();
-}
-
-// Which of several machines, tools or people a row is of: a number that means
-// no more than a word.
-bool NamesPart(std::string_view name) {
-  constexpr auto kNames = std::to_array<std::string_view>({"machine",
-                                                           "maschine",
-                                                           "tool",
-                                                           "werkzeug",
-                                                           "pallet",
-                                                           "palette",
-                                                           "station",
-                                                           "operator"});
-  return IsOneOf(kNames, CounterStem(name));
-}
 
 // A column that nobody named: the index that spreadsheets and data frames
 // write beside their rows, under an empty name or (once read and written again)
@@ -99,14 +50,9 @@ bool DifferInAxis(std::string_view a, std::string_view b) {
   return differing == 1;
 }
 
-// Units in which errors are stated and, but for an axis of one letter, nothing
-// that a map is made from.
-bool IsUnitOfErrors(const Header& header) {
-  constexpr auto kSmall =
-      std::to_array<std::string_view>({"nm", "um", "uin", "arcsec", "urad"});
-  return header.base.size() > 1 &&
-         std::find(kSmall.begin(), kSmall.end(), header.unit.symbol) !=
-             kSmall.end();
+// Of one, and no axis of one letter, which may be a position.
+bool MeasuresErrors(const Header& header) {
+  return IsUnitOfErrors(header.unit) && !IsAxisLetter(header.base);
 }
 
 // Errors measured beside a target: not at hand when its map is used, and
@@ -123,11 +69,12 @@ class MeasuredBeside {
     const std::string stem = StemOfColumn(name);
     if (stem == stem_) return "measures the target's quantity";
     const Header header = ReadHeader(name);
+    const bool is_called = ErrorSign(name) != 0 && IsLengthOrAngle(header.unit);
     const bool alike = header.unit == header_.unit &&
                        header.unit_text.empty() == header_.unit_text.empty() &&
                        DifferInAxis(stem, stem_);
-    return alike || StartsWithIgnoringCase(name, "error") ||
-                   IsUnitOfErrors(header)
+    return alike || is_called || StartsWithIgnoringCase(name, "error") ||
+                   MeasuresErrors(header)
                ? "measures an error, as the target does"
                : "";
   }
@@ -208,59 +155,87 @@ class RoleChooser {
     std::vector<std::size_t> candidates = Candidates([](std::string_view name) {
       return StartsWithIgnoringCase(name, "error");
     });
+    if (candidates.empty()) candidates = CalledErrors();
+    // A correction beside an error is not meant.
+    const auto is_opposite = [&](std::size_t i) {
+      return ErrorSign(Name(i)) < 0;
+    };
+    if (!std::ranges::all_of(candidates, is_opposite)) {
+      std::erase_if(candidates, is_opposite);
+    }
+    if (candidates.empty()) candidates = InUnitsOfErrors();
+    if (candidates.size() > 1) AskWhich(candidates);
     if (candidates.empty()) {
-      candidates = Candidates([](std::string_view name) {
-        const Header header = ReadHeader(name);
-        return Says(name, Word::kError) && !Says(name, Word::kCorrection) &&
-               (header.unit.quantity == Quantity::kLength ||
-                header.unit.quantity == Quantity::kAngle ||
-                header.unit.symbol.empty());
-      });
-      std::erase_if(candidates,
-                    [&](std::size_t i) { return table_.columns[i].is_text(); });
-      std::vector<std::size_t> with_unit = candidates;
-      std::erase_if(with_unit, [&](std::size_t i) {
-        return UnitOfColumn(Name(i)).symbol.empty();
-      });
-      if (!with_unit.empty()) candidates = std::move(with_unit);
+      AskForDifference();
+      RefuseWithoutTarget();
     }
-    if (candidates.empty()) {
-      AskForSign();
-      const std::vector<std::string> numeric =
-          NamesOf(Candidates([&](std::string_view name) {
-            return !table_.At(table_.Find(name)).is_text();
-          }));
-      ThrowUnusable(
-          table_,
-          "no column's name says that it is an error (error, deviation, "
-          "Abweichung); name the measured error with " +
-              ArgumentName("target") + " (" +
-              (numeric.empty()
-                   ? "but no column holds numbers"
-                   : "columns of numbers: " + ListOfNames(numeric)) +
-              ")");
+    const std::size_t target = candidates.front();
+    if (ErrorSign(Name(target)) <= 0 &&
+        !StartsWithIgnoringCase(Name(target), "error")) {
+      AskForSign(target);
     }
-    if (candidates.size() > 1) {
-      ThrowUnusable(table_,
-                    "several columns could be the target; name one with " +
-                        ArgumentName("target") + ": " +
-                        ListOfNames(NamesOf(candidates)));
+    if (is_opposite(target)) AskForSign(target);
+    return target;
+  }
+
+  std::vector<std::size_t> CalledErrors() const {
+    std::vector<std::size_t> candidates =
+        Candidates([&](std::string_view name) {
+          const Header header = ReadHeader(name);
+          const int sign = ErrorSign(name);
+          const bool has_size = IsLengthOrAngle(header.unit);
+          return !table_.At(table_.Find(name)).is_text() && sign != 0 &&
+                 (has_size || (sign > 0 && header.unit.symbol.empty()));
+        });
+    std::vector<std::size_t> with_unit = candidates;
+    std::erase_if(with_unit, [&](std::size_t i) {
+      return UnitOfColumn(Name(i)).symbol.empty();
+    });
+    return with_unit.empty() ? candidates : with_unit;
+  }
+
+  // Of no name that says it.
+  std::vector<std::size_t> InUnitsOfErrors() const {
+    return Candidates([&](std::string_view name) {
+      const CsvColumn& column = table_.At(table_.Find(name));
+      return !column.is_text() && MeasuresErrors(ReadHeader(name)) &&
+             !NamesPosition(name) && !Says(name, Word::kPosition) &&
+             !Says(name, Word::kMeasured) && !Says(name, Word::kNominal);
+    });
+  }
+
+  [[noreturn]] void RefuseWithoutTarget() const {
+    const std::vector<std::string> numeric =
+        NamesOf(Candidates([&](std::string_view name) {
+          return !table_.At(table_.Find(name)).is_text();
+        }));
+    ThrowUnusable(
+        table_,
+        "no column's name says that it is an error (error, "
+        "deviation, Abweichung); name the measured error with " +
+            ArgumentName("target") + " (" +
+            (numeric.empty() ? "but no column holds numbers"
+                             : "columns of numbers: " + ListOfNames(numeric)) +
+            ")");
+  }
+
+  [[noreturn]] void AskWhich(const std::vector<std::size_t>& candidates) const {
+    Reading::Question question{
+        .topic = "target",
+        .question = "several columns could be the target; name one with " +
+                    ArgumentName("target") + ": " +
+                    ListOfNames(NamesOf(candidates)),
+        .answers = {}};
+    for (const std::size_t i : candidates) {
+      question.answers.push_back({.option = ArgumentName("target", Name(i)),
+                                  .means = QuotedName(Name(i)) + " alone"});
     }
-    return candidates.front();
+    throw OpenQuestion(PrintablePath(table_.file), std::move(question));
   }
 
   // What corrects an error has its size, and its other sign or not.
-  void AskForSign() const {
-    const std::vector<std::size_t> found =
-        Candidates([&](std::string_view name) {
-          const Unit unit = UnitOfColumn(name);
-          return Says(name, Word::kCorrection) &&
-                 (unit.quantity == Quantity::kLength ||
-                  unit.quantity == Quantity::kAngle) &&
-                 !table_.At(table_.Find(name)).is_text();
-        });
-    if (found.empty()) return;
-    const std::string& name = Name(found.front());
+  [[noreturn]] void AskForSign(std::size_t target) const {
+    const std::string& name = Name(target);
     throw OpenQuestion(
         PrintablePath(table_.file),
         {.topic = "target",
@@ -270,6 +245,26 @@ class RoleChooser {
                       .means = "a correction: the error is its negative"},
                      {.option = ArgumentName("target", name),
                       .means = "the error itself, actual - nominal"}}});
+  }
+
+  // Where the axis was sent and where it was read, and no error.
+  void AskForDifference() const {
+    const std::optional<ReadBeside> pair = FindReadBeside(table_);
+    if (!pair) return;
+    const std::string& read = Name(pair->read);
+    const std::string& sent = Name(pair->commanded);
+    const Unit& unit = UnitOfColumn(sent);
+    std::string difference = read + "-" + sent;
+    if (UnitOfColumn(difference) != unit)
+      difference += " [" + unit.symbol + "]";
+    throw OpenQuestion(
+        PrintablePath(table_.file),
+        {.topic = "target",
+         .question = "no column is an error; is " + QuotedName(read) +
+                     " what was measured where " + QuotedName(sent) +
+                     " was commanded?",
+         .answers = {{.option = ArgumentName("target", difference),
+                      .means = "yes, the error is actual - nominal"}}});
   }
 
   void ChooseGroup() {
@@ -285,18 +280,7 @@ class RoleChooser {
       }
       return;
     }
-    // "cycle" itself before "Cycle" before "Zyklus" and "Cycle No.".
-    std::ptrdiff_t cycle = table_.Find("cycle");
-    const auto look = [&](const auto& fits) {
-      for (std::size_t i = 0; cycle == kNoColumn && i < table_.columns.size();
-           ++i) {
-        if (fits(Name(i))) cycle = static_cast<std::ptrdiff_t>(i);
-      }
-    };
-    look([](std::string_view name) {
-      return EqualsIgnoringCase(name, "cycle");
-    });
-    look([](std::string_view name) { return IsCalled(name, Word::kCycle); });
+    const std::ptrdiff_t cycle = CycleColumn(table_);
     if (cycle != kNoColumn && !Is(cycle, roles_.target)) roles_.group = cycle;
   }
 
@@ -377,6 +361,17 @@ class InputChooser {
     return {selection_.exclude.begin(), selection_.exclude.end()};
   }
 
+  // "columns a, b hold text and are left out of the inputs".
+  void SayLeftOut(const std::vector<std::string>& columns,
+                  const std::string& what,
+                  const std::string& behind) {
+    if (columns.empty()) return;
+    const bool one = columns.size() == 1;
+    chosen_.remarks.push_back(
+        (one ? "column " : "columns ") + ListOfNames(columns) + " " + what +
+        (one ? " and is" : " and are") + " left out" + behind);
+  }
+
   void ChooseDefaultInputs() {
     const std::unordered_set<std::string> excluded = ExcludedNames();
     const MeasuredBeside measured(Name(roles_.target));
@@ -385,6 +380,7 @@ class InputChooser {
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       if (i == roles_.target || Is(roles_.group, i) || Is(roles_.weight, i) ||
           Is(found_.time_column, i) || Is(found_.date_column, i) ||
+          (Is(roles_.direction, i) && !table_.At(i).is_text()) ||
           Name(i) == found_.sessions.column || KeepsRecord(Name(i)) ||
           "-" + Name(i) == selection_.target || IsFiltered(i)) {
         continue;
@@ -412,12 +408,12 @@ class InputChooser {
       } else if (CountsRows(table_.At(i))) {
         had_candidates_ = true;
         Drop(i, "counts the rows");
-      } else if (NamesPart(Name(i))) {
+      } else if (IsCalled(Name(i), Word::kPart)) {
         had_candidates_ = true;
         Drop(i, "tells which one, and measures nothing");
         chosen_.words.push_back(i);
       } else if (const std::string_view why = measured.Why(Name(i));
-                 !why.empty()) {
+                 !why.empty() && Name(i) != selection_.position) {
         had_candidates_ = true;
         Drop(i, std::string(why));
         beside.push_back(Name(i));
@@ -425,21 +421,15 @@ class InputChooser {
         chosen_.inputs.push_back(i);
       }
     }
-    if (!beside.empty()) {
-      const bool one = beside.size() == 1;
-      chosen_.remarks.push_back(
-          (one ? "column " : "columns ") + ListOfNames(beside) +
-          (one ? " measures an error as" : " measure errors as") +
-          " the target does and " + (one ? "is" : "are") + " left out; name " +
-          (one ? "it" : "them") + " in " + ArgumentName("inputs") + " to use " +
-          (one ? "it" : "them"));
-    }
-    if (!texts.empty()) {
-      chosen_.remarks.push_back(
-          (texts.size() == 1 ? "column " : "columns ") + ListOfNames(texts) +
-          (texts.size() == 1 ? " holds text and is" : " hold text and are") +
-          " left out of the inputs");
-    }
+    const bool one = beside.size() == 1;
+    SayLeftOut(beside,
+               one ? "measures an error as the target does"
+                   : "measure errors as the target does",
+               "; name " + std::string(one ? "it" : "them") + " in " +
+                   ArgumentName("inputs") + " to use " + (one ? "it" : "them"));
+    SayLeftOut(texts,
+               texts.size() == 1 ? "holds text" : "hold text",
+               " of the inputs");
     if (chosen_.inputs.empty() && found_.time_column >= 0) {
       had_candidates_ = true;
       Drop(static_cast<std::size_t>(found_.time_column), "is the time");
@@ -457,20 +447,14 @@ class InputChooser {
   ChosenInputs chosen_;
 };
 
-// The word of a name that says that it counts: "cycle" of "elapsed_cycles".
-std::string CounterWordIn(std::string_view name) {
-  while (!name.empty()) {
-    const std::size_t end =
-        std::min(name.find_first_of("_ -.#:()"), name.size());
-    std::string word = CounterStem(name.substr(0, end));
-    if (word.ends_with('s')) word.pop_back();
+// Whether a word of a name says that it counts: "cycles" of "elapsed_cycles".
+bool HasCounterIn(std::string_view name) {
+  return std::ranges::any_of(WordsOf(name), [](const std::string& word) {
     // "no" and "test" are words of other names, too.
-    if (word.size() > 2 && word != "test" && IsOneOf(kCounters, word)) {
-      return word;
-    }
-    name.remove_prefix(std::min(end + 1, name.size()));
-  }
-  return "";
+    return word.size() > 2 && word != "test" &&
+           (IsWord(word, Word::kCounter) || IsWord(word, Word::kCycle) ||
+            IsWord(word, Word::kRun) || IsWord(word, Word::kSession));
+  });
 }
 
 }  // namespace
@@ -493,49 +477,55 @@ bool CountsRows(const CsvColumn& column) {
 }
 
 bool KeepsRecord(std::string_view name) {
-  return IsOneOf(kCounters, CounterStem(name)) || NamesTime(name) ||
-         IsCalled(name, Word::kCycle) || IsCalled(name, Word::kSession) ||
-         IsCalled(name, Word::kRun) || StartsWithIgnoringCase(name, "truth");
+  return IsCalled(name, Word::kCounter) || IsCalled(name, Word::kCycle) ||
+         IsCalled(name, Word::kSession) || IsCalled(name, Word::kRun) ||
+         NamesTime(name) || StartsWithIgnoringCase(name, "truth");
 }
 
 bool IsSensor(const ColumnInfo& column) {
   return !NamesPosition(column.name) &&
-         (!column.unit.symbol.empty() || CounterWordIn(column.name).empty());
+         (!column.unit.symbol.empty() || !HasCounterIn(column.name));
 }
 
 bool CountsCycles(const ColumnInfo& column) {
-  const std::string word = CounterWordIn(column.name);
-  return column.unit.symbol.empty() && !word.empty() && word != "day" &&
-         word != "tag";
+  return column.unit.symbol.empty() && HasCounterIn(column.name) &&
+         !Says(column.name, Word::kDay);
 }
 
 bool PartsComponents(const CsvTable& table, const CsvColumn& column) {
-  constexpr auto kNames = std::to_array<std::string_view>({"direction",
-                                                           "dir",
-                                                           "approach",
-                                                           "motion",
-                                                           "side",
-                                                           "axis",
-                                                           "slide",
-                                                           "component"});
   constexpr std::size_t kMostValues = 24;
-  const bool is_named =
-      NamesPart(column.name) ||
-      std::any_of(kNames.begin(), kNames.end(), [&](std::string_view name) {
-        return EqualsIgnoringCase(column.name, name);
-      });
+  const bool is_named = IsCalled(column.name, Word::kPart) ||
+                        IsCalled(column.name, Word::kDirection) ||
+                        IsCalled(column.name, Word::kComponent);
   if (!is_named) return false;
-  std::vector<std::string> values;
-  for (std::size_t row = 0; row < table.num_rows; ++row) {
-    std::string value = table.CellText(column, row);
-    if (value.empty()) return false;
-    if (std::find(values.begin(), values.end(), value) != values.end()) {
-      continue;
+  const std::vector<std::string> values =
+      LabelsOf(table, column, AllRows(table.num_rows), kMostValues).labels;
+  return values.size() >= 2 && values.size() <= kMostValues &&
+         std::ranges::count(values, "") == 0;
+}
+
+std::ptrdiff_t CycleColumn(const CsvTable& table) {
+  // "cycle" itself before "Cycle" before "Zyklus" and "Cycle No.".
+  std::ptrdiff_t cycle = table.Find("cycle");
+  const auto look = [&](const auto& fits) {
+    for (std::size_t i = 0; cycle == kNoColumn && i < table.columns.size();
+         ++i) {
+      if (fits(table.columns[i].name)) cycle = static_cast<std::ptrdiff_t>(i);
     }
-    values.push_back(std::move(value));
-    if (values.size() > kMostValues) return false;
+  };
+  look([](std::string_view name) { return EqualsIgnoringCase(name, "cycle"); });
+  look([](std::string_view name) { return IsCalled(name, Word::kCycle); });
+  return cycle;
+}
+
+std::ptrdiff_t TimeColumn(const CsvTable& table) {
+  std::ptrdiff_t only = kNoColumn;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    if (!NamesTime(table.columns[i].name)) continue;
+    if (only != kNoColumn) return kNoColumn;
+    only = static_cast<std::ptrdiff_t>(i);
   }
-  return values.size() >= 2;
+  return only;
 }
 
 ColumnRoles ChooseRoles(const CsvTable& table,
@@ -552,18 +542,15 @@ ChosenInputs ChooseInputs(const CsvTable& table,
 
 void ThrowNoInputs(const CsvTable& table,
                    const std::vector<DroppedColumn>& dropped) {
-  std::string what = "no input is left";
-  for (std::size_t i = 0; i < dropped.size(); ++i) {
-    constexpr std::size_t kMostReasons = 3;
-    if (i == kMostReasons) {
-      what += "; and " + std::to_string(dropped.size() - i) + " more";
-      break;
-    }
-    what += (i == 0 ? ": " : "; ") + QuotedName(dropped[i].column) + " " +
-            dropped[i].why;
+  constexpr std::size_t kMostReasons = 3;
+  std::vector<std::string> reasons;
+  for (const DroppedColumn& column : dropped) {
+    reasons.push_back(QuotedName(column.column) + " " + column.why);
   }
   ThrowUnusable(table,
-                what + "; name inputs with " + ArgumentName("inputs") +
+                "no input is left" + std::string(reasons.empty() ? "" : ": ") +
+                    ShortList(reasons, kMostReasons, "; ", "; and ") +
+                    "; name inputs with " + ArgumentName("inputs") +
                     ", or keep dead ones with " + ArgumentName("keep_dead"));
 }
 

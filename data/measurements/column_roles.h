@@ -19,6 +19,7 @@ struct ColumnRoles {
   std::size_t target = 0;
   std::ptrdiff_t group = kNoColumn;
   std::ptrdiff_t weight = kNoColumn;
+  std::ptrdiff_t direction = kNoColumn;  // found after the others
 };
 
 /// Those that `selection` names, else the defaults of MakeDataset, before any
@@ -42,6 +43,11 @@ ChosenInputs ChooseInputs(const CsvTable& table,
                           const DatasetSelection& selection,
                           const ColumnRoles& roles,
                           const FoundSessions& found);
+
+/// The column that numbers the cycles by its name, and the only one that is
+/// called a time; kNoColumn: none. For tables that are not read whole.
+std::ptrdiff_t CycleColumn(const CsvTable& table);
+std::ptrdiff_t TimeColumn(const CsvTable& table);
 
 /// Whether a column numbers or dates the rows by its name ("Cycle No.",
 /// "Takt", "time_s"), or holds what no controller has.

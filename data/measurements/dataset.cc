@@ -10,9 +10,11 @@
 #include <utility>
 
 #include "data/argument_name.h"
+#include "data/columns.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/date_time.h"
+#include "data/text.h"
 
 namespace errmap::data {
 namespace {
@@ -135,19 +137,9 @@ std::string_view ToString(Alignment align) {
 }
 
 std::string_view ToString(Role role) {
-  switch (role) {
-    case Role::kUnknown:
-      return "";
-    case Role::kPosition:
-      return "position";
-    case Role::kSensor:
-      return "sensor";
-    case Role::kSwitch:
-      return "switch";
-    case Role::kCounter:
-      return "counter";
-  }
-  return "";
+  constexpr auto kNames = std::to_array<std::string_view>(
+      {"", "position", "sensor", "switch", "counter"});
+  return NameOf(kNames, role);
 }
 
 bool IsPosition(const ColumnInfo& column) {
@@ -203,8 +195,7 @@ Dataset::Dataset(Parts parts) : parts_(std::move(parts)) {
   // Without inputs the shape still says how many rows there are.
   if (num_inputs() == 0) parts_.input_values.resize(m, 0);
   if (parts_.rows.empty()) {
-    parts_.rows.reserve(static_cast<std::size_t>(m));
-    for (Eigen::Index row = 0; row < m; ++row) parts_.rows.push_back(row);
+    parts_.rows = AllRows(static_cast<std::size_t>(m));
   }
   CheckSize("rows", static_cast<Eigen::Index>(parts_.rows.size()), m);
   if (parts_.log != nullptr) {

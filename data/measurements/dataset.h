@@ -193,7 +193,9 @@ std::string ValueText(const ColumnFilter& filter);
 /// What of a table becomes the data set; empty means the default of the
 /// command line. (The `= {}` let designated initialisers leave fields out.)
 struct DatasetSelection {
-  std::string target = {};                // default: the only column "error*"
+  /// Default: the only column "error*". Also derived: "-correction_um",
+  /// "actual_mm-nominal_mm", "Error [um]" (reading/derived_columns.h).
+  std::string target = {};
   std::vector<std::string> inputs = {};   // default: every other numeric column
   std::vector<std::string> exclude = {};  // never inputs
   std::string group = {};                 // default: "cycle" if there is one

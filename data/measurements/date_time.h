@@ -5,9 +5,11 @@
 
 namespace errmap::data {
 
+inline constexpr double kSecondsOfDay = 86400.0;
+
 /// What comes first in "03/04/2024"; a year in front, and points, leave no
-/// doubt.
-enum class DateOrder { kDayFirst, kMonthFirst };
+/// doubt. kNoDate: "08.05.12" is a time of day.
+enum class DateOrder { kDayFirst, kMonthFirst, kNoDate };
 
 struct DateTime {
   /// From 1970-01-01T00:00:00, or from midnight where there is no date.
@@ -16,6 +18,7 @@ struct DateTime {
   bool has_time = false;   // else midnight
   bool in_halves = false;  // by AM and PM, as where months come first
   bool by_order = false;   // another DateOrder reads another date, or none
+  bool elapsed = false;    // no time of day: hours above 23, or minutes
 };
 
 /// A date, a time of day or both:
@@ -24,6 +27,8 @@ struct DateTime {
 ///   2024-03-01 12:00         also 2024/03/01 and 2024.3.1
 ///   01.03.2024 12:00:05      the day first; also 1.3.24 (1970 to 2069)
 ///   3/1/2024 1:05 PM         in the order given
+///   Fri 1-Mar-2024 12:00:05  also "1. März 2024, 12:00 Uhr", "12h05", "CET"
+///   29:00:05, 1 05:00:05     elapsed: hours, or days; 125:03.5 in minutes
 ///
 /// Nothing where the text is none, or names a day or time that there is not.
 std::optional<DateTime> ParseDateTime(std::string_view text,

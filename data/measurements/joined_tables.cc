@@ -4,15 +4,15 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
 #include "data/argument_name.h"
+#include "data/column_words.h"
+#include "data/columns.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/measured_files.h"
 #include "data/measurements/merged_log.h"
-#include "data/measurements/reading/column_words.h"
 #include "data/measurements/sessions.h"
 #include "data/text.h"
 
@@ -21,34 +21,14 @@ namespace {
 
 using Eigen::Index;
 
-// A column of text, a label per row.
-CsvColumn TextColumn(const std::string& name,
-                     const std::vector<std::string>& labels,
-                     const std::vector<Index>& codes) {
-  CsvColumn column{
-      .name = name, .values = {}, .exceptions = {}, .texts = labels};
-  column.values = std::vector<double>(codes.size(), std::nan(""));
-  for (std::size_t row = 0; row < codes.size(); ++row) {
-    column.exceptions.emplace_back(row, static_cast<std::uint32_t>(codes[row]));
-  }
-  return column;
-}
-
-void Append(const CsvColumn& more, CsvColumn* column) {
-  const std::size_t rows = column->values.size();
-  for (const double value : more.values) column->values.push_back(value);
-  const auto shift = static_cast<std::uint32_t>(column->texts.size());
-  for (const auto& [row, text] : more.exceptions) {
-    column->exceptions.emplace_back(rows + row, shift + text);
-  }
-  column->texts.insert(
-      column->texts.end(), more.texts.begin(), more.texts.end());
-  // Each file has its own way of writing decimals: a mixture in one is a doubt.
-  if (more.first_decimal_comma >= 0 && more.first_decimal_point >= 0) {
-    const auto shift_rows = static_cast<std::ptrdiff_t>(rows);
-    column->first_decimal_comma = shift_rows + more.first_decimal_comma;
-    column->first_decimal_point = shift_rows + more.first_decimal_point;
-  }
+// Each file has its own way of writing decimals: a mixture in one is a doubt.
+void AppendFile(const CsvColumn& more, CsvColumn* column) {
+  const std::ptrdiff_t comma = column->first_decimal_comma;
+  const std::ptrdiff_t point = column->first_decimal_point;
+  AppendCells(more, column);
+  if (more.first_decimal_comma >= 0 && more.first_decimal_point >= 0) return;
+  column->first_decimal_comma = comma;
+  column->first_decimal_point = point;
 }
 
 // The rows of `later` below those of `table`, but for the columns.
@@ -202,23 +182,16 @@ class Joiner {
                        ", so the files cannot be joined");
     }
     if (lines.empty()) return;
-    std::string list;
     constexpr std::size_t kMost = 5;
-    for (std::size_t i = 0; i < std::min(lines.size(), kMost); ++i) {
-      list += (i == 0 ? "" : ", ") + lines[i];
-    }
-    if (lines.size() > kMost) {
-      list += " and " + std::to_string(lines.size() - kMost) + " more";
-    }
-    Note("columns that not all files have are left out: " + list);
+    Note("columns that not all files have are left out: " +
+         ShortList(lines, kMost));
   }
 
   // A column says where sessions are. A leap of time is a guess, and the file
   // is what somebody calls a day.
   void FindSessionsOfFiles() {
     for (const CsvTable& table : tables_) {
-      std::vector<Index> rows(table.num_rows);
-      std::iota(rows.begin(), rows.end(), Index{0});
+      const std::vector<Index> rows = AllRows(table.num_rows);
       Grouping found;
       if (!by_file_) found = FindSessions(table, selection_, rows).sessions;
       if (found.column.empty()) {
@@ -239,13 +212,10 @@ class Joiner {
   // Whether the session that ends file `i` goes on in the next one: a clock
   // shows no night between, or the cycles count on.
   bool GoesOn(std::size_t i) const {
-    constexpr double kShortestNight = 3.5 * 3600.0;
     const CsvTable& before = tables_[i];
     const CsvTable& after = tables_[i + 1];
     const auto clock_of = [&](const CsvTable& table) {
-      std::vector<Index> rows(table.num_rows);
-      std::iota(rows.begin(), rows.end(), Index{0});
-      return FindClock(table, selection_, rows);
+      return FindClock(table, selection_, AllRows(table.num_rows));
     };
     const Clock ends = clock_of(before);
     const Clock begins = clock_of(after);
@@ -316,7 +286,7 @@ class Joiner {
       std::erase_if(tables_[i].columns,
                     [&](const CsvColumn& old) { return old.name == column; });
       tables_[i].columns.push_back(
-          TextColumn(column, labels, sessions_[i].codes));
+          WordColumn(column, sessions_[i].codes, labels));
     }
   }
 
@@ -331,7 +301,7 @@ class Joiner {
     for (const std::string& name : names_) {
       CsvColumn column = tables_[0].At(tables_[0].Find(name));
       for (std::size_t i = 1; i < tables_.size(); ++i) {
-        data::Append(tables_[i].At(tables_[i].Find(name)), &column);
+        AppendFile(tables_[i].At(tables_[i].Find(name)), &column);
       }
       joined_.table.columns.push_back(std::move(column));
     }
@@ -405,7 +375,7 @@ void AddFileColumn(const std::string& label, CsvTable* table) {
     return column.name == kFileColumn;
   });
   table->columns.push_back(
-      TextColumn(kFileColumn, {label}, std::vector<Index>(table->num_rows, 0)));
+      WordColumn(kFileColumn, std::vector<Index>(table->num_rows, 0), {label}));
 }
 
 CsvTable AppendedTable(const CsvTable& earlier,
@@ -417,7 +387,7 @@ CsvTable AppendedTable(const CsvTable& earlier,
   for (const std::string& name : columns) {
     CsvColumn column =
         earlier.columns[RequireColumn(earlier, name, ArgumentName("after"))];
-    Append(later.columns[RequireColumn(later, name, "DATA")], &column);
+    AppendFile(later.columns[RequireColumn(later, name, "DATA")], &column);
     table.columns.push_back(std::move(column));
   }
   return table;

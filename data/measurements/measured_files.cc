@@ -122,13 +122,10 @@ bool IsTable(const fs::path& path) {
 
 // What a name says besides dates and numbers: days differ in those only.
 std::string KindOf(const std::string& path) {
-  constexpr auto kDays = std::to_array<std::string_view>(
-      {"monday",  "tuesday", "wednesday", "thursday", "friday",     "saturday",
-       "sunday",  "montag",  "dienstag",  "mittwoch", "donnerstag", "freitag",
-       "samstag", "sonntag", "mon",       "tue",      "wed",        "thu",
-       "fri",     "sat",     "sun",       "jan",      "feb",        "mar",
-       "apr",     "may",     "jun",       "jul",      "aug",        "sep",
-       "oct",     "nov",     "dec"});
+  constexpr std::string_view kDays =
+      "monday tuesday wednesday thursday friday saturday sunday montag "
+      "dienstag mittwoch donnerstag freitag samstag sonntag mon tue wed thu "
+      "fri sat sun jan feb mar apr may jun jul aug sep oct nov dec";
   std::string kind;
   std::string word;
   for (const char c : NameWithoutEndings(path) + "_") {
@@ -136,7 +133,7 @@ std::string KindOf(const std::string& path) {
       word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
       continue;
     }
-    if (!word.empty() && std::ranges::find(kDays, word) == kDays.end()) {
+    if (!word.empty() && !IsOneOf(word, kDays)) {
       kind += word + " ";
     }
     word.clear();
@@ -266,12 +263,7 @@ std::string FileLabel(const std::string& path) {
 std::string NamesOfFiles(const std::vector<std::string>& paths) {
   constexpr std::size_t kMostNamed = 3;
   const std::size_t named = paths.size() > kMostNamed ? 1 : paths.size();
-  std::string names;
-  for (std::size_t i = 0; i < named; ++i) {
-    names += (i == 0 ? "" : ", ") + paths[i];
-  }
-  if (named == paths.size()) return names;
-  return names + " and " + std::to_string(paths.size() - named) + " more";
+  return ShortList(paths, named);
 }
 
 }  // namespace errmap::data

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "data/argument_name.h"
+#include "data/columns.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/sessions.h"
 #include "data/text.h"
@@ -20,9 +19,7 @@ using Eigen::Index;
 
 FoundSessions TimesOf(const CsvTable& table,
                       const DatasetSelection& selection) {
-  std::vector<Index> rows(table.num_rows);
-  std::iota(rows.begin(), rows.end(), Index{0});
-  FoundSessions found = FindSessions(table, selection, rows);
+  FoundSessions found = FindSessions(table, selection, AllRows(table.num_rows));
   if (found.time_column < 0) {
     ThrowUnusable(table,
                   "no column of times to join " + ArgumentName("with") +
@@ -55,11 +52,10 @@ class Readings {
       readings_.emplace_back(times.time[row] - ahead, row);
     }
     std::ranges::sort(readings_);
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < readings_.size(); ++i) {
-      steps.push_back(readings_[i].first - readings_[i - 1].first);
-    }
-    step_ = MedianStep(std::move(steps));
+    Eigen::VectorXd in_order(std::ssize(readings_));
+    std::ranges::transform(
+        readings_, in_order.begin(), &std::pair<double, Index>::first);
+    step_ = MedianStepOf(in_order);
   }
 
   double step() const { return step_; }
@@ -87,32 +83,18 @@ class Readings {
   double step_ = 0.0;
 };
 
-CsvColumn Taken(const CsvTable& log,
-                const CsvColumn& from,
-                const std::vector<Index>& rows) {
-  CsvColumn column{.name = from.name,
-                   .has_name = from.has_name,
-                   .values = {},
-                   .exceptions = {},
-                   .texts = from.texts};
-  const auto empty = static_cast<std::uint32_t>(column.texts.size());
-  column.texts.emplace_back();
-  std::vector<std::ptrdiff_t> text_of(log.num_rows, -1);
-  for (const auto& [row, text] : from.exceptions) {
-    text_of[row] = static_cast<std::ptrdiff_t>(text);
-  }
-  for (const Index row : rows) {
-    const std::size_t at = column.values.size();
-    const auto of_log = static_cast<std::size_t>(std::max<Index>(row, 0));
-    if (row < 0 || text_of[of_log] >= 0) {
-      column.exceptions.emplace_back(
-          at, row < 0 ? empty : static_cast<std::uint32_t>(text_of[of_log]));
-      column.values.push_back(std::numeric_limits<double>::quiet_NaN());
-    } else {
-      column.values.push_back(from.values[of_log]);
-    }
-  }
-  return column;
+// A log may write its decimals another way than the table, but only one.
+bool MixesMarks(const CsvTable& log) {
+  const auto any = [&](std::ptrdiff_t CsvColumn::*first) {
+    return std::ranges::any_of(
+        log.columns, [&](const CsvColumn& c) { return c.*first >= 0; });
+  };
+  return any(&CsvColumn::first_decimal_comma) &&
+         any(&CsvColumn::first_decimal_point);
+}
+
+void ForgetMarks(CsvColumn* column) {
+  column->first_decimal_comma = column->first_decimal_point = -1;
 }
 
 }  // namespace
@@ -148,11 +130,13 @@ void MergeLog(const CsvTable& log,
                       ArgumentName("clock_offset"));
   }
   std::vector<std::string> names;
+  const bool mixes_marks = MixesMarks(log);
   const std::string& time = log.At(log_times.time_column).name;
   for (const CsvColumn& column : log.columns) {
     if (column.name == time || table->Find(column.name) >= 0) continue;
     names.push_back(QuotedName(column.name));
-    table->columns.push_back(Taken(log, column, rows));
+    table->columns.push_back(TakeRows(column, rows));
+    if (!mixes_marks) ForgetMarks(&table->columns.back());
   }
   table->remarks.insert(
       table->remarks.end(), log.remarks.begin(), log.remarks.end());

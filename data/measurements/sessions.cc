@@ -9,9 +9,12 @@
 #include <utility>
 
 #include "data/argument_name.h"
+#include "data/column_words.h"
 #include "data/measurements/column_checks.h"
+#include "data/measurements/column_roles.h"
+#include "data/measurements/date_time.h"
 #include "data/measurements/joined_tables.h"
-#include "data/measurements/reading/column_words.h"
+#include "data/measurements/reading/row_columns.h"
 #include "data/measurements/text_times.h"
 #include "data/text.h"
 
@@ -20,21 +23,13 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kDaySeconds = 86400.0;
-
-std::string Counted(Index count, const std::string& what) {
-  return count == 1 ? "one " + what : std::to_string(count) + " " + what + "s";
-}
-
-class SessionFinder {
+class SessionFinder : private RowColumns {
  public:
   SessionFinder(const CsvTable& table,
                 const DatasetSelection& selection,
                 const std::vector<Index>& rows,
                 SessionClues clues)
-      : table_(table),
-        selection_(selection),
-        rows_(rows),
+      : RowColumns(table, selection, rows),
         clock_(std::move(clues.clock)),
         nights_(clues.nights),
         passes_(std::move(clues.passes)),
@@ -50,18 +45,11 @@ class SessionFinder {
     } else {
       RefuseTimeGoingBack();
     }
-    // Where nothing tells, there is nothing to say.
-    if (found_.time_column >= 0 || !found_.sessions.column.empty()) {
-      found_.remarks.push_back(SessionsText() + "; " + TimeText());
-    }
     return std::move(found_);
   }
 
  private:
   const CsvColumn& TimeColumn() const { return table_.At(found_.time_column); }
-  std::size_t DataRow(std::size_t i) const {
-    return static_cast<std::size_t>(rows_[i]);
-  }
 
   void TakeClock() {
     found_.remarks = clock_.remarks;
@@ -77,27 +65,7 @@ class SessionFinder {
     found_.time_column = -1;
     found_.dated = false;
     found_.time_unit = "rows";
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      found_.time[static_cast<Index>(i)] = static_cast<double>(rows_[i]);
-    }
-  }
-
-  // What is measured tells no time: filters would see the error itself.
-  bool IsMeasured(std::size_t column) const {
-    const std::string& name = table_.columns[column].name;
-    return name == selection_.target || name == selection_.weight;
-  }
-
-  std::size_t NamedColumn(const std::string& name,
-                          const std::string& argument) const {
-    const std::size_t index = RequireColumn(table_, name, argument);
-    if (IsMeasured(index)) {
-      throw InputError(PrintablePath(table_.file) + ": column " +
-                       QuotedName(table_.columns[index].name) +
-                       " is the target or the weight; name another with " +
-                       argument);
-    }
-    return index;
+    found_.time = RowNumbers();
   }
 
   // Those that `wanted` wants of what is not measured.
@@ -112,43 +80,6 @@ class SessionFinder {
 
   bool IsNone(const std::string& name) const {
     return name == "none" && table_.Find(name) < 0;
-  }
-
-  // A column that somebody named must do; another is passed over.
-  void PassOver(bool named, const std::string& why, const std::string& remedy) {
-    if (named) throw InputError(why + "; " + remedy);
-    found_.remarks.push_back(why + "; the column is passed over");
-  }
-
-  // Whether a cell of a column may be missing in this row. One of a column that
-  // somebody named drops its row, or stops.
-  bool MayBeMissing(std::size_t column, std::size_t row, bool named) {
-    if (!named) {
-      PassOver(
-          false,
-          table_.Where(row, table_.columns[column].name) + ": no value there",
-          "");
-      return false;
-    }
-    if (selection_.missing == MissingPolicy::kError) {
-      RefuseMissingCell(table_, {column, ColumnUse::kOther}, row);
-    }
-    return true;
-  }
-
-  // Rows that are not known get the value before them (the first ones that
-  // after them), so that steps to and from them are those of the others.
-  template <typename Values>
-  static bool HoldLast(const std::vector<bool>& known, Values* values) {
-    const auto first = std::ranges::find(known, true) - known.begin();
-    if (first == static_cast<std::ptrdiff_t>(known.size())) return false;
-    auto last = (*values)[static_cast<Index>(first)];
-    for (std::size_t i = 0; i < known.size(); ++i) {
-      auto& value = (*values)[static_cast<Index>(i)];
-      if (known[i]) last = value;
-      value = last;
-    }
-    return true;
   }
 
   // ---- Sessions.
@@ -243,10 +174,10 @@ class SessionFinder {
       if (codes[i] == codes[i - 1]) continue;
       const double now = found_.time[static_cast<Index>(i)];
       const double before = found_.time[static_cast<Index>(i) - 1];
-      if (std::floor(now / kDaySeconds) == std::floor(before / kDaySeconds)) {
+      if (std::floor(now / kSecondsOfDay) ==
+          std::floor(before / kSecondsOfDay)) {
         return "";  // not the days of the calendar
       }
-      constexpr double kShortestNight = 3.5 * 3600.0;
       any = any || (now >= before &&
                     now - before <= std::min(nights_.gap, kShortestNight));
     }
@@ -256,15 +187,18 @@ class SessionFinder {
                : "";
   }
 
+  // Whether hardly a pass begins without another code: of each pass one, or the
+  // two ways of it one each, counted on or anew each day.
   bool IsPassOfEach(const std::vector<Index>& codes) const {
-    std::set<std::pair<Index, Index>> pairs;
-    std::set<Index> passes;
-    for (std::size_t i = 0; i < codes.size(); ++i) {
-      pairs.emplace(codes[i], passes_[i]);
-      passes.insert(passes_[i]);
+    Index begun = 0;
+    Index alike = 0;
+    for (std::size_t i = 1; i < codes.size(); ++i) {
+      if (passes_[i] == passes_[i - 1]) continue;
+      ++begun;
+      alike += codes[i] == codes[i - 1] ? 1 : 0;
     }
-    return passes.size() >= 3 && pairs.size() <= passes.size() * 11 / 10 &&
-           found_.sessions.labels.size() * 10 >= passes.size() * 9;
+    constexpr Index kHardly = 10;
+    return begun >= 2 && kHardly * alike <= begun;
   }
 
   bool TakeSessions(std::size_t index, bool named) {
@@ -275,7 +209,7 @@ class SessionFinder {
       const std::size_t row = DataRow(i);
       if (std::isnan(column.values[row]) &&
           IsMissingText(table_.CellText(column, row))) {
-        if (!MayBeMissing(index, row, named)) return false;
+        if (!MayBeMissing(index, row, named, &found_.remarks)) return false;
         here[i] = false;
       } else {
         rows_known.push_back(rows_[i]);
@@ -288,9 +222,10 @@ class SessionFinder {
       PassOver(false,
                "column " + QuotedName(column.name) + " has " +
                    std::to_string(sessions.labels.size()) + " values in " +
-                   Counted(static_cast<Index>(rows_known.size()), "row") +
-                   ", which are no sessions",
-               "");
+                   std::to_string(rows_known.size()) +
+                   " rows, which are no sessions",
+               "",
+               &found_.remarks);
       return false;
     }
     std::vector<Index> codes(rows_.size());
@@ -339,10 +274,7 @@ class SessionFinder {
   // Sessions begin anew where time does, or after a night.
   void CutSessions() {
     const auto n = static_cast<Index>(rows_.size());
-    Index num_back = 0;
-    for (Index i = 1; i < n; ++i) {
-      num_back += found_.time[i] < found_.time[i - 1] ? 1 : 0;
-    }
+    const Index num_back = TimesBack(found_.time);
     // Runs of fewer than four rows are no sessions but disorder.
     constexpr Index kFewestRows = 4;
     if (num_back * kFewestRows > n) {
@@ -352,7 +284,8 @@ class SessionFinder {
                    std::to_string(num_back) + " of " + std::to_string(n - 1) +
                    " steps, so the rows are not in order of time",
                "sort them, or name the column of sessions with " +
-                   ArgumentName("session"));
+                   ArgumentName("session"),
+               &found_.remarks);
       UseRowNumbers();
     }
     CutWhere([&](std::size_t i) {
@@ -366,22 +299,62 @@ class SessionFinder {
     found_.gap = nights_.gap;
     found_.evidence =
         selection_.gap.empty() ? Evidence::kValues : Evidence::kUser;
-    if (found_.by != "one" || !CountsAnew()) return;
-    CutWhere(
-        [&](std::size_t i) { return CellOfCycle(i) < CellOfCycle(i - 1); });
-    found_.by = "counter";
+    if (found_.by != "one") return;
+    if (CountsAnew()) {
+      CutWhere(
+          [&](std::size_t i) { return CellOfCycle(i) < CellOfCycle(i - 1); });
+      found_.by = "counter";
+    } else if (found_.time_column < 0 && found_.ordered) {
+      TakeBlocksOfWords();
+    }
+  }
+
+  // Where there is no clock, words that change a few times down the rows and
+  // never come back ("Mo", "Di"; "meas_01.dat"), each over some passes.
+  void TakeBlocksOfWords() {
+    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+      const CsvColumn& column = table_.columns[i];
+      if (IsMeasured(i) || !column.is_text() || !column.has_name ||
+          PartsComponents(table_, column) || !AreBlocks(column)) {
+        continue;
+      }
+      const FoundSessions one = found_;
+      if (TakeSessions(i, false)) {
+        found_.evidence = Evidence::kValues;
+        return;
+      }
+      found_ = one;
+    }
+  }
+
+  bool AreBlocks(const CsvColumn& column) const {
+    constexpr std::size_t kFewestRows = 8;
+    std::set<std::uint32_t> seen;
+    std::size_t rows = kFewestRows;
+    auto cell = column.exceptions.begin();
+    std::uint32_t last = 0;
+    for (std::size_t i = 0; i < rows_.size(); ++i, ++rows) {
+      while (cell->first < DataRow(i)) ++cell;
+      if (i > 0 && cell->second == last) continue;
+      if (rows < kFewestRows || !seen.insert(cell->second).second ||
+          IsMissingText(column.texts[cell->second])) {
+        return false;
+      }
+      const bool inside_a_pass =
+          i > 0 && !passes_.empty() && passes_[i] == passes_[i - 1];
+      if (inside_a_pass) return false;
+      last = cell->second;
+      rows = 0;
+    }
+    return seen.size() >= 2 && rows >= kFewestRows;
   }
 
   template <typename Begins>
   void CutWhere(const Begins& begins) {
     found_.sessions = {};
     Index session = 0;
-    first_cut_ = -1;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      if (i > 0 && begins(i)) {
-        ++session;
-        if (first_cut_ < 0) first_cut_ = rows_[i];
-      }
+      if (i > 0 && begins(i)) ++session;
       found_.sessions.codes.push_back(session);
     }
     for (Index i = 0; i <= session; ++i) {
@@ -411,51 +384,24 @@ class SessionFinder {
     return anew && rows_.size() >= 2 * runs;
   }
 
-  // ---- Words.
-
-  std::string SessionsText() const {
-    const auto count = static_cast<Index>(found_.sessions.labels.size());
-    std::string text = Counted(count, "session");
-    if (!found_.sessions.column.empty()) {
-      text += " by " + QuotedName(found_.sessions.column);
-    } else if (found_.by == "counter") {
-      text += ", as " + QuotedName(table_.At(cycle_).name) +
-              " begins anew (first at data row " + std::to_string(first_cut_) +
-              ")";
-    } else if (count > 1) {
-      text += ", cut where " + QuotedName(TimeColumn().name) +
-              (found_.by == "nights" ? " pauses for a night"
-                                     : " goes back or pauses for a night") +
-              " (first at data row " + std::to_string(first_cut_) + ")";
-    } else {
-      text += std::string(" (no column ") + kSessionColumnsText +
-              ", no night in time)";
-    }
-    return text;
-  }
-
-  std::string TimeText() const {
-    if (!found_.ordered) return "the rows are in no order of time";
-    if (found_.time_column < 0) return "time is the number of the row";
-    std::string text = "time by " + QuotedName(TimeColumn().name);
-    if (clock_.date_column >= 0) {
-      text += " and " + QuotedName(table_.At(clock_.date_column).name);
-    }
-    return text + clock_.words;
-  }
-
-  const CsvTable& table_;
-  const DatasetSelection& selection_;
-  const std::vector<Index>& rows_;
   Clock clock_;
   Nights nights_;
   std::vector<Index> passes_;
   std::ptrdiff_t cycle_;
   FoundSessions found_;
-  Index first_cut_ = -1;  // data row
 };
 
 }  // namespace
+
+std::vector<Index> RunStarts(const std::vector<Index>& codes) {
+  std::vector<Index> starts;
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    if (i == 0 || codes[i] != codes[i - 1]) {
+      starts.push_back(static_cast<Index>(i));
+    }
+  }
+  return starts;
+}
 
 double MedianStep(std::vector<double> steps) {
   std::erase_if(steps, [](double step) { return !(step > 0.0); });
@@ -464,6 +410,22 @@ double MedianStep(std::vector<double> steps) {
       steps.begin() + static_cast<std::ptrdiff_t>((steps.size() - 1) / 2);
   std::ranges::nth_element(steps, middle);
   return *middle;
+}
+
+double MedianStepOf(const Eigen::VectorXd& time) {
+  std::vector<double> steps;
+  for (Index i = 1; i < time.size(); ++i) {
+    steps.push_back(time[i] - time[i - 1]);
+  }
+  return MedianStep(std::move(steps));
+}
+
+Index TimesBack(const Eigen::VectorXd& time) {
+  Index count = 0;
+  for (Index i = 1; i < time.size(); ++i) {
+    count += time[i] < time[i - 1] ? 1 : 0;
+  }
+  return count;
 }
 
 std::vector<Index> FirstRows(const Grouping& sessions,

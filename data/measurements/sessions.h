@@ -26,9 +26,18 @@ bool NamesTime(std::string_view name);  // by one of these
 /// A step of time of more than this many median ones is a break.
 inline constexpr double kLeapSteps = 20.0;
 
+/// Where runs of equal codes begin.
+std::vector<Eigen::Index> RunStarts(const std::vector<Eigen::Index>& codes);
+
 /// The median of the steps above 0 (the lower of two), infinite where there is
 /// none.
 double MedianStep(std::vector<double> steps);
+/// Of times one after another, and how many of them are before the one before.
+double MedianStepOf(const Eigen::VectorXd& time);
+Eigen::Index TimesBack(const Eigen::VectorXd& time);
+
+/// A night lasts longer than this, s.
+inline constexpr double kShortestNight = 3.5 * 3600.0;
 
 /// The row at which each session's zero is taken: its first whose inputs
 /// (n x p) are all numbers, measured there or not, else its first.

@@ -1,5 +1,7 @@
 #include "data/measurements/text_times.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "data/measurements/column_checks.h"
@@ -20,6 +22,7 @@ TextTimes ReadTimes(const CsvColumn& column, DateOrder order) {
       times.any_hours = times.any_hours || parsed->has_time;
       times.by_order = times.by_order || parsed->by_order;
       times.in_halves = times.in_halves || parsed->in_halves;
+      times.elapsed = times.elapsed || parsed->elapsed;
     } else {
       times.all = times.all && IsMissingNumber(text);
     }
@@ -38,13 +41,29 @@ std::size_t TimesBack(const CsvColumn& column, const TextTimes& times) {
   return count;
 }
 
-// Of two that go back as often, the one of people who write AM and PM.
+// From the first to the last of them.
+double Span(const TextTimes& times) {
+  double least = INFINITY;
+  double most = -INFINITY;
+  for (const auto& seconds : times.seconds) {
+    least = std::min(least, seconds.value_or(least));
+    most = std::max(most, seconds.value_or(most));
+  }
+  return most - least;
+}
+
+// Of two that go back as often, the one by which the file lasts less long: days
+// that follow one another are months apart in the other. Else the one of people
+// who write AM and PM.
 bool GoesBackLess(const CsvColumn& column,
                   const TextTimes& month_first,
                   const TextTimes& day_first) {
   const std::size_t by_month = TimesBack(column, month_first);
   const std::size_t by_day = TimesBack(column, day_first);
-  return by_month != by_day ? by_month < by_day : month_first.in_halves;
+  if (by_month != by_day) return by_month < by_day;
+  const double of_month = Span(month_first);
+  const double of_day = Span(day_first);
+  return of_month != of_day ? of_month < of_day : month_first.in_halves;
 }
 
 }  // namespace
@@ -53,12 +72,16 @@ TextTimes ReadTimes(const CsvColumn& column) {
   TextTimes day_first = ReadTimes(column, DateOrder::kDayFirst);
   if (day_first.all && !day_first.by_order) return day_first;
   TextTimes month_first = ReadTimes(column, DateOrder::kMonthFirst);
+  if (!day_first.all && !month_first.all) {
+    TextTimes hours = ReadTimes(column, DateOrder::kNoDate);
+    if (hours.all) return hours;
+  }
   if (day_first.seconds == month_first.seconds) return day_first;
   const bool by_month = day_first.all == month_first.all
                             ? GoesBackLess(column, month_first, day_first)
                             : month_first.all;
-  day_first.doubt = ", its dates read as day/month/year";
-  month_first.doubt = ", its dates read as month/day/year";
+  day_first.order = "day/month/year";
+  month_first.order = "month/day/year";
   return by_month ? month_first : day_first;
 }
 

@@ -19,14 +19,15 @@ struct TextTimes {
   bool any_hours = false;  // a time of day in some
   bool in_halves = false;  // by AM and PM
   bool by_order = false;   // another order reads some of them otherwise
-  /// ", its dates read as day/month/year" where another order reads others.
-  std::string doubt;
+  bool elapsed = false;    // hours that go on over 24, or days and hours
+  /// "day/month/year", the order taken, where another reads other dates.
+  std::string order;
 };
 
 /// Reads them by ParseDateTime. "03/04/2024" may be in March or in April: the
 /// order is the one that makes all of them dates, else the one that goes back
-/// in time less often down the rows, else the month with AM and PM, else the
-/// day.
+/// in time less often down the rows, else the one by which the file lasts less
+/// long, else the month with AM and PM, else the day.
 TextTimes ReadTimes(const CsvColumn& column);
 
 }  // namespace errmap::data

@@ -14,6 +14,14 @@
 
 namespace errmap::data {
 
+const std::string* CsvColumn::TextAt(std::size_t row) const {
+  const auto found = std::ranges::lower_bound(
+      exceptions, row, {}, [](const auto& cell) { return cell.first; });
+  return found != exceptions.end() && found->first == row
+             ? &texts[found->second]
+             : nullptr;
+}
+
 std::ptrdiff_t CsvTable::Find(std::string_view name) const {
   const auto found =
       std::find_if(columns.begin(), columns.end(), [&](const CsvColumn& c) {
@@ -48,15 +56,8 @@ std::string CsvTable::Where(std::size_t row, std::string_view column) const {
 }
 
 std::string CsvTable::CellText(const CsvColumn& column, std::size_t row) const {
-  const auto found = std::lower_bound(
-      column.exceptions.begin(),
-      column.exceptions.end(),
-      row,
-      [](const auto& exception, std::size_t r) { return exception.first < r; });
-  if (found != column.exceptions.end() && found->first == row) {
-    return column.texts[found->second];
-  }
-  return CsvNumber(column.values[row]);
+  const std::string* const text = column.TextAt(row);
+  return text != nullptr ? *text : CsvNumber(column.values[row]);
 }
 
 CsvTable ReadCsv(const std::string& path, OddRows odd) {

@@ -7,6 +7,7 @@
 
 #include "data/input_error.h"
 #include "data/tables/missing_cells.h"
+#include "data/tables/thousands.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -67,6 +68,24 @@ Score ScoreOf(const std::vector<CsvRecord>& records, char delimiter) {
   return {share * (kOfWords + of_known),
           records.front().cells.size() == width,
           width};
+}
+
+// What the numbers of the first rows tell: where commas part cells, those in
+// quotes may have decimal commas.
+void TakeDecimals(const std::vector<CsvRecord>& records, CsvDialect* dialect) {
+  bool commas = false;
+  for (const CsvRecord& record : records) {
+    for (const std::string& cell : record.cells) {
+      NumberForm form;
+      if (!ReadNumberForm(cell, true, &form)) continue;
+      dialect->decimal_points = dialect->decimal_points || form.decimal_point;
+      commas = commas ||
+               (form.decimal_comma && !MayPartThousands(cell, cell.find(',')));
+    }
+  }
+  if (dialect->delimiter == ',') {
+    dialect->decimal_comma = commas && !dialect->decimal_points;
+  }
 }
 
 // Blanks part cells where they do so in most rows, of known cells, and a row of
@@ -176,6 +195,7 @@ CsvDialect FindDialect(const CsvCells& cells) {
     if (score > best) {
       best = score;
       dialect = tried;
+      TakeDecimals(records, &dialect);
     }
   }
   if (dialect.delimiter != CsvCells::kNoDelimiter) return dialect;

@@ -14,7 +14,8 @@ struct CsvDialect {
   /// Tab, `;`, `|` or `,`; ' ' where blanks part the cells; or
   /// CsvCells::kNoDelimiter.
   char delimiter = CsvCells::kNoDelimiter;
-  bool decimal_comma = false;  // a comma may stand for a decimal point
+  bool decimal_comma = false;   // a comma may stand for a decimal point
+  bool decimal_points = false;  // numbers have points
 };
 
 /// A row of a file's beginning.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "data/tables/loose_numbers.h"
 #include "data/tables/missing_cells.h"
 #include "data/tables/unit_cells.h"
 #include "data/text.h"
@@ -66,7 +67,10 @@ class LayoutFinder {
 
   bool IsNumber(std::string_view cell) const {
     NumberForm form;
-    return ReadNumberForm(cell, dialect_.decimal_comma, &form);
+    return ReadNumberForm(cell, dialect_.decimal_comma, &form) ||
+           ReadLooseNumber(
+               cell, dialect_.decimal_comma, dialect_.decimal_points, &form) !=
+               Loose::kNone;
   }
 
   // In the columns that hold numbers.
@@ -159,22 +163,36 @@ class LayoutFinder {
     if (num_words < 2 || CountsOf(upper).numbers > 0) return false;
     const std::set<std::string> distinct(layout_.names.begin(),
                                          layout_.names.end());
-    const bool tells = distinct.size() == usual_ && !distinct.contains("");
+    const bool tells = distinct.size() == usual_ && !distinct.contains("") &&
+                       !AreMadeOfUnits(layout_.names);
     std::string group;
     for (std::size_t i = 0; i < usual_ && !tells; ++i) {
       if (!upper[i].empty()) group = upper[i];
       std::string& name = layout_.names[i];
       const bool is_alone = std::ranges::count(records_[row].cells, name) == 1;
+      std::string unit = AsUtf8(name);
       if (name.empty()) {
         name = upper[i];
+      } else if (ReadUnitCell(&unit) && !unit.empty() && !upper[i].empty()) {
+        name = NameWithUnit(AsUtf8(upper[i]), unit).value_or(upper[i]);
+      } else if (AreMadeOfUnits(records_[row].cells) && !upper[i].empty()) {
+        name.insert(0, upper[i] + " ");
       } else if (!is_alone && !group.empty()) {
-        name = group + " " + name;
+        name.insert(0, group + " ");
       }
     }
     Say("line " + std::to_string(records_[row - 1].start.line) +
         " is a second row of names" + (tells ? " and passed over" : "") +
         (tells ? "" : ", which tells columns of one name apart"));
     return true;
+  }
+
+  // Two cells or more are units and nothing else.
+  static bool AreMadeOfUnits(const std::vector<std::string>& cells) {
+    return std::ranges::count_if(cells, [](const std::string& cell) {
+             std::string text = AsUtf8(cell);
+             return ReadUnitCell(&text) && !text.empty();
+           }) >= 2;
   }
 
   void TakeNoNames(std::size_t first) {
@@ -192,19 +210,49 @@ class LayoutFinder {
     const std::string_view above(
         text_above_.data(), static_cast<std::size_t>(end - text_above_.data()));
     std::size_t line = 1;
+    std::vector<std::string> units;
     for (std::size_t at = 0; at < above.size(); ++line) {
       const char* const begin = above.data() + at;
       const char* const stop = std::find_if(begin, end, IsLineEnd);
       at = static_cast<std::size_t>(PastLineEnd(stop, end) - above.data());
       std::string_view text(begin, static_cast<std::size_t>(stop - begin));
+      constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+      if (text.starts_with(kByteOrderMark)) {
+        text.remove_prefix(kByteOrderMark.size());
+      }
       if (!text.starts_with('#')) continue;
-      text.remove_prefix(std::min(text.find_first_not_of("# \t"), text.size()));
-      const std::vector<std::string> cells = CellsOf(text);
+      // "#" alone is the name of a column that counts.
+      const bool is_name = text.size() > 1 && text[1] == dialect_.delimiter;
+      if (!is_name) {
+        text.remove_prefix(
+            std::min(text.find_first_not_of("# \t"), text.size()));
+      }
+      // "columns: time;X", "units: s;mm".
+      if (const std::size_t label = text.find(": "); label < text.find(' ')) {
+        text.remove_prefix(label + 2);
+      }
+      std::vector<std::string> cells = CellsOf(text);
+      // "# day cycle", where blanks part the columns: the sign is no name.
+      if (is_name && dialect_.delimiter == ' ' && cells.size() == usual_ + 1) {
+        cells.erase(cells.begin());
+      }
+      // The rows may end in a separator.
+      if (cells.size() + 1 == usual_ && is_name) cells.emplace_back();
       if (cells.size() != usual_ || !MayBeNames(cells)) continue;
+      if (AreUnitCells(cells)) {
+        units = cells;
+        continue;
+      }
       layout_.names = cells;
       layout_.header_line = line;
     }
     if (layout_.header_line == 0) return false;
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      std::string unit = AsUtf8(units[i]);
+      if (!ReadUnitCell(&unit) || unit.empty()) continue;
+      std::string& name = layout_.names[i];
+      name = NameWithUnit(AsUtf8(name), unit).value_or(name);
+    }
     layout_.num_names = usual_;
     Say("the names of the columns are those of the comment on line " +
         std::to_string(layout_.header_line));
@@ -281,7 +329,8 @@ class LayoutFinder {
 
   // A column with a unit is meant to have numbers.
   static bool HasUnit(const std::string& name) {
-    return ReadHeader(AsUtf8(name)).source != UnitSource::kNone;
+    return AreUnitCells({name}) ||
+           ReadHeader(AsUtf8(name)).source != UnitSource::kNone;
   }
 
   bool AreEmptyBeyond(std::size_t width,

@@ -6,21 +6,24 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <unordered_set>
 
 #include "data/argument_name.h"
+#include "data/columns.h"
 #include "data/csv.h"
 #include "data/files/atomic_file.h"
 #include "data/files/sheet_path.h"
 #include "data/formula_text.h"
+#include "data/tables/column_names.h"
 #include "data/tables/csv_cells.h"
 #include "data/tables/csv_dialect.h"
 #include "data/tables/csv_layout.h"
 #include "data/tables/cut_line.h"
 #include "data/tables/folded_positions.h"
 #include "data/tables/gzip.h"
+#include "data/tables/loose_numbers.h"
 #include "data/tables/missing_cells.h"
 #include "data/tables/odd_rows.h"
+#include "data/tables/rewritten_text.h"
 #include "data/tables/spreadsheet.h"
 #include "data/tables/text_encoding.h"
 #include "data/tables/thousands.h"
@@ -58,7 +61,7 @@ class Parser {
     }
     layout_ = FindLayout(cells_, dialect_, text_);
     for (const std::string& remark : layout_.remarks) Say(remark);
-    NameColumns();
+    TakeNames();
     cells_.GoTo(layout_.data);
     TakeUnitsRow();
     cells_.LeaveEmptyEnd();
@@ -73,8 +76,14 @@ class Parser {
       ReadRows();
     }
     JudgeOddRows();
+    // Texts of rows that were taken back say nothing of a column.
+    if (any_undone_) {
+      for (CsvColumn& column : table_.columns) DropUnusedTexts(&column);
+    }
     for (const std::string& line : odd_rows_.PassedOver()) Say(line);
+    for (const std::string& line : loose_.Remarks()) Say(line);
     LeaveEmptyColumns();
+    TakeUnitsOfCells(dialect_.decimal_comma, &table_);
     table_.titles = std::move(layout_.titles);
     return std::move(table_);
   }
@@ -163,42 +172,24 @@ class Parser {
     }
   }
 
-  void NameColumns() {
-    std::unordered_set<std::string> given;
-    for (const std::string& name : layout_.names) given.insert(AsUtf8(name));
-    std::unordered_set<std::string> taken;
-    std::vector<std::string> again;
-    // Without a line of names every column is called by its number.
-    const bool by_number =
-        std::ranges::all_of(layout_.names, &std::string::empty);
+  void TakeNames() {
+    std::vector<std::string> names;
     for (const std::string& text : layout_.names) {
-      const std::size_t number = table_.columns.size() + 1;
-      std::string name = AsUtf8(TextOf(text));
-      RefuseNumber(name, number);
-      const bool has_name = by_number || !name.empty();
-      if (name.empty()) name = "column_" + std::to_string(number);
-      if (taken.contains(name)) {
-        const std::string first = name;
-        for (int i = 2; taken.contains(name) || given.contains(name); ++i) {
-          name = first + "_" + std::to_string(i);
-        }
-        if (has_name) again.push_back(QuotedName(name));
-      }
-      taken.insert(name);
-      table_.columns.emplace_back();
-      table_.columns.back().name = std::move(name);
-      table_.columns.back().has_name = has_name;
-      if (has_name) num_named_ = number;
+      names.push_back(AsUtf8(TextOf(text)));
+      RefuseNumber(names.back(), names.size());
     }
+    NamedColumns named = NameColumns(names);
+    table_.columns = std::move(named.columns);
+    num_named_ = named.num_named;
     texts_.resize(table_.columns.size());
     shapes_.resize(table_.columns.size());
-    if (again.empty()) return;
+    const std::size_t num = named.again.size();
+    if (num == 0) return;
     constexpr std::size_t kMostShown = 5;
-    const std::size_t num = again.size();
-    again.resize(std::min(num, kMostShown));
+    named.again.resize(std::min(num, kMostShown));
     Say("columns of one name: the later " +
         std::string(num == 1 ? "is" : "are") + " read as " +
-        JoinWords(again, ", ") + (num > kMostShown ? ", ..." : ""));
+        JoinWords(named.again, ", ") + (num > kMostShown ? ", ..." : ""));
   }
 
   void RefuseNumber(const std::string& name, std::size_t number) const {
@@ -237,21 +228,14 @@ class Parser {
     if (cells_.at_end() || cells_.front() == '#' || cells_.AtBlankLine())
       return;
     std::vector<std::string> units = PeekRecord(0);
-    if (units.size() > table_.columns.size()) return;
-    bool any = false;
-    for (std::string& text : units) {
-      if (!ReadUnitCell(&text)) return;
-      any = any || !text.empty();
+    if (AreRules(units)) {
+      cells_.SkipLine();
+      if (cells_.at_end()) return;
+      units = PeekRecord(0);
     }
-    if (!any) return;
-    const std::vector<std::string> below = PeekRecord(1);
-    for (std::size_t i = 0; i < units.size(); ++i) {
-      if (units[i].empty()) continue;
-      NumberForm form;
-      if (i >= below.size() ||
-          !ReadNumberForm(below[i], dialect_.decimal_comma, &form)) {
-        return;
-      }
+    if (units.size() > table_.columns.size() ||
+        !ReadUnitsOverNumbers(PeekRecord(1), dialect_.decimal_comma, &units)) {
+      return;
     }
     for (std::size_t i = 0; i < units.size(); ++i) {
       CsvColumn& column = table_.columns[i];
@@ -346,12 +330,20 @@ class Parser {
       cells_.Next();
       more = cells_.PassEnd();
     }
-    if (!HasItsCells(found)) {
+    if (found == 1 && layout_.width > 2 && IsWords()) {
+      const CsvColumn& first = table_.columns[0];
+      odd_rows_.AddWords(first.texts[first.exceptions.back().second]);
+      UndoRow();
+    } else if (!HasItsCells(found)) {
       if (after_blank) ThrowAnotherTable(line, found);
       TakeOddRow(line, found);
     } else if (num_numbers_ == 0 && AreNamesAgain()) {
       UndoRow();
       odd_rows_.AddNames();
+      below_names_ = true;
+      return;
+    } else if (below_names_ && num_numbers_ == 0 && AreUnitsAgain()) {
+      UndoRow();
     } else if (num_numbers_ == 0 && AreOtherNames()) {
       ThrowAnotherTable(line, found);
     } else {
@@ -362,6 +354,7 @@ class Parser {
       NoteLine(line);
       ++table_.num_rows;
     }
+    below_names_ = false;
   }
 
   void NoteLine(std::size_t line) {
@@ -381,6 +374,15 @@ class Parser {
             layout_.header_line != 0 && !last_named_is_empty_);
   }
 
+  // Whether the only cell of a line is a remark: words, and no time.
+  bool IsWords() const {
+    if (num_numbers_ > 0) return false;
+    const CsvColumn& column = table_.columns[0];
+    const std::string& text = column.texts[column.exceptions.back().second];
+    return text.size() > 2 && text.find_first_of("0123456789") != 0 &&
+           !IsMissingNumber(text) && text.find(' ') != text.npos;
+  }
+
   // Whether a row of words repeats the names.
   bool AreNamesAgain() const {
     for (std::size_t i = 0; i < layout_.width; ++i) {
@@ -389,6 +391,16 @@ class Parser {
       if (column.texts[text] != AsUtf8(TextOf(layout_.names[i]))) return false;
     }
     return table_.num_rows > 0 && layout_.header_line != 0;
+  }
+
+  // Whether a row of words has the units below names that stand there again.
+  bool AreUnitsAgain() const {
+    std::vector<std::string> cells;
+    for (std::size_t i = 0; i < layout_.width; ++i) {
+      const CsvColumn& column = table_.columns[i];
+      cells.push_back(column.texts[column.exceptions.back().second]);
+    }
+    return AreUnitCells(std::move(cells));
   }
 
   // Whether words stand where numbers stood so far, in half of those columns.
@@ -415,6 +427,7 @@ class Parser {
 
   // Takes back the cells of the row that is being read.
   void UndoRow() {
+    any_undone_ = true;
     for (std::size_t i = 0; i < std::min(column_, table_.columns.size()); ++i) {
       CsvColumn& column = table_.columns[i];
       column.values.Own().resize(table_.num_rows);
@@ -476,6 +489,7 @@ class Parser {
     table_.line_runs.clear();
     table_.num_rows = 0;
     odd_rows_ = {};
+    loose_ = {};
     short_rows_.clear();
   }
 
@@ -495,6 +509,13 @@ class Parser {
     if (column_ + 1 == num_named_) last_named_is_empty_ = field.empty();
     if (ReadNumberForm(field, dialect_.decimal_comma, &form)) {
       StoreNumber(field, form, &column);
+    } else if (const Loose loose = ReadLooseNumber(field,
+                                                   dialect_.decimal_comma,
+                                                   dialect_.decimal_points,
+                                                   &form);
+               loose != Loose::kNone) {
+      loose_.Add(loose, cells_.line());
+      StoreLooseNumber(form, &column);
     } else {
       if (!field.empty() && column_ >= layout_.num_names) is_beyond_ = true;
       StoreText(field, &column);
@@ -522,10 +543,14 @@ class Parser {
     shape.any_parted = true;
     shape.all_threes = shape.all_threes && may_part;
     shape.most_parted = std::max(shape.most_parted, std::abs(form.value));
-    const auto row = static_cast<std::ptrdiff_t>(table_.num_rows);
-    std::ptrdiff_t& first = form.decimal_comma ? column->first_decimal_comma
-                                               : column->first_decimal_point;
-    if (first < 0) first = row;
+    column->NoteMarks(table_.num_rows, form.decimal_comma, !form.decimal_comma);
+    column->values.push_back(form.value);
+  }
+
+  void StoreLooseNumber(const NumberForm& form, CsvColumn* column) {
+    ++num_numbers_;
+    if (column_ >= layout_.num_names) is_beyond_ = true;
+    column->NoteMarks(table_.num_rows, form.decimal_comma, form.decimal_point);
     column->values.push_back(form.value);
   }
 
@@ -555,6 +580,10 @@ class Parser {
   std::size_t num_numbers_ = 0;
   bool is_beyond_ = false;  // it has something beyond the last name
   bool last_named_is_empty_ = false;
+  bool below_names_ = false;
+  bool any_undone_ = false;  // rows
+
+  LooseNumbers loose_;
 
   // Rows that are not in the table.
   OddRowList odd_rows_;
@@ -579,6 +608,8 @@ CsvTable ParseCsv(std::string_view text, const std::string& name, OddRows odd) {
   }
   const std::string converted = sheet ? *sheet : TextOfFile(text, name);
   if (!converted.empty()) text = converted;
+  const std::optional<std::string> rewritten = RewrittenText(text);
+  if (rewritten) text = *rewritten;
   const char delimiter = sheet ? '\t' : CsvCells::kNoDelimiter;
   CsvTable table = Parser(text, name, delimiter, odd).Parse();
   FoldPositions(&table);

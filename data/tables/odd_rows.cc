@@ -103,6 +103,12 @@ std::vector<std::string> OddRowList::PassedOver() const {
                     (names_ == 1 ? " time" : " times") +
                     ": what is below them is read as the same table");
   }
+  if (!words_.empty()) {
+    lines.push_back(std::to_string(words_.size()) +
+                    (words_.size() == 1 ? " line" : " lines") +
+                    " of words among the rows: " + QuotedText(words_.front()) +
+                    (words_.size() == 1 ? "" : ", ..."));
+  }
   return lines;
 }
 

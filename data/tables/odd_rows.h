@@ -21,6 +21,8 @@ class OddRowList {
   bool empty() const { return runs_.empty(); }
   void AddBlank() { ++blank_; }
   void AddNames() { ++names_; }
+  /// A line of words in one cell.
+  void AddWords(const std::string& text) { words_.push_back(text); }
 
   /// What is said of blank lines and of names between the rows.
   std::vector<std::string> PassedOver() const;
@@ -49,6 +51,7 @@ class OddRowList {
   std::size_t count_ = 0;
   std::size_t blank_ = 0;
   std::size_t names_ = 0;
+  std::vector<std::string> words_;
   std::size_t first_row_ = kNoRow;
 };
 

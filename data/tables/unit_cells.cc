@@ -1,7 +1,9 @@
 #include "data/tables/unit_cells.h"
 
+#include <algorithm>
 #include <string_view>
 
+#include "data/tables/csv_cells.h"
 #include "data/text.h"
 #include "data/units.h"
 
@@ -18,7 +20,9 @@ bool ReadUnitCell(std::string* cell) {
     return true;
   }
   double number = 0.0;
-  if (ParseNumber(text, &number)) return false;
+  if (ParseNumber(text, &number) || text.find_first_of("[]()") != text.npos) {
+    return false;
+  }
   const bool is_unit =
       ReadHeader("x [" + std::string(text) + "]").source == UnitSource::kStated;
   *cell = std::string(text);
@@ -33,6 +37,32 @@ bool AreUnitCells(std::vector<std::string> cells) {
     any = any || !cell.empty();
   }
   return any;
+}
+
+bool ReadUnitsOverNumbers(const std::vector<std::string>& below,
+                          bool decimal_comma,
+                          std::vector<std::string>* cells) {
+  bool any = false;
+  for (std::size_t i = 0; i < cells->size(); ++i) {
+    std::string& cell = (*cells)[i];
+    if (!ReadUnitCell(&cell)) return false;
+    if (cell.empty()) continue;
+    NumberForm form;
+    if (i >= below.size() || !ReadNumberForm(below[i], decimal_comma, &form)) {
+      return false;
+    }
+    any = true;
+  }
+  return any;
+}
+
+bool AreRules(const std::vector<std::string>& cells) {
+  const auto rules = [](const std::string& cell) {
+    return cell.find_first_not_of("-:=+") == cell.npos;
+  };
+  return cells.size() > 1 && std::ranges::all_of(cells, rules) &&
+         std::ranges::any_of(
+             cells, [](const std::string& cell) { return cell.size() > 2; });
 }
 
 std::optional<std::string> NameWithUnit(const std::string& name,

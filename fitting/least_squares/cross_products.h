@@ -4,10 +4,10 @@
 
 namespace errmap::fitting {
 
-/// Sums over rows of the products of k columns and a response: all that least
-/// squares, ridge and lasso need of the rows. They add and subtract, so that
-/// the rows of each fold are passed over once. Columns should be near mean 0
-/// and sd 1: what cancels in a variance is lost here.
+/// Sums over rows of the products of k columns and a response: least squares,
+/// ridge and lasso need nothing else. They can be added and subtracted, so one
+/// pass over the rows serves all folds. Columns should be near mean 0 and sd 1:
+/// digits that cancel in a variance are lost here.
 struct CrossProducts {
   double weight = 0.0;            // sum of w
   Eigen::VectorXd columns;        // (k) sum of w x
@@ -20,11 +20,11 @@ struct CrossProducts {
   CrossProducts& operator-=(const CrossProducts& other);
 };
 
-/// Of no rows.
+/// Sums over no rows.
 CrossProducts NoRows(Eigen::Index num_columns);
 
-/// Of the rows of `columns` (n x k) and `response` (n); `weights` (n) not
-/// negative, or (0): all 1.
+/// Sums over the rows of `columns` (n x k) and `response` (n). `weights` (n)
+/// must not be negative; (0): all 1.
 CrossProducts SumProducts(const Eigen::MatrixXd& columns,
                           const Eigen::VectorXd& response,
                           const Eigen::VectorXd& weights);

@@ -4,10 +4,10 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
-// Eigen's decompositions of a MatrixXd, and what they solve for a VectorXd or a
-// MatrixXd, compiled once, in decompositions.cc: each takes a compiler longer
-// than the file that calls it. An expression in the place of the matrix would
-// be compiled anew: give it a name first.
+// Eigen's decompositions of a MatrixXd and their solvers for a VectorXd or
+// MatrixXd, compiled once, in decompositions.cc: each takes the compiler longer
+// than the file that calls it. An expression instead of a named matrix would be
+// compiled again, so give it a name first.
 namespace Eigen {
 
 extern template void HouseholderQR<MatrixXd>::computeInPlace();
@@ -29,15 +29,15 @@ extern template void LDLT<MatrixXd>::_solve_impl(const MatrixXd&,
 
 namespace errmap::fitting {
 
-/// Q' vector, (n), of A = Q R.
+/// Returns Q' vector (n) of A = Q R.
 Eigen::VectorXd TimesQTransposed(
     const Eigen::HouseholderQR<Eigen::MatrixXd>& qr,
     const Eigen::VectorXd& vector);
 
-/// The first p columns of Q, (n x p), of A = Q R.
+/// Returns the first p columns of Q (n x p) of A = Q R.
 Eigen::MatrixXd ThinQ(const Eigen::HouseholderQR<Eigen::MatrixXd>& qr);
 
-/// Inverse of a symmetric, positive definite matrix (n x n) by Cholesky.
+/// Returns the inverse of a symmetric, positive definite matrix by Cholesky.
 Eigen::MatrixXd CholeskyInverse(const Eigen::MatrixXd& matrix);
 
 }  // namespace errmap::fitting

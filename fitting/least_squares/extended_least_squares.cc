@@ -8,6 +8,8 @@
 
 #include <Eigen/Householder>
 
+#include "stats/not_a_number.h"
+
 namespace errmap::fitting {
 namespace {
 
@@ -92,10 +94,9 @@ ExtendedLeastSquaresFit Solve(const ExtendedMatrix& scaled,
   fit.bits = bits;
   fit.degrees_of_freedom = n - p;
   fit.condition = fit.error_estimate = std::numeric_limits<double>::infinity();
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  fit.coefficients = ExtendedVector::Constant(p, nan);
-  fit.standard_deviations = ExtendedVector::Constant(p, nan);
-  fit.residual_sum_of_squares = nan;
+  fit.coefficients = ExtendedVector::Constant(p, stats::kNaN);
+  fit.standard_deviations = ExtendedVector::Constant(p, stats::kNaN);
+  fit.residual_sum_of_squares = stats::kNaN;
   for (Index j = 0; j < p; ++j) {
     if (!(abs(r(j, j)) > Scalar(0.0))) return fit;
   }
@@ -104,7 +105,7 @@ ExtendedLeastSquaresFit Solve(const ExtendedMatrix& scaled,
   Scalar r_square(0.0);
   Scalar inverse_square(0.0);
   for (Index j = 0; j < p; ++j) {
-    // Of the columns at unit length, whatever the power of two left.
+    // For columns of unit length, whatever the powers of two left.
     const Scalar column = r.col(j).head(j + 1).squaredNorm();
     r_square += Scalar(1.0);
     inverse_square += inverse.row(j).squaredNorm() * column;
@@ -122,7 +123,7 @@ ExtendedLeastSquaresFit Solve(const ExtendedMatrix& scaled,
   const DoubleDouble variance =
       n > p ? fit.residual_sum_of_squares /
                   DoubleDouble(static_cast<double>(n - p))
-            : DoubleDouble(nan);
+            : DoubleDouble(stats::kNaN);
   const double y_length =
       std::ldexp(response.cast<double>().stableNorm(), -bits);
   // Rounding also turns the columns into the residuals: that part grows with

@@ -10,6 +10,7 @@
 #include "fitting/interruption.h"
 #include "fitting/least_squares/decompositions.h"
 #include "fitting/least_squares/orthogonal_basis.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::fitting {
 namespace {
@@ -141,8 +142,8 @@ struct Decomposition {
   MatrixXd basis;     // Q (n x k), where asked for
 };
 
-// What the columns kept leave of column j in 106 bits, as far as it takes to
-// see that it is below `enough`; `along` (k) gets the column's part in each
+// Remainder of column j after the kept columns, in 106 bits, as far as needed
+// to see that it is below `enough`. `along` (k) gets the column's part in each
 // basis vector.
 VectorXd ExactRemainder(const ExtendedSystem& exact,
                         const std::vector<Index>& kept,
@@ -217,7 +218,7 @@ class OneByOne {
     return problem_->options().confirmed * problem_->columns().col(j).norm();
   }
 
-  // Of the columns kept in the one judged (k).
+  // Parts of the kept columns in the one judged (k).
   VectorXd PartsOf() const {
     return basis_.R().triangularView<Eigen::Upper>().solve(along_);
   }
@@ -231,7 +232,7 @@ class OneByOne {
     is_clear_ = basis_.size() < column.size() &&
                 rest_.norm() > problem_->options().aliased * length;
     if (is_clear_) return;
-    // Double settles it where its rounding cannot hide more.
+    // Double decides if its rounding cannot hide more.
     constexpr double kRoundings = 4.0;
     const double rounding =
         kRoundings * kEpsilon * (length + PartsOf().lpNorm<1>());
@@ -258,7 +259,7 @@ class OneByOne {
   Problem* problem_;
   OrthogonalBasis basis_;
   Decomposition result_;
-  // Of the column judged last.
+  // For the column judged last.
   VectorXd rest_;
   VectorXd along_;
   bool is_clear_ = false;  // R would keep it
@@ -290,7 +291,7 @@ Decomposition Decompose(Problem* problem, bool with_basis) {
   return OneByOne(problem).Run();
 }
 
-// Of the triangle's columns at unit length.
+// Ratio for the triangle's columns at unit length.
 double PivotRatio(MatrixXd triangle) {
   for (Index j = 0; j < triangle.cols(); ++j) triangle.col(j).normalize();
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(triangle);
@@ -311,9 +312,9 @@ struct Refined {
   DoubleDouble residual_sum_of_squares;
 };
 
-// Solves [I A; A' 0] [r; x] = [y; 0] of the exact numbers by corrections from
+// Solves [I A; A' 0] [r; x] = [y; 0] for the exact numbers by corrections from
 // A = Q R in double (Bjorck 1967), which shrink by about epsilon times the
-// condition. Empty where they stop before double's last digit.
+// condition. Empty if they stop before double's last digit.
 std::optional<Refined> Refine(Problem* problem,
                               Decomposition parts,
                               double condition) {
@@ -326,7 +327,7 @@ std::optional<Refined> Refine(Problem* problem,
   const MatrixXd& triangle = parts.triangle;
   const auto r = triangle.triangularView<Eigen::Upper>();
   if (parts.basis.cols() != k) {
-    // As orthonormal as the condition lets it: that costs passes, not digits.
+    // Only as orthonormal as the condition allows: costs passes, not digits.
     parts.basis = problem->columns()(Eigen::all, parts.kept);
     r.solveInPlace<Eigen::OnTheRight>(parts.basis);
   }
@@ -374,8 +375,8 @@ std::optional<Refined> Refine(Problem* problem,
   return std::nullopt;
 }
 
-// Solves for the columns kept in 106 bits throughout. Empty where their design
-// is dependent even so.
+// Solves for the kept columns in 106 bits throughout. Empty if their design is
+// dependent even so.
 std::optional<ExtendedLeastSquaresFit> SolveExactly(
     Problem* problem, const std::vector<Index>& kept) {
   constexpr double kAlwaysExtended = 15.0;
@@ -402,12 +403,11 @@ double ErrorEstimate(const MatrixXd& triangle,
          (inverse.rowwise().norm().array() / solution.array().abs()).maxCoeff();
 }
 
-// Of the columns kept, in the caller's units; NaN for the others.
+// Values of the kept columns, in the caller's units; NaN for the others.
 VectorXd InPlace(const Problem& problem,
                  const std::vector<Index>& kept,
                  const ExtendedVector& values) {
-  VectorXd all = VectorXd::Constant(problem.scales().size(),
-                                    std::numeric_limits<double>::quiet_NaN());
+  VectorXd all = VectorXd::Constant(problem.scales().size(), stats::kNaN);
   for (std::size_t k = 0; k < kept.size(); ++k) {
     const Index j = kept[k];
     all[j] = values[static_cast<Index>(k)].hi * problem.scales()[j];
@@ -415,7 +415,7 @@ VectorXd InPlace(const Problem& problem,
   return all;
 }
 
-// The digits that double has not given; nothing where they are not to be had.
+// Adds the digits that double lacks; nothing if they cannot be obtained.
 void AddDigits(Problem* problem,
                const Decomposition& parts,
                LeastSquaresFit* fit) {

@@ -66,9 +66,9 @@ void RotateColumns(
 
 // The lasso's path: between knots its coefficients are linear in the strength
 // and the active columns keep one correlation with the residual, which falls.
-// Rounding, ties and columns that nearly repeat others can lead it astray;
-// hence every answer is held against the conditions of a minimum, and where it
-// does not meet them an active-set method goes on from there.
+// Rounding, ties and nearly repeated columns can lead it astray. Each solution
+// is therefore checked against the conditions of a minimum; if it violates
+// them, an active-set method continues from there.
 class LassoPathFollower {
  public:
   LassoPathFollower(const MatrixXd& correlation, const VectorXd& covariance)
@@ -159,7 +159,7 @@ class LassoPathFollower {
     strength_ = target;
   }
 
-  // What ends the present piece of the path, within `length`.
+  // Returns the event that ends this piece of the path, within `length`.
   Event NextEvent(double length) {
     if (!is_direction_current_) TakeDirection();
     Event event{.length = length};
@@ -168,7 +168,7 @@ class LassoPathFollower {
       for (const double sign : {1.0, -1.0}) {
         const double closing = 1.0 - sign * slope_[j];
         if (!(closing > kTiny)) continue;
-        // What has just left moves away from where it was.
+        // A column that has just left moves away from that value.
         if (j == dropped_ && sign == dropped_sign_) continue;
         const double reached =
             std::max(0.0, (strength_ - sign * residual_[j]) / closing);
@@ -221,7 +221,7 @@ class LassoPathFollower {
     }
   }
 
-  // Of the residual's correlations: what cannot be told from 0.
+  // Size below which a correlation of the residual counts as 0.
   double Rounding() const {
     constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
     constexpr double kOfLargest = 1e-13;
@@ -250,7 +250,7 @@ class LassoPathFollower {
     return worst;
   }
 
-  // True where a column has left on the way.
+  // Returns true if a column has left on the way.
   bool StepOnActive(double strength) {
     VectorXd step(num_active());
     for (Index i = 0; i < step.size(); ++i) {
@@ -451,7 +451,7 @@ PenalizedPath::PenalizedPath(const CrossProducts& sums,
 }
 
 void PenalizedPath::Standardise(const CrossProducts& sums) {
-  // What is left of a constant column is rounding of its mean square.
+  // The rest of a constant column is rounding of its mean square.
   constexpr double kConstant = 1e-12;
   const Index k = sums.columns.size();
   means_ = intercept_ ? VectorXd(sums.columns / weight_) : VectorXd::Zero(k);

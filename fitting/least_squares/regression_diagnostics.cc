@@ -9,6 +9,7 @@
 #include "fitting/least_squares/decompositions.h"
 #include "fitting/matrix_product.h"
 #include "stats/f_test.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::fitting {
 namespace {
@@ -113,7 +114,7 @@ CentredProblem Centre(const RegressionProblem& problem,
   return centred;
 }
 
-// Of the columns that are kept, k of them.
+// For the k kept columns.
 struct CentredSolution {
   VectorXd scaled;   // (k) coefficients
   MatrixXd inverse;  // (k x k) of the triangle
@@ -144,9 +145,8 @@ CentredSolution SolveKept(const MatrixXd& kept,
 double AnalyseVariance(RegressionDiagnostics* fit, Index num_kept) {
   const double freedom = fit->observations - static_cast<double>(fit->rank);
   fit->residual_degrees_of_freedom = freedom;
-  const double variance = freedom > 0.0
-                              ? fit->residual_sum_of_squares / freedom
-                              : std::numeric_limits<double>::quiet_NaN();
+  const double variance =
+      freedom > 0.0 ? fit->residual_sum_of_squares / freedom : stats::kNaN;
   fit->s = std::sqrt(variance);
   if (fit->total_sum_of_squares > 0.0) {
     fit->r2 = 1.0 - fit->residual_sum_of_squares / fit->total_sum_of_squares;

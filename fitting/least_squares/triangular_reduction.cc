@@ -144,8 +144,8 @@ void FoldIntoTriangle(MatrixXd* triangle, Eigen::Ref<MatrixXd> block) {
   const Index rows = block.rows();
   const Index columns = block.cols();
   if (rows == 0 || columns == 0) return;
-  // What takes longer than a tenth of a second is done in pieces of that, the
-  // same steps in the same order, so that it can be broken off between them.
+  // Work longer than a tenth of a second is done in pieces of that length, the
+  // same steps in the same order, so that it can be interrupted between them.
   constexpr double kMostProducts = 1e9;
   MatrixXd reflectors;
   const auto panel_products = [&](Index width) {
@@ -207,7 +207,7 @@ MatrixXd ReduceToTriangle(Index rows,
       triangles[i + apart].resize(0, 0);
     }
   }
-  // What lies below the diagonal was never touched.
+  // Entries below the diagonal were never touched.
   return triangles[0];
 }
 

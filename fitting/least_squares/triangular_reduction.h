@@ -6,26 +6,26 @@
 
 namespace errmap::fitting {
 
-/// Fills rows first .. first + block.rows() - 1 of a tall matrix into `block`
-/// (b x n). Called from several threads at once.
+/// Fills `block` (b x n) with rows first .. first + block.rows() - 1 of a tall
+/// matrix. Called from several threads at once.
 using FillRows =
     std::function<void(Eigen::Index first, Eigen::Ref<Eigen::MatrixXd> block)>;
 
 struct ReductionOptions {
-  Eigen::Index block_rows = 2048;  // rows held at a time and thread; at least 1
-  /// Chains of blocks whose triangles are combined at the end, in pairs; their
-  /// number decides the rounding, never the threads. At least 1.
+  Eigen::Index block_rows = 2048;  // rows held per thread at a time; at least 1
+  /// Number of chains of blocks, whose triangles are combined in pairs at the
+  /// end. It affects rounding; the number of threads does not. At least 1.
   Eigen::Index chains = 4;
   int threads = 1;  // at least 1; changes no bit of the result
 };
 
-/// R (n x n) of the QR decomposition of a matrix (m x n) that is never held:
-/// blocks of rows are folded one after another into a triangle, chains of
-/// blocks into one triangle each, and those in pairs (a TSQR tree: Demmel,
-/// Grigori, Hoemmen and Langou 2012). R'R = A'A to rounding, without forming
-/// A'A. One pass; memory for chains x n^2 and threads x block_rows x n numbers.
+/// Returns R (n x n) of the QR decomposition of a matrix (m x n) that is never
+/// held in memory. Blocks of rows are folded into one triangle per chain, and
+/// these are combined in pairs (a TSQR tree: Demmel, Grigori, Hoemmen and
+/// Langou 2012). R'R = A'A to rounding, without forming A'A. One pass; memory
+/// for chains x n^2 and threads x block_rows x n numbers.
 ///
-/// Throws std::invalid_argument for rows < 0, columns < 1 or bad options.
+/// Throws std::invalid_argument if rows < 0, columns < 1 or an option is bad.
 Eigen::MatrixXd ReduceToTriangle(Eigen::Index rows,
                                  Eigen::Index columns,
                                  const FillRows& fill,

@@ -6,8 +6,8 @@
 
 namespace errmap::fitting {
 
-/// The way of an optimizer whose cost may rise: where it is, and the best point
-/// that it has seen.
+/// State of an optimizer whose cost may rise: the current point and the best
+/// point so far.
 class BestPoint {
  public:
   BestPoint(const Objective& f,
@@ -16,7 +16,7 @@ class BestPoint {
             const RunControl& run)
       : monitor(rules, run), x(x0), f_(f), best_(x0), trial_(x0.size()) {}
 
-  /// Evaluates the start; false where the run ends there.
+  /// Evaluates the start. Returns false if the run ends there.
   bool Start() {
     cost = Evaluate(x, &gradient);
     gradient_norm = gradient.norm();
@@ -30,8 +30,8 @@ class BestPoint {
     return f_.Evaluate(at, slope);
   }
 
-  /// One iteration: x += step, then every stop but the limits. False where the
-  /// run has ended.
+  /// Makes one iteration: x += step, then checks every stop but the limits.
+  /// Returns false if the run has ended.
   bool Move(const Eigen::VectorXd& step, const char* not_finite) {
     trial_ = x + step;
     const double trial_cost = Evaluate(trial_, &trial_gradient_);
@@ -42,8 +42,8 @@ class BestPoint {
     return MoveTo(&trial_, trial_cost, &trial_gradient_);
   }
 
-  /// The same to a point that is evaluated and feasible: x and gradient there
-  /// are swapped with those here.
+  /// Makes one iteration to a point already evaluated and feasible. Swaps its x
+  /// and gradient with the current ones.
   bool MoveTo(Eigen::VectorXd* at, double its_cost, Eigen::VectorXd* slope) {
     x.swap(*at);
     gradient.swap(*slope);

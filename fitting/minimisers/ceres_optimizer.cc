@@ -74,7 +74,7 @@ class GuardedFunction final : public ceres::FirstOrderFunction {
   int size_;
 };
 
-// The residuals, and below them those of the ridge where there is one.
+// The residuals, followed by those of the ridge if there is one.
 class GuardedResiduals final : public ceres::CostFunction {
  public:
   GuardedResiduals(GuardedRun* run, const ResidualFunction& f, Index size)
@@ -166,7 +166,7 @@ std::string MinimizeByResiduals(const ResidualFunction& residuals,
   // An orthogonal decomposition keeps twice the digits of normal equations;
   // with many parameters it would take several times as long.
   constexpr Index kMostForQr = 300;
-  // Of steps in a row that cannot be evaluated; each halves the radius.
+  // Limit of steps in a row without a value; each halves the radius.
   constexpr int kInvalidSteps = 50;
   IterationEnd iteration_end(run);
   ceres::Solver::Options options;

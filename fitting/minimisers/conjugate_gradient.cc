@@ -44,7 +44,7 @@ class CgRun {
     double slope = 0.0;  // along p
   };
 
-  // False where the run has ended.
+  // Returns false if the run has ended.
   bool Pass() {
     mu_ = p_.dot(r_);
     if (!Search(FirstLength())) return Restart();
@@ -88,8 +88,8 @@ class CgRun {
     return false;
   }
 
-  // The minimum of the parabola, Eq. (90), (91), with p's of Eq. (95); where
-  // that curves down, about the length of the last step.
+  // Returns the minimum of the parabola, Eq. (90), (91), with p's of Eq. (95).
+  // If that curves down, returns about the length of the last step.
   double FirstLength() {
     const double sigma_k =
         options_.sigma * std::max(1.0, state_.x.norm()) / p_.norm();
@@ -102,9 +102,9 @@ class CgRun {
     return unit / p_.norm();
   }
 
-  // Looks along p for a point that meets Wolfe's strong conditions (Nocedal and
-  // Wright 2006, algorithms 3.5 and 3.6), from a first length on: `lowest_` is
-  // it, or the lowest found in time. False where there is none below x.
+  // Searches along p, from a first length, for a point with Wolfe's strong
+  // conditions (Nocedal and Wright 2006, algorithms 3.5 and 3.6). `lowest_` is
+  // that point, or the lowest found. Returns false if none is below x.
   bool Search(double length) {
     constexpr int kMostTrials = 40;
     lowest_ = {0.0, state_.cost, -mu_};
@@ -128,14 +128,14 @@ class CgRun {
             trial_g_.dot(p_)};
   }
 
-  // Takes the trial into the bracket; true where it ends the search.
+  // Adds the trial to the bracket; returns true if it ends the search.
   bool IsEnough(const Trial& trial) {
     constexpr double kFall = 1e-4;
     constexpr double kSlope = 0.3;
     const bool is_flat = std::abs(trial.slope) <= kSlope * mu_;
     const bool falls = trial.cost < lowest_.cost &&
                        trial.cost <= state_.cost - kFall * mu_ * trial.alpha;
-    // Where rounding hides the cost's fall the gradient still shows it.
+    // If rounding hides the fall of the cost, the gradient still shows it.
     const bool stands = trial.cost <= state_.cost && lowest_.alpha == 0.0 &&
                         trial_g_.norm() < state_.gradient_norm;
     if (!falls && !(stands && is_flat)) {

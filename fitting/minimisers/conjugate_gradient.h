@@ -8,26 +8,26 @@ namespace errmap::fitting {
 
 struct ConjugateGradientOptions {
   StoppingRules stopping = {};
-  /// The difference quotient's step is sigma max(1, |w|) / |p|; above 0. The
-  /// square root of the rounding unit balances truncation against rounding.
+  /// Step of the difference quotient: sigma max(1, |w|) / |p|; above 0. The
+  /// square root of the rounding unit balances truncation and rounding errors.
   double sigma = 1.5e-8;
 
   /// Throws std::invalid_argument naming field, value and range.
   void Validate() const;
 };
 
-/// The conjugate gradients of NISTIR 5367, section 6.5, before Moller's two
-/// devices: curvature by the difference quotient of Eq. 95, direction of Eq.
+/// Conjugate gradients of NISTIR 5367, section 6.5, without Moller's two
+/// additions: curvature by the difference quotient of Eq. 95, direction of Eq.
 /// 94, steepest descent every n steps. The report takes the step mu / delta
-/// (Eq. 90-91) unchecked, and has none where the curvature is not positive;
-/// here it is the first trial of a line search for Wolfe's strong conditions,
-/// so that the cost never rises. A direction along which nothing is lower is
-/// given up for steepest descent. Each trial is a cost with its gradient.
+/// (Eq. 90-91) unchecked, and has none if the curvature is not positive. Here
+/// it is the first trial of a line search for the strong Wolfe conditions, so
+/// the cost never rises. If no lower cost is found along a direction, it is
+/// replaced by steepest descent. Each trial evaluates cost and gradient.
 ///
-/// Ends as kMoller of ScaledConjugateGradient does.
+/// Ends like kMoller of ScaledConjugateGradient.
 class ConjugateGradient final : public Optimizer {
  public:
-  /// Throws std::invalid_argument where the options are out of range.
+  /// Throws std::invalid_argument if an option is out of range.
   explicit ConjugateGradient(ConjugateGradientOptions options);
 
   std::string name() const override { return "cg"; }

@@ -52,7 +52,7 @@ class HessianProduct {
         may_evaluate_(may_evaluate),
         difference_(std::cbrt(kEpsilon) * std::max(1.0, x.norm())) {}
 
-  // False where an evaluation is refused or not finite.
+  // Returns false if an evaluation is refused or not finite.
   bool Apply(const VectorXd& v, VectorXd* product) {
     const double h = difference_ / v.norm();
     if (!may_evaluate_()) return false;
@@ -81,11 +81,11 @@ class ConjugateSteps {
   double rest() const { return rest_.norm(); }
   // d'Hd / d'd along the direction taken last.
   double curvature() const { return curvature_; }
-  // What the last step adds to 1/2 b'd.
+  // Contribution of the last step to 1/2 b'd.
   double gain() const { return gain_; }
 
-  // False where H d is unknown. Call no more where the curvature was not
-  // positive.
+  // Returns false if H d is unknown. Do not call it after a curvature that was
+  // not positive.
   bool Step() {
     const double squared = rest_.squaredNorm();
     if (!hessian_->Apply(direction_, &turned_)) return false;
@@ -109,7 +109,7 @@ class ConjugateSteps {
 
 constexpr Index kMostSteps = 500;
 
-// 1/2 g'H^-1 g; infinite where it is more than `limit`, or not known.
+// 1/2 g'H^-1 g; infinite if it exceeds `limit` or is unknown.
 double NewtonDecrease(HessianProduct* hessian,
                       const VectorXd& gradient,
                       double limit) {
@@ -129,9 +129,9 @@ double NewtonDecrease(HessianProduct* hessian,
   return promised;
 }
 
-// Whether f curves down somewhere, which a gradient that is all symmetry does
-// not see: looked for from a direction with a part in every other. False where
-// it curves down by less than the differences can tell.
+// Returns true if f curves down somewhere, unseen by a symmetric gradient:
+// starts from a direction with a part in every other. Returns false if it
+// curves down by less than the differences can tell.
 bool CurvesDown(HessianProduct* hessian, Index n) {
   constexpr Index kEnoughSteps = 100;
   constexpr double kSolved = 1e-3;
@@ -152,7 +152,7 @@ bool CurvesDown(HessianProduct* hessian, Index n) {
   return false;
 }
 
-// What remains at x, or infinity where H is found to curve down.
+// Returns `remaining` at x; infinity if H is found to curve down.
 double Remaining(const Objective& f,
                  const VectorXd& x,
                  const VectorXd& gradient,

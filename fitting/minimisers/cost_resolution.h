@@ -8,48 +8,49 @@
 
 #include "fitting/minimisers/objective.h"
 #include "fitting/minimisers/run_monitor.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::fitting {
 
-/// How near to a minimum a point is, told by the cost where it moves by its
-/// rounding only.
+/// Distance of a point from a minimum in terms of the cost, for points at which
+/// the cost changes only by rounding.
 struct CostResolution {
-  double cost = std::numeric_limits<double>::quiet_NaN();
-  /// Of the cost at points that differ from x in the last digits only, on the
-  /// smoother side of x: what rounding makes of it, and not a cliff there. At
-  /// least one unit in the last place; NaN where both sides are not finite.
+  double cost = stats::kNaN;
+  /// Rounding of the cost: its change at points that differ from x only in the
+  /// last digits, on the smoother side of x, which excludes a cliff there. At
+  /// least one unit in the last place. NaN if both sides are not finite.
   double rounding = 0.0;
-  /// 1/2 g'H^-1 g: what Newton's step would lower the cost by. Infinite where
-  /// H is found to curve down, or this is not known.
+  /// 1/2 g'H^-1 g: the cost reduction predicted by Newton's step. Infinite if H
+  /// is found to have negative curvature, or if unknown.
   double remaining = std::numeric_limits<double>::infinity();
 
-  /// The most that may remain at a minimum: the rounding, or the tenth digit
-  /// of the cost, which steps along the gradient no longer reach where the
-  /// condition of H is above some 10^4.
+  /// Largest `remaining` at a minimum: the rounding, or the tenth digit of the
+  /// cost. Steps along the gradient cannot reach that digit if the condition of
+  /// H exceeds about 10^4.
   double limit() const { return std::max(rounding, 1e-9 * std::abs(cost)); }
   bool is_reached() const {
     return std::isfinite(remaining) && remaining <= limit();
   }
-  std::string Text() const;  // says so, with the numbers
+  std::string Text() const;  // message for a minimum, with numbers
 };
 
-/// Looks at f around x (n). The decrease comes from conjugate gradients on
-/// H d = -g with H times a vector by central differences of the gradient,
-/// until the residual is a tenth of g; it ends as unknown after 2 n steps or
-/// 500, or once what is promised exceeds limit(). The same from a direction
-/// with a part in all others (up to 100 steps) tells minima from saddles whose
-/// way down is at right angles to g. Up to 100 parameters all this is done once
-/// more with each as a share of its size, and the larger result taken: in units
-/// that differ by powers of ten the gradient of one hides that of another.
-/// `may_evaluate` is asked before each evaluation; where it refuses, the result
-/// is unknown.
+/// Examines f around x (n). `remaining` comes from conjugate gradients on H d =
+/// -g, until the residual is a tenth of g. H times a vector is by central
+/// differences of the gradient. The result is unknown after 2 n steps or 500,
+/// or once it exceeds limit(). A second run, of up to 100 steps, starts from a
+/// direction with a part in all others. It detects saddles whose way down is
+/// orthogonal to g. With up to 100 parameters both runs are repeated in
+/// parameters relative to their size; the larger result counts. Otherwise, in
+/// units that differ by powers of ten, one gradient component hides another.
+/// `may_evaluate` is asked before each evaluation; if it refuses, the result is
+/// unknown.
 CostResolution FindCostResolution(const Objective& f,
                                   const Eigen::VectorXd& x,
                                   const std::function<bool()>& may_evaluate);
 
-/// Ends a run that finds no way down from x: as kResolution where the cost says
-/// that this is a minimum, else as kNoDescent, `why`. `spend` is asked before
-/// each evaluation of f; where it refuses, it has ended the run itself.
+/// Ends a run that finds no descent from x: with kResolution if the cost shows
+/// a minimum, else with kNoDescent and `why`. `spend` is asked before each
+/// evaluation of f; if it refuses, it must have ended the run itself.
 void StopWithoutDescent(const Objective& f,
                         const Eigen::VectorXd& x,
                         const std::function<bool()>& spend,

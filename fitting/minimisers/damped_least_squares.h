@@ -7,27 +7,28 @@
 
 namespace errmap::fitting {
 
-/// A residual form linearised at a point x, and its damped steps: what the two
-/// spaces of LevenbergMarquardt do differently.
+/// A residual form linearised at a point x, and its damped steps. The two
+/// spaces of LevenbergMarquardt implement it differently.
 class DampedLeastSquares {
  public:
   virtual ~DampedLeastSquares() = default;
 
-  /// Evaluates residuals and Jacobian at x (n) and what follows from them.
+  /// Evaluates residuals and Jacobian at x (n) and the derived quantities.
   void MoveTo(const Eigen::VectorXd& x);
 
   double cost() const { return cost_; }
   const Eigen::VectorXd& gradient() const { return gradient_; }
   /// sum_j (|J_j| / D_j)^2 / n
   double mean_curvature() const { return mean_curvature_; }
-  /// Cost and gradient are finite: steps may be asked for.
+  /// True if cost and gradient are finite, so that steps may be computed.
   bool is_finite() const;
 
-  /// The run has taken x: D grows by the columns there. Until then D is that of
-  /// the point the step began at, so that both are measured alike.
+  /// Called once the run accepts x: D grows by its columns. Until then D
+  /// is that of the starting point of the step, so both are measured
+  /// alike.
   virtual void Settle() {}
 
-  /// The step (n) for a damping; false where rounding leaves none.
+  /// Computes the step (n) for a damping; false if rounding leaves none.
   virtual bool Solve(double lambda, Eigen::VectorXd* step) = 0;
   /// |D v|^2
   virtual double ScaledSquaredNorm(const Eigen::VectorXd& v) const = 0;
@@ -49,13 +50,13 @@ class DampedLeastSquares {
   double cost_ = 0.0;
 };
 
-/// By Householder QR. `scale` (n), the D of kMarquardt, is set by the first
-/// MoveTo and grown by every Settle; shared by the spaces of one run. Null for
-/// D = I.
+/// Makes one that uses Householder QR. `scale` (n) is the D of kMarquardt, set
+/// by the first MoveTo, increased by Settle, and shared by the spaces of one
+/// run. Null for D = I.
 std::unique_ptr<DampedLeastSquares> MakeParameterSpace(
     const ResidualFunction& residuals, std::shared_ptr<Eigen::VectorXd> scale);
 
-/// By Cholesky factorisation of J J' + mu I; D = I.
+/// Makes one that uses Cholesky factorisation of J J' + mu I; D = I.
 std::unique_ptr<DampedLeastSquares> MakePatternSpace(
     const ResidualFunction& residuals);
 

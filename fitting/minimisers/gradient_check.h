@@ -11,9 +11,9 @@ struct Derivative {
   double error = 0.0;  // estimate of the absolute error of `value`
 };
 
-/// df/dt at `t` by Ridders' method (1982): central differences over a falling
-/// step, extrapolated to zero; stops when the estimate gets worse. `step` is
-/// the first and largest step, a distance over which f changes noticeably.
+/// Returns df/dt at `t` by Ridders' method (1982): central differences with
+/// decreasing steps, extrapolated to zero, until the error estimate grows.
+/// `step` is the first and largest step, over which f should change noticeably.
 Derivative RiddersDerivative(const std::function<double(double)>& f,
                              double t,
                              double step);
@@ -25,7 +25,7 @@ struct GradientCheck {
   double worst_numeric = 0.0;
 };
 
-/// Compares the gradient of `f` at x (n) with Ridders' derivatives in every
+/// Compares the gradient of `f` at x (n) with Ridders' derivatives for every
 /// parameter. The scale of each is max(|numeric|, 1e-6 times the largest
 /// gradient component): a component that is zero among large ones cannot be
 /// judged by its own size.

@@ -10,24 +10,24 @@ struct GradientDescentOptions {
   StoppingRules stopping = {};
   /// eta of Eq. 68-70; above 0. Too large a rate oscillates or diverges.
   double learning_rate = 1.0;
-  /// alpha of Eq. 70: share of the last step that is added; in [0, 1).
+  /// alpha of Eq. 70: share of the previous step that is added; in [0, 1).
   double momentum = 0.9;
 
   /// Throws std::invalid_argument naming field, value and range.
   void Validate() const;
 };
 
-/// Steepest descent by a constant rate with momentum, the usual "back
+/// Steepest descent at a constant rate with momentum, the usual "back
 /// propagation" (NISTIR 5367, section 6.4): x += -eta g + alpha (last step).
-/// Here to show why the report left it. The cost may rise; the best point seen
-/// is returned.
+/// Included to show why the report abandoned it. The cost may rise; the result
+/// is the best point seen.
 ///
-/// Ends as ScaledConjugateGradient does, with kNoDescent where the steps have
-/// left the region where the objective is finite, or the gradient is small at a
+/// Ends like ScaledConjugateGradient. Ends with kNoDescent if the steps leave
+/// the region where the objective is finite, or if the gradient is small at a
 /// point that is not the best seen.
 class GradientDescent final : public Optimizer {
  public:
-  /// Throws std::invalid_argument where the options are out of range.
+  /// Throws std::invalid_argument if an option is out of range.
   explicit GradientDescent(GradientDescentOptions options);
 
   std::string name() const override { return "backprop"; }

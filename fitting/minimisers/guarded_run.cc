@@ -53,13 +53,13 @@ bool GuardedRun::EvaluateAt(const double* x) {
   if (std::equal(x, x + x_.size(), x_.data())) return is_finite_;
   if (monitor_.StopAtLimit(evaluations_, 1)) return false;
   const Map<const VectorXd> at(x, x_.size());
-  // A solver that has lost itself in overflow is told so without a call.
+  // A solver lost in overflow gets its answer without a call.
   const double x_norm = at.norm();
   if (!std::isfinite(x_norm)) return false;
   x_ = at;
   x_norm_ = x_norm;
   EvaluateHere();
-  // Where rounding hides the cost's last fall, the gradient still shows it.
+  // If rounding hides the cost's last fall, the gradient still shows it.
   if (is_finite_ &&
       (cost_ < best_cost_ ||
        (cost_ == best_cost_ && gradient_norm_ < best_gradient_norm_))) {

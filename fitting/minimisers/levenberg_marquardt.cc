@@ -98,8 +98,8 @@ class LmRun {
     own_is_current_ = true;
   }
 
-  // The objective's cost at x and that of the residuals are the same, but for
-  // their roundings; where not, the run ends.
+  // Returns true if the objective's cost at x and that of the residuals agree
+  // to rounding; if not, ends the run.
   bool FormsAgree() {
     constexpr double kRelative = 1e-6;
     // A sum of squares that has become this small may be all rounding.
@@ -190,7 +190,7 @@ class LmRun {
     return std::max(kMostShrinkage, 1.0 - offset * offset * offset);
   }
 
-  // What the trial point leaves of g'(J'J + c I + lambda D^2)^-1 g.
+  // Ratio by which the trial lowers g'(J'J + c I + lambda D^2)^-1 g.
   double Contraction() {
     VectorXd next;
     if (!there_->Solve(lambda_, &next)) {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <new>
 #include <nlopt.h>
 #include <stdexcept>
 
 #include "fitting/minimisers/guarded_run.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::fitting {
 namespace {
@@ -61,7 +61,7 @@ struct Callback {
   nlopt_opt_s* problem;
 };
 
-// NLopt is told +infinity where there is no value; it knows no other way.
+// Returns +infinity to NLopt if there is no value; it has no other way.
 double EvaluateForNlopt(unsigned size,
                         const double* x,
                         double* gradient,
@@ -181,7 +181,7 @@ Minimum NloptOptimizer::DoMinimize(const Objective& f,
   Callback callback{&guarded, nullptr};
   const NloptProblem problem = MakeProblem(options_, x0, &callback);
   VectorXd x = x0;
-  double cost = std::numeric_limits<double>::quiet_NaN();
+  double cost = stats::kNaN;
   const nlopt_result result = nlopt_optimize(problem.get(), x.data(), &cost);
   if (result == NLOPT_OUT_OF_MEMORY && !guarded.stopped()) {
     throw std::bad_alloc();

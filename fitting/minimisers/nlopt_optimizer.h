@@ -9,7 +9,7 @@
 
 namespace errmap::fitting {
 
-/// A minimiser of NLopt, under NLopt's name.
+/// A minimiser of NLopt, with NLopt's name.
 enum class NloptMethod {
   kLbfgs,                  // LD_LBFGS
   kTnewtonPrecondRestart,  // LD_TNEWTON_PRECOND_RESTART
@@ -20,8 +20,8 @@ enum class NloptMethod {
   kCrs2Lm,                 // GN_CRS2_LM: random search in a box
 };
 
-/// "lbfgs", "tnewton_precond_restart", ...: the words of `method=`, in the
-/// order of the enumeration.
+/// "lbfgs", "tnewton_precond_restart", ...: values of `method=`, in the order
+/// of the enumeration.
 const std::vector<std::string>& NloptMethodNames();
 std::string_view ToString(NloptMethod method);
 
@@ -31,41 +31,41 @@ std::string NloptVersion();
 struct NloptOptions {
   StoppingRules stopping = {};
   NloptMethod method = NloptMethod::kLbfgs;
-  /// Pairs of vectors that lbfgs, tnewton_precond_restart and var2 keep; at
+  /// Number of vector pairs kept by lbfgs, tnewton_precond_restart and var2; at
   /// least 1. NLopt's own choice fills 10 MB: 560 pairs for 2341 parameters,
-  /// and each iteration reads them all.
+  /// all of which each iteration reads.
   int memory = 5;
   /// crs2_lm searches |x_i - x0_i| <= box * max(1, |x0_i|); above 0.
   double box = 10.0;
-  /// Of crs2_lm, the only random one.
+  /// Seed of crs2_lm, the only random method.
   std::uint64_t seed = 1;
 
   /// Throws std::invalid_argument naming field, value and range.
   void Validate() const;
 };
 
-/// NLopt on our objectives, held to our StoppingRules by a GuardedRun; its own
-/// tolerances are switched off. Methods without derivatives are given none, but
-/// the gradient is evaluated with each value all the same, so that their
-/// minimum is judged like any other.
+/// NLopt for our objectives, held to our StoppingRules by a GuardedRun; its own
+/// tolerances are switched off. Methods without derivatives get none, but the
+/// gradient is still evaluated with each value, so their minimum is judged like
+/// any other.
 ///
-/// kGradient is claimed only where our own evaluation confirms it; where NLopt
-/// ends by itself (round-off and failure included), the best point seen is kept
-/// and the summary says kNoDescent with NLopt's own words.
+/// Claims kGradient only if our own evaluation confirms it. If NLopt ends by
+/// itself (also by round-off or failure), the best point seen is kept and the
+/// summary says kNoDescent with NLopt's own words.
 class NloptOptimizer final : public Optimizer {
  public:
-  /// crs2_lm searches no more than these.
+  /// Maximum number of parameters that crs2_lm searches.
   static constexpr Eigen::Index kMostCrs2Parameters = 100;
 
-  /// Throws std::invalid_argument where the options are out of range.
+  /// Throws std::invalid_argument if an option is out of range.
   explicit NloptOptimizer(NloptOptions options);
 
   /// "nlopt:lbfgs", ...
   std::string name() const override;
 
  private:
-  /// Throws std::invalid_argument where crs2_lm is given more parameters than
-  /// it can search.
+  /// Throws std::invalid_argument if crs2_lm is given more parameters than
+  /// kMostCrs2Parameters.
   Minimum DoMinimize(const Objective& f,
                      const Eigen::VectorXd& x0,
                      const RunControl& run) const override;

@@ -11,7 +11,7 @@
 
 namespace errmap::fitting {
 
-/// When to stop; the report's names in brackets.
+/// Rules for stopping; the report's names are in brackets.
 struct StoppingRules {
   /// Stop after this many accepted steps (niter); at least 0.
   std::int64_t iterations = 1500;
@@ -23,12 +23,12 @@ struct StoppingRules {
   /// Stop when RmsError(f) < this (egoal); at least 0, and 0 never stops.
   double cost_goal = 0.0;
   /// Stop when |g| < this * max(1, |x|) (gwgoal); at least 0. The default is
-  /// the report's: it stops at a true minimum only.
+  /// the report's: it stops only at a true minimum.
   double gradient_goal = 1e-12;
   /// Every `progress_interval` accepted steps (nfreq, at least 1), stop when
-  /// RmsError(f) > this * its value at the last check (errdel); above 0, and
-  /// infinity never stops. At 1, the report's, only growth stops. A value v
-  /// below 0 has to fall likewise by (1 - this) |v|.
+  /// RmsError(f) > this * its value at the last check (errdel). Above 0;
+  /// infinity never stops. At 1, as in the report, only growth stops. A value v
+  /// below 0 must fall likewise by (1 - this) |v|.
   double slow_ratio = std::numeric_limits<double>::infinity();
   std::int64_t progress_interval = 1;
 
@@ -36,19 +36,19 @@ struct StoppingRules {
   void Validate() const;
 };
 
-/// Where a run stands after an iteration.
+/// State of a run after an iteration.
 struct Iterate {
   std::int64_t iteration = 0;
   double cost = 0.0;
   double gradient_norm = 0.0;
-  const Eigen::VectorXd& x;  // (n) valid during the call alone
+  const Eigen::VectorXd& x;  // (n) valid only during the call
 };
 
-/// What surrounds a run without changing its mathematics.
+/// Surroundings of a run that do not change its mathematics.
 struct RunControl {
   const std::atomic<bool>* stop = nullptr;  // set from outside to interrupt
   bool keep_trace = false;
-  /// Called after every iteration; false ends the run there, as kInterrupted.
+  /// Called after every iteration; false ends the run as kInterrupted.
   std::function<bool(const Iterate&)> after_iteration = {};
 };
 
@@ -57,7 +57,7 @@ struct Minimum {
   FitSummary summary;
 };
 
-/// Minimises an objective from a start; immutable, shared between threads.
+/// Minimises an objective from a start; immutable, may be shared by threads.
 template <typename Scalar>
 class BasicOptimizer {
  public:
@@ -66,13 +66,13 @@ class BasicOptimizer {
   virtual ~BasicOptimizer() = default;
   virtual std::string name() const = 0;
 
-  /// Minimum found from x0 (n). Counts and times evaluations: each call of
-  /// Evaluate and Value is one, and each Gradient that is new at its point. A
-  /// Curvature is one, or as many gradients as its Path takes for it. Of a
-  /// residual form, residuals alone count as a value, with a Jacobian as a
-  /// gradient. An infeasible start (f or its gradient not finite)
-  /// is reported as kFailed. Throws std::invalid_argument unless x0.size() ==
-  /// f.num_parameters() and all of x0 is finite.
+  /// Returns the minimum found from x0 (n). Counts and times evaluations. Each
+  /// call of Evaluate and Value counts as one, and each Gradient at a new
+  /// point. A Curvature counts as one, or as the gradients its Path evaluates.
+  /// Residuals alone count as a value, with a Jacobian as a gradient. An
+  /// infeasible start (f or its gradient not finite) is reported as kFailed.
+  /// Throws std::invalid_argument unless x0.size() == f.num_parameters() and x0
+  /// is finite.
   Minimum Minimize(const BasicObjective<Scalar>& f,
                    const Vector& x0,
                    const RunControl& run = {}) const;

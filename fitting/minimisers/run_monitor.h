@@ -12,8 +12,8 @@
 
 namespace errmap::fitting {
 
-/// What every iterative optimizer keeps account of in the same way: limits,
-/// goals, time and trace of its iterations, and the summary that says so.
+/// Bookkeeping common to every iterative optimizer: limits, goals, time and
+/// trace of its iterations, and the summary that reports them.
 class RunMonitor {
  public:
   RunMonitor(const StoppingRules& rules, const RunControl& run)
@@ -25,8 +25,8 @@ class RunMonitor {
     }
   }
 
-  /// The start, before any iteration. False, and stopped as failed, where it
-  /// is not finite.
+  /// Records the start, before any iteration. Returns false, and stops the run
+  /// as failed, if it is not finite.
   bool Begin(double cost, double gradient_norm) {
     summary_.initial_cost = summary_.final_cost = cost;
     summary_.initial_gradient_norm = summary_.final_gradient_norm =
@@ -43,7 +43,7 @@ class RunMonitor {
     return true;
   }
 
-  /// An iteration has ended at x, with this cost and gradient.
+  /// Records the end of an iteration at x, with this cost and gradient.
   template <typename Vector>
   void EndIteration(double cost, double gradient_norm, const Vector& x) {
     ++summary_.iterations;
@@ -62,8 +62,8 @@ class RunMonitor {
     }
   }
 
-  /// Ends the run where a limit forbids another pass of at most `needed`
-  /// evaluations after `evaluations`. Asked before each pass, so that limits
+  /// Ends the run if a limit forbids another pass of at most `needed`
+  /// evaluations after `evaluations`. Called before each pass, so that limits
   /// always hold.
   bool StopAtLimit(std::int64_t evaluations, std::int64_t needed) {
     const auto limit = Exhausted(evaluations, needed);
@@ -79,7 +79,7 @@ class RunMonitor {
     return rules_.cost_goal > 0.0 && RmsError(cost) < rules_.cost_goal;
   }
 
-  /// |g| < gradient_goal max(1, |x|), or no gradient at all.
+  /// True if |g| < gradient_goal max(1, |x|), or if the gradient is 0.
   bool ReachesGradientGoal(double gradient_norm, double x_norm) const {
     return gradient_norm < rules_.gradient_goal * std::max(1.0, x_norm) ||
            gradient_norm == 0.0;
@@ -95,14 +95,14 @@ class RunMonitor {
     return stopped_;
   }
 
-  /// Every progress_interval iterations, ends the run where the error has not
-  /// fallen to slow_ratio times what it was at the last check. `steps` counts
-  /// the iterations since then and is reset.
+  /// Every progress_interval iterations, ends the run if the error has not
+  /// fallen to slow_ratio times its value at the last check. `steps` counts the
+  /// iterations since then and is reset.
   bool StopAtSlowProgress(double cost, std::int64_t* steps) {
     if (*steps < rules_.progress_interval) return false;
     *steps = 0;
     const double rms = RmsError(cost);
-    // Below 0 the same share of its size has to be gained.
+    // Below 0 the same share of its size must be gained.
     const double ratio =
         last_checked_rms_ < 0.0 ? 2.0 - rules_.slow_ratio : rules_.slow_ratio;
     if (rms > ratio * last_checked_rms_) {
@@ -125,7 +125,7 @@ class RunMonitor {
   }
   std::int64_t iterations() const { return summary_.iterations; }
 
-  /// The summary of a run that ended with these.
+  /// Returns the summary of a run that ended with these values.
   FitSummary Finish(double cost, double gradient_norm) {
     summary_.final_cost = cost;
     summary_.final_gradient_norm = gradient_norm;

@@ -34,9 +34,9 @@ struct ScaledConjugateGradientOptions {
   ScgVariant variant = ScgVariant::kMoller;
   /// lambda_1, the first scale of the Hessian; above 0.
   double initial_lambda = 0.01;
-  /// netcg: the difference quotient's step is sigma |w| / |p|; above 0.
+  /// netcg: step of the difference quotient is sigma |w| / |p|; above 0.
   double sigma = 1e-4;
-  /// Told of every pass if set.
+  /// Called after every pass if set.
   std::function<void(const ScgPass&)> observer = {};
 
   /// Throws std::invalid_argument naming field, value and range.
@@ -45,32 +45,33 @@ struct ScaledConjugateGradientOptions {
 
 /// Moller's scaled conjugate gradients (Neural Networks 6, 1993; NISTIR 5367,
 /// section 6.5). Each pass models f along a direction p by a parabola of
-/// curvature p'Hp + lambda |p|^2, tries its minimum, and moves lambda by how
-/// well the parabola predicted what happened.
+/// curvature p'Hp + lambda |p|^2 and tries its minimum. It then adjusts lambda
+/// by how well the parabola predicted the cost.
 ///
-/// kMoller works on a Path of the objective: a curvature for each direction, a
-/// value for each pass, another where a pass fails after one that did not, and
-/// a gradient for each accepted step. Six failures in a row restart it from
-/// steepest descent, 61 along steepest descent end it. A step to where cost or
-/// gradient is not finite is a failure, and a quarter of it is tried next.
-/// Before it ends, cost and gradient are evaluated anew at the point returned,
-/// and a goal that this does not confirm does not end it.
+/// kMoller works on a Path of the objective. It needs a curvature for each
+/// direction, a value for each pass, another if a pass fails after one that did
+/// not, and a gradient for each accepted step. Six failures in a row restart it
+/// from steepest descent; 61 along steepest descent end it. A step to a
+/// non-finite cost or gradient is a failure; a quarter of it is tried next.
+/// Before it ends, cost and gradient are recomputed at the result. A goal that
+/// this does not confirm does not end the run.
 ///
-/// kNetcg: curvature by a difference of gradients over sigma |w| / |p|, lambda
-/// times 4 after a failure and times 16 after a poor success, a third failure
-/// in a row restarts from the gradient at the rejected point.
+/// kNetcg takes curvature from a difference of gradients over sigma |w| /
+/// |p|. It multiplies lambda by 4 after a failure, by 16 after a poor
+/// success. A third failure in a row restarts it from the gradient at the
+/// rejected point.
 ///
-/// Ends with kGradient when |g| < gradient_goal max(1, |x|), kCostGoal,
-/// kSlowProgress, a limit, or kFailed where the start is infeasible. Where
-/// nothing lowers the cost from steepest descent, kMoller in double ends with
-/// kResolution if the cost itself says that this is a minimum
-/// (cost_resolution.h), and kNoDescent says that it does not.
+/// Ends with kGradient when |g| < gradient_goal max(1, |x|), with kCostGoal,
+/// kSlowProgress or a limit, or with kFailed if the start is infeasible. If no
+/// step along steepest descent lowers the cost, kMoller in double ends with
+/// kResolution if the cost shows a minimum (cost_resolution.h). Else the run
+/// ends with kNoDescent.
 template <typename Scalar>
 class BasicScaledConjugateGradient final : public BasicOptimizer<Scalar> {
  public:
   using Vector = VectorOf<Scalar>;
 
-  /// Throws std::invalid_argument where the options are out of range.
+  /// Throws std::invalid_argument if an option is out of range.
   explicit BasicScaledConjugateGradient(ScaledConjugateGradientOptions options);
 
   std::string name() const override { return "scg"; }

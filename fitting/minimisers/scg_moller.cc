@@ -75,7 +75,7 @@ class MollerRun {
     }
     const double alpha = mu_ / delta;  // Eq. (106)
     const double trial_cost = Value(alpha);
-    // Eq. (107); not finite where the trial is infeasible.
+    // Eq. (107); not finite if the trial is infeasible.
     const double comparison = 2.0 * delta * (cost_ - trial_cost) / (mu_ * mu_);
     const bool feasible = std::isfinite(trial_cost);
 
@@ -84,7 +84,7 @@ class MollerRun {
       if (comparison < kPoor) Shorten(delta, comparison);
     } else {
       Reject(&report);
-      // A good cost does not help where the gradient is not finite.
+      // A good cost does not help if the gradient is not finite.
       const bool tells = feasible && comparison < kPoor;
       if (!report.gave_up_direction) {
         Shorten(delta, tells ? comparison : kInfeasible);
@@ -118,9 +118,9 @@ class MollerRun {
     return static_cast<double>(path_->Value(static_cast<Scalar>(a)));
   }
 
-  // False where the gradient is not finite at the new point, or no shorter
-  // though the cost has stayed the same: at the floor of rounding a step must
-  // lower one of them, or it would go on for ever.
+  // Returns false if the gradient is not finite at the new point, or if neither
+  // cost nor gradient is lower. At the floor of rounding a step must lower one
+  // of them, or the run would never end.
   bool Accept(double alpha, double trial_cost, ScgPass* report) {
     const auto step = static_cast<Scalar>(alpha);
     path_->Accept(step);
@@ -176,8 +176,8 @@ class MollerRun {
     }
   }
 
-  // Either there is nothing left to gain that the cost could show, or the
-  // gradient promises what is not to be had.
+  // Either the cost shows no further gain, or the gradient promises one that no
+  // step gives.
   void StopHere() {
     const char* why = "no step along steepest descent lowers the cost";
     if constexpr (std::is_same_v<Scalar, double>) {

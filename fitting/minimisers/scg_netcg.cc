@@ -44,7 +44,7 @@ class NetcgRun {
     return f_.Evaluate(x, gradient);
   }
 
-  // Step 1. False where there is nothing to do.
+  // Step 1. Returns false if there is nothing to do.
   bool Start() {
     cost_ = Evaluate(w_, &gradient_);
     r_ = -gradient_;

@@ -4,7 +4,7 @@
 
 namespace errmap::fitting {
 
-// The two variants of BasicScaledConjugateGradient, each a run from x0.
+// The two variants of BasicScaledConjugateGradient; each runs from x0.
 
 template <typename Scalar>
 Minimum MinimizeByMoller(const ScaledConjugateGradientOptions& options,

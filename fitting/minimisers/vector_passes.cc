@@ -48,8 +48,8 @@ ERRMAP_INLINE void Fold(Index half, Lanes<Scalar>* lanes) {
   for (Index l = 0; l < half; ++l) (*lanes)[l] += (*lanes)[l + half];
 }
 
-// What all lanes have, then the `rest` terms: half of the lanes more where
-// there are so many, the others one by one.
+// Adds all lanes, then the `rest` terms: half of the lanes at once if there are
+// so many, the others one by one.
 template <typename Scalar, typename Term>
 ERRMAP_INLINE Scalar Total(Lanes<Scalar> lanes, Index rest, Term term) {
   constexpr Index kHalf = kLanes<Scalar> / 2;

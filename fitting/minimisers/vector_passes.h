@@ -4,10 +4,10 @@
 
 namespace errmap::fitting {
 
-// What scaled conjugate gradients do to whole vectors, several things at a
-// pass: a sum alone waits for each of its additions, and where the objective is
-// quick these waits are a tenth of an iteration. Sums are taken in as many
-// lanes on every machine, so the bits are the same on all. Sizes must agree.
+// Vector operations of scaled conjugate gradients, several per pass. A sum
+// alone waits for each of its additions; with a quick objective these waits are
+// a tenth of an iteration. Sums use the same number of lanes on every machine,
+// so their bits are the same on all. Sizes must agree.
 
 template <typename Scalar>
 struct VectorSums {
@@ -20,11 +20,11 @@ VectorSums<double> SquaresAndProduct(const VectorOf<double>& x,
 VectorSums<float> SquaresAndProduct(const VectorOf<float>& x,
                                     const VectorOf<float>& y);
 
-/// w += a p; returns w'w.
+/// Computes w += a p; returns w'w.
 double MoveAndSquare(double a, const VectorOf<double>& p, VectorOf<double>* w);
 float MoveAndSquare(float a, const VectorOf<float>& p, VectorOf<float>* w);
 
-/// r = -gradient, then p = r + a p; returns p'p and p'r.
+/// Computes r = -gradient, then p = r + a p; returns p'p and p'r.
 VectorSums<double> TurnDirection(const VectorOf<double>& gradient,
                                  double a,
                                  VectorOf<double>* r,

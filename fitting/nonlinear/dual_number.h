@@ -5,15 +5,15 @@
 
 namespace errmap::fitting {
 
-/// A value with its derivatives to N parameters: forward-mode automatic
-/// differentiation of a formula over Scalar (double, stats::DoubleDouble).
+/// A value with its derivatives with respect to N parameters: forward-mode
+/// automatic differentiation over Scalar (double, stats::DoubleDouble).
 template <typename Scalar, int N>
 struct Dual {
   Scalar value = Scalar(0.0);
   std::array<Scalar, static_cast<std::size_t>(N)> slope{};
 
   Dual() = default;
-  // Implicit, as constants in a formula are.
+  // Implicit, like constants in a formula.
   Dual(const Scalar& constant) : value(constant) {}
 
   /// Parameter `index` itself.

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "fitting/minimisers/levenberg_marquardt.h"
 #include "fitting/nonlinear/variable_projection.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::fitting {
 namespace {
@@ -103,8 +103,7 @@ RegressionStatistics AssessRegression(const RegressionFunction& function,
   statistics.degrees_of_freedom = n - p;
   const DoubleDouble sum_of_squares = residuals.squaredNorm();
   statistics.residual_sum_of_squares = sum_of_squares.hi;
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  statistics.standard_deviations = Eigen::VectorXd::Constant(p, nan);
+  statistics.standard_deviations = Eigen::VectorXd::Constant(p, stats::kNaN);
   if (!jacobian.cast<double>().allFinite() ||
       !residuals.cast<double>().allFinite()) {
     return statistics;
@@ -117,7 +116,7 @@ RegressionStatistics AssessRegression(const RegressionFunction& function,
   const DoubleDouble factor =
       fit.residual_sum_of_squares.hi > 0.0
           ? sqrt(sum_of_squares / fit.residual_sum_of_squares)
-          : DoubleDouble(nan);
+          : DoubleDouble(stats::kNaN);
   for (Index j = 0; j < p; ++j) {
     statistics.standard_deviations[j] =
         DoubleDouble(fit.standard_deviations[j] * factor).hi;
@@ -212,7 +211,6 @@ RegressionFit FitNonlinearRegression(const RegressionFunction& function,
   fit.summary = std::move(best.minimum.summary);
   const PolishedParameters polished =
       PolishRegression(function, best.minimum.x.cast<DoubleDouble>());
-  fit.polish_steps = polished.steps;
   fit.statistics = AssessRegression(function, polished.parameters);
   fit.summary.final_cost = 0.5 * fit.statistics.residual_sum_of_squares;
   if (polished.converged) fit.summary.termination = Termination::kGradient;

@@ -11,15 +11,15 @@
 
 namespace errmap::fitting {
 
-/// Residuals r_i = y_i - f(x_i, b) of a model with p parameters b on n
+/// Residuals r_i = y_i - f(x_i, b) of a model with p parameters b and n
 /// observations, in double and in 106 bits.
 class RegressionFunction {
  public:
   virtual ~RegressionFunction() = default;
   virtual Eigen::Index num_parameters() const = 0;
   virtual Eigen::Index num_observations() const = 0;
-  /// Indices of parameters in which f is linear while the others stand still,
-  /// all of them together.
+  /// Indices of parameters in which f is jointly linear while the others are
+  /// fixed.
   virtual std::vector<Eigen::Index> linear_parameters() const { return {}; }
   /// Fills `residuals` (n) and, unless null, `jacobian` (n x p), dr_i/db_j.
   virtual void Evaluate(const Eigen::VectorXd& b,
@@ -30,12 +30,12 @@ class RegressionFunction {
                         ExtendedMatrix* jacobian) const = 0;
 };
 
-/// A RegressionFunction from one formula, its Jacobian by automatic
-/// differentiation: `Formula` has kParameters and, for every T that is a number
+/// A RegressionFunction from one formula, with its Jacobian by automatic
+/// differentiation. `Formula` has kParameters and, for every T that is a number
 /// or a Dual of one,
 ///   template <typename T, typename X> static T Predict(const T* b, const X*
 ///   x);
-/// kLinear, an array of indices, names linear_parameters() where there are any.
+/// kLinear, an array of indices, names linear_parameters() if there are any.
 template <typename Formula>
 class FormulaRegression final : public RegressionFunction {
  public:
@@ -106,7 +106,7 @@ class FormulaRegression final : public RegressionFunction {
   Eigen::VectorXd double_target_;
 };
 
-/// f(b) = 1/2 |r(b)|^2, as every Optimizer takes it. `function` must outlive
+/// f(b) = 1/2 |r(b)|^2 as an Objective for optimizers. `function` must outlive
 /// it.
 class RegressionObjective final : public Objective, private ResidualFunction {
  public:
@@ -134,24 +134,24 @@ class RegressionObjective final : public Objective, private ResidualFunction {
   const RegressionFunction& function_;
 };
 
-/// What a regression says at given parameters, worked out in 106 bits.
+/// Results of a regression at given parameters, computed in 106 bits.
 struct RegressionStatistics {
   Eigen::VectorXd parameters;  // (p)
-  /// sqrt(s^2 [(J'J)^-1]_jj), s^2 = RSS / (n - p); NaN where J is deficient.
+  /// sqrt(s^2 [(J'J)^-1]_jj), s^2 = RSS / (n - p); NaN if J is rank deficient.
   Eigen::VectorXd standard_deviations;
   double residual_sum_of_squares = 0.0;
   Eigen::Index degrees_of_freedom = 0;
 };
 
-/// Throws std::invalid_argument unless b (p) fits and n > p.
+/// Computes them. Throws std::invalid_argument unless b has size p and n > p.
 RegressionStatistics AssessRegression(const RegressionFunction& function,
                                       const ExtendedVector& b);
 
 struct PolishOptions {
-  int steps = 200;  // at most; at least 0
-  /// Ends with convergence where no parameter moves by more than this,
-  /// relative; above 0. What is left is then below the digits of a double
-  /// unless the steps shrink very slowly.
+  int steps = 200;  // most steps; at least 0
+  /// Relative step tolerance (> 0): the fit has converged when no parameter
+  /// changes by more than this. The remaining error is then below double
+  /// precision unless the steps shrink very slowly.
   double smallest_step = 1e-15;
 
   /// Throws std::invalid_argument naming field, value and range.
@@ -164,27 +164,26 @@ struct PolishedParameters {
   bool converged = false;  // the last step was below smallest_step
 };
 
-/// Gauss-Newton steps from `b` (p) in 106 bits, each halved until it lowers the
-/// sum of squares: digits that a minimiser in double cannot see, since the sum
-/// of squares is flat to the rounding unit over its square root. Ends where no
-/// step lowers the sum, or J is deficient.
+/// Takes Gauss-Newton steps from `b` (p) in 106 bits, each halved until it
+/// lowers the sum of squares. This gains digits that a minimiser in double
+/// cannot see, for which the sum is flat within the root of the rounding unit.
+/// Ends if no step lowers the sum, or if J is rank deficient.
 PolishedParameters PolishRegression(const RegressionFunction& function,
                                     const ExtendedVector& b,
                                     const PolishOptions& options = {});
 
 struct RegressionFit {
   RegressionStatistics statistics;
-  FitSummary summary;  // of the run that won, its message naming the strategy
-  int polish_steps = 0;
+  FitSummary summary;  // of the best run, whose strategy its message names
 };
 
-/// Minimises `function` from `start` (p) by Levenberg-Marquardt under several
-/// strategies: scalings, first dampings, and on the ProjectedObjective where
-/// there are linear parameters. Takes the lowest sum of squares and polishes
-/// it. Every strategy is always run: a curved valley that defeats one is no
-/// trouble to the next, and the lowest sum of squares needs no judge. Ends with
-/// kGradient where polishing has converged, else as the best run did. Throws
-/// std::invalid_argument where Optimizer::Minimize does.
+/// Minimises `function` from `start` (p) by Levenberg-Marquardt with several
+/// strategies: scalings, first dampings, and the ProjectedObjective if there
+/// are linear parameters. Polishes the result with the lowest sum of squares.
+/// Every strategy is always run: a curved valley that defeats one does not
+/// trouble the next. Ends with kGradient if polishing has converged, else as
+/// the best run did. Throws std::invalid_argument as Optimizer::Minimize
+/// does.
 RegressionFit FitNonlinearRegression(const RegressionFunction& function,
                                      const Eigen::VectorXd& start,
                                      const StoppingRules& stopping);

@@ -1,10 +1,10 @@
 #include "fitting/nonlinear/variable_projection.h"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 #include "fitting/least_squares/linear_least_squares.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::fitting {
 
@@ -43,7 +43,7 @@ VectorXd ProjectedObjective::Complete(const VectorXd& a) const {
   function_.Evaluate(b, &residuals, &jacobian);
   const MatrixXd columns = jacobian(Eigen::all, linear_);
   if (!columns.allFinite() || !residuals.allFinite()) {
-    b.setConstant(std::numeric_limits<double>::quiet_NaN());
+    b.setConstant(stats::kNaN);
     return b;
   }
   // With c = 0 in b: r(a, c) = r(a, 0) + (dr/dc) c.

@@ -8,19 +8,19 @@
 
 namespace errmap::fitting {
 
-/// A regression with its conditionally linear parameters c eliminated: at the
-/// others, a, they are the least squares solution, so that
+/// A regression with its conditionally linear parameters c eliminated: for
+/// given others, a, they are the least squares solution, so that
 ///
 ///   f(a) = min over c of 1/2 |r(a, c)|^2
 ///
 /// (Golub & Pereyra, SIAM J. Numer. Anal. 10, 1973). The Jacobian is Kaufman's
-/// (BIT 15, 1975): that of r in a, projected onto what the columns of c leave;
-/// its J'r is the exact gradient. A bad guess of c then harms nothing.
+/// (BIT 15, 1975): that of r in a, projected onto the complement of the columns
+/// of c. Its J'r is the exact gradient. A bad guess of c does no harm.
 /// `function` must outlive it.
 class ProjectedObjective final : public Objective, private ResidualFunction {
  public:
-  /// Throws std::invalid_argument unless `function` has linear parameters and
-  /// others.
+  /// Throws std::invalid_argument unless `function` has linear and other
+  /// parameters.
   explicit ProjectedObjective(const RegressionFunction& function);
 
   Eigen::Index num_parameters() const override;
@@ -28,7 +28,7 @@ class ProjectedObjective final : public Objective, private ResidualFunction {
                   Eigen::VectorXd* gradient) const override;
   const ResidualFunction* residuals() const override { return this; }
 
-  /// The parameters a among all of b (p), and back with the best c.
+  /// Reduce returns the parameters a of b (p); Complete adds the best c to a.
   Eigen::VectorXd Reduce(const Eigen::VectorXd& b) const;
   Eigen::VectorXd Complete(const Eigen::VectorXd& a) const;
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
 #include "fitting/least_squares/decompositions.h"
 #include "fitting/least_squares/orthogonal_basis.h"
+#include "stats/indices.h"
 
 namespace errmap::fitting {
 namespace {
@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Reordering pays where a branch still has many leaves.
+// Reordering pays if a branch still has many leaves.
 constexpr Index kFreeColumnsWorthSorting = 6;
 
 // A triangle (k+1) x (k+1) of k columns and the response, of which the first
@@ -168,8 +168,7 @@ class Search {
     for (Index place = 0; place < size; ++place) {
       cost[place] = RssWithout(*node, place);
     }
-    std::vector<Index> order(static_cast<std::size_t>(size));
-    std::iota(order.begin(), order.end(), Index{0});
+    std::vector<Index> order = stats::AllIndices(size);
     std::stable_sort(order.begin() + node->fixed,
                      order.end(),
                      [&](Index a, Index b) { return cost[a] > cost[b]; });

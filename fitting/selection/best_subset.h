@@ -8,18 +8,19 @@
 
 #include "fitting/information_criteria.h"
 #include "fitting/selection/selection_state.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::fitting {
 
 struct BestSubsetOptions {
-  /// kAic, kAicc, kBic, kAdjustedR2 or kCp: those that follow from the
+  /// kAic, kAicc, kBic, kAdjustedR2 or kCp: criteria that depend only on the
   /// residual sum of squares and the number of terms.
   Criterion criterion = Criterion::kBic;
-  /// Most terms; below 0: no limit but the rows.
+  /// Maximum number of terms; below 0: limited only by the rows.
   Eigen::Index max_terms = -1;
-  /// Error variance for Cp; NaN: that of the model of all candidates.
-  double sigma2 = std::numeric_limits<double>::quiet_NaN();
-  /// Candidates that the earlier ones determine to this are passed over; above
+  /// Error variance for Cp; NaN: that of the model with all candidates.
+  double sigma2 = stats::kNaN;
+  /// Candidates determined by earlier ones to this tolerance are skipped; above
   /// 0, below 1.
   double collinearity = 1e-7;
 
@@ -29,21 +30,21 @@ struct BestSubsetOptions {
 
 struct BestSubsetResult {
   std::vector<Eigen::Index> chosen;   // columns, ascending
-  std::vector<Eigen::Index> aliased;  // passed over
-  double criterion = 0.0;             // its value (adjusted R2: as it is)
-  std::int64_t nodes = 0;             // of the tree that were looked at
-  bool complete = true;               // false: interrupted, the best so far
+  std::vector<Eigen::Index> aliased;  // skipped
+  double criterion = 0.0;             // its value; adjusted R2 is not negated
+  std::int64_t nodes = 0;             // number of tree nodes visited
+  bool complete = true;               // false: interrupted, best so far
 };
 
-/// The subset of the candidates (with `include` always in) that is best by
-/// `options.criterion` among all 2^m, by branch and bound over a tree of
-/// triangles from which columns are dropped (Furnival and Wilson 1974; Gatu
-/// and Kontoghiorghes 2006): a branch is cut where even all its columns, at the
-/// price of its fewest, do not beat the best so far. Practical up to about 40
-/// candidates.
+/// Returns the best subset of the candidates by `options.criterion` among all
+/// 2^m, with `include` always in. Uses branch and bound over a tree of
+/// triangles from which columns are dropped (Furnival and Wilson 1974; Gatu and
+/// Kontoghiorghes 2006). A branch is cut if even the fit of all its columns,
+/// penalised as its fewest, does not beat the best so far. Practical up to
+/// about 40 candidates.
 ///
-/// Throws std::invalid_argument on bad shapes or options and where `include`
-/// has more terms than rows.
+/// Throws std::invalid_argument for bad shapes or options, or if `include` has
+/// more terms than rows.
 BestSubsetResult SelectBestSubset(
     const SelectionProblem& problem,
     const std::vector<Eigen::Index>& include,

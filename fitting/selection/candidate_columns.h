@@ -4,23 +4,23 @@
 
 namespace errmap::fitting {
 
-/// Columns offered to a selection: a matrix X (n x m) that need not exist.
-/// Immutable, and safe to use from several threads.
+/// Columns offered to a selection: a matrix X (n x m) that need not be stored.
+/// Immutable, safe to use from several threads.
 class CandidateColumns {
  public:
   virtual ~CandidateColumns() = default;
   virtual Eigen::Index rows() const = 0;
   virtual Eigen::Index cols() const = 0;
-  /// Column `index` (n).
+  /// Returns column `index` (n).
   virtual Eigen::VectorXd Column(Eigen::Index index) const = 0;
-  /// X' v (m) of `v` (n).
+  /// Returns X' v (m) for `v` (n).
   virtual Eigen::VectorXd TransposeTimes(const Eigen::VectorXd& v) const = 0;
-  /// (X o X)' v (m), X squared element by element: the weighted squared
+  /// Returns (X o X)' v (m), X squared element by element: the weighted squared
   /// lengths of the columns.
   virtual Eigen::VectorXd SquaresTransposeTimes(
       const Eigen::VectorXd& v) const = 0;
 
-  /// The columns `indices` side by side (n x k).
+  /// Returns the columns `indices` side by side (n x k).
   template <typename Indices>
   Eigen::MatrixXd Columns(const Indices& indices) const {
     Eigen::MatrixXd matrix(rows(), static_cast<Eigen::Index>(indices.size()));
@@ -32,7 +32,7 @@ class CandidateColumns {
   }
 };
 
-/// A design matrix that is held.
+/// A stored design matrix.
 class MatrixColumns final : public CandidateColumns {
  public:
   explicit MatrixColumns(Eigen::MatrixXd matrix);
@@ -50,9 +50,9 @@ class MatrixColumns final : public CandidateColumns {
   Eigen::MatrixXd matrix_;
 };
 
-/// All terms of degree 1 and 2 of p inputs, x1 .. xp, x1^2, x1 x2, .. xp^2,
-/// whose products are never formed: X' v is one triangle of B' diag(v) B with
-/// B = [1, inputs], so that a pass reads n p numbers in place of n p^2 / 2.
+/// All terms of degree 1 and 2 of p inputs: x1 .. xp, x1^2, x1 x2, .. xp^2.
+/// Their products are never formed: X' v is one triangle of B' diag(v) B with B
+/// = [1, inputs], so a pass reads n p numbers instead of n p^2 / 2.
 class QuadraticColumns final : public CandidateColumns {
  public:
   explicit QuadraticColumns(const Eigen::MatrixXd& inputs);
@@ -72,7 +72,7 @@ class QuadraticColumns final : public CandidateColumns {
                            const Eigen::VectorXd& v) const;
 
   Eigen::Index num_inputs_;
-  RowMajor base_;     // (n x width) 1, inputs, zeros up to a whole width
+  RowMajor base_;     // (n x width) 1, inputs, zeros as padding
   RowMajor squared_;  // element by element
 };
 

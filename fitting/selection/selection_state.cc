@@ -206,7 +206,7 @@ void SelectionState::Apply(const SelectionMove& move) {
     direction = basis_.Remove(place - chosen_.begin() + 1);
     chosen_.erase(place);
     is_chosen_[At(move.candidate)] = false;
-    // What depended on the term may be free of the rest.
+    // Columns that depended on the term may be independent of the rest.
     std::fill(is_collinear_.begin(), is_collinear_.end(), false);
   }
   const double along =

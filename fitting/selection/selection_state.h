@@ -11,47 +11,47 @@
 
 namespace errmap::fitting {
 
-/// Where the element `index` of a std::vector stands.
+/// Converts an Eigen index to an index of a std::vector.
 inline std::size_t At(Eigen::Index index) {
   return static_cast<std::size_t>(index);
 }
 
-/// Rows and columns of a least-squares problem whose terms are being chosen.
-/// References must outlive what is built on them.
+/// Rows and columns of a least-squares problem whose terms are being selected.
+/// The references must outlive all users of the problem.
 struct SelectionProblem {
   const CandidateColumns& candidates;  // X (n x m), without the intercept
   const Eigen::VectorXd& response;     // y (n)
   /// (n) not negative, or (0): all equal.
   const Eigen::VectorXd& weights;
-  /// (n) the column of the intercept, where rows are no observations but rows
-  /// of a triangle; (0): ones.
+  /// (n) the intercept's column if the rows are those of a triangle, not
+  /// observations; (0): ones.
   Eigen::VectorXd intercept = {};
-  /// Number of observations; 0: the rows of a weight above 0.
+  /// Number of observations; 0: number of rows with weight above 0.
   double observations = 0.0;
 
   double num_observations() const {
     return observations > 0.0 ? observations
                               : CountObservations(response.size(), weights);
   }
-  /// Throws std::invalid_argument on shapes that do not agree, fewer than 2
-  /// rows, negative weights or values that are not finite.
+  /// Throws std::invalid_argument if shapes do not agree, there are fewer than
+  /// 2 rows, a weight is negative or a value is not finite.
   void Validate(const char* caller) const;
 };
 
-/// A term on its way in or out.
+/// A term that enters or leaves.
 struct SelectionMove {
-  Eigen::Index candidate = -1;  // -1: there is none
+  Eigen::Index candidate = -1;  // -1: none
   bool enters = true;
   double gain = 0.0;          // change of the residual sum of squares, >= 0
   Eigen::VectorXd direction;  // (n) unit vector that joins or leaves the span
 };
 
-/// The chosen terms with an orthonormal basis of their span, and of every
-/// candidate what that span leaves: its squared length z'z and its product
-/// with the response z'y. Both are downdated by X'q when a unit vector q
-/// joins, never formed anew; each carries a bound of its rounding error, and
-/// where that bound could change which candidate is best, the candidate is
-/// orthogonalised again. The cost of a step is one pass X'q.
+/// The chosen terms with an orthonormal basis of their span. For every
+/// candidate it keeps the part z orthogonal to that span: the squared length
+/// z'z and the product with the response z'y. Both are downdated by X'q when a
+/// unit vector q joins, never recomputed; each carries a bound of its rounding
+/// error. A candidate is orthogonalised again if that bound could change which
+/// one is best. A step costs one pass X'q.
 class SelectionState {
  public:
   SelectionState(const SelectionProblem& problem, double collinearity);
@@ -65,19 +65,19 @@ class SelectionState {
   const Eigen::VectorXd& residual() const { return residual_; }
   /// Diagonal of the hat matrix (n).
   const Eigen::VectorXd& leverage() const { return leverage_; }
-  /// Below this a residual sum of squares is rounding.
+  /// Residual sums of squares below this are rounding.
   double noise() const { return noise_; }
 
-  /// The entry among candidates with `open` true that explains most; ties go
-  /// to the lowest. Candidates that the chosen terms determine are passed over.
+  /// Returns the best entry among candidates with `open` true; ties go to the
+  /// lowest. Skips candidates determined by the chosen terms.
   SelectionMove BestEntry(const std::vector<bool>& open);
-  /// The entry of one candidate; no candidate in the move where the chosen
+  /// Returns the entry of one candidate; its `candidate` is -1 if the chosen
   /// terms determine it.
   SelectionMove EntryOf(Eigen::Index candidate);
-  /// The exits of all chosen terms, in order of their entry; their directions
-  /// are filled where asked for.
+  /// Returns the exits of all chosen terms, in order of entry, with their
+  /// directions if requested.
   std::vector<SelectionMove> Exits(bool with_directions) const;
-  /// The exit of one chosen term, with its direction.
+  /// Returns the exit of one chosen term, with its direction.
   SelectionMove ExitOf(Eigen::Index candidate) const;
 
   void Apply(const SelectionMove& move);
@@ -99,7 +99,7 @@ class SelectionState {
   std::vector<bool> is_chosen_;
   Eigen::VectorXd residual_;
   Eigen::VectorXd leverage_;
-  // Of each candidate:
+  // For each candidate:
   Eigen::VectorXd length_;        // |x|
   Eigen::VectorXd rest_squared_;  // z'z
   Eigen::VectorXd rest_error_;

@@ -10,6 +10,7 @@
 #include "fitting/least_squares/linear_least_squares.h"
 #include "fitting/selection/swept_candidates.h"
 #include "stats/f_test.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::fitting {
 namespace {
@@ -19,7 +20,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 // A leverage this near to 1 is 1: the row has a coefficient to itself.
 constexpr double kLeastSlack = 1e-9;
 
@@ -462,7 +462,7 @@ double SelectionStep::ValueOf(Criterion criterion) const {
     case Criterion::kNone:
       break;
   }
-  return kNan;
+  return stats::kNaN;
 }
 
 bool StepwiseOptions::Uses(Criterion criterion) const {
@@ -525,12 +525,12 @@ std::vector<ExcludedTerm> JudgeExcluded(const SelectionProblem& problem,
     const SelectionMove move = state.EntryOf(j);
     term.aliased = move.candidate < 0;
     if (!term.aliased && freedom > 0.0) {
-      // From the residual itself: rss - gain cancels where a term fits all.
+      // From the residual itself: rss - gain cancels if a term fits all.
       const double left =
           (state.residual() -
            move.direction.dot(state.residual()) * move.direction)
               .squaredNorm();
-      term.f = rss > 0.0 ? move.gain / (left / freedom) : kNan;
+      term.f = rss > 0.0 ? move.gain / (left / freedom) : stats::kNaN;
       term.p = stats::FTestPValue(term.f, 1.0, freedom);
     }
     excluded.push_back(term);
@@ -550,29 +550,6 @@ double CrossValidatedError(const MatrixXd& design,
                .squaredNorm();
   }
   return sum;
-}
-
-void ForwardSelectionOptions::Validate() const {
-  if (!(collinearity > 0.0 && collinearity < 1.0)) {
-    throw std::invalid_argument(
-        "ForwardSelectionOptions: collinearity must be above 0 and below 1, "
-        "found " +
-        std::to_string(collinearity));
-  }
-}
-
-SelectionResult SelectForward(const MatrixXd& candidates,
-                              const VectorXd& response,
-                              const VectorXd& weights,
-                              const ForwardSelectionOptions& options) {
-  options.Validate();
-  const MatrixColumns columns(candidates);
-  const SelectionProblem problem{columns, response, weights};
-  problem.Validate("SelectForward");
-  StepwiseOptions stepwise;
-  stepwise.max_terms = options.max_terms;
-  stepwise.collinearity = options.collinearity;
-  return SelectStepwise(problem, {}, stepwise);
 }
 
 }  // namespace errmap::fitting

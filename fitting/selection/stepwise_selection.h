@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "fitting/fold_codes.h"
 #include "fitting/information_criteria.h"
 #include "fitting/selection/selection_state.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::fitting {
 
@@ -18,66 +18,66 @@ enum class Heredity { kNone, kWeak, kStrong };
 
 struct StepwiseOptions {
   Direction direction = Direction::kForward;
-  /// What the best move is judged by. AIC, AICc, BIC, adjusted R2, Cp and p
-  /// agree on the best entry and on the best exit; PRESS and CV do not.
+  /// Criterion for the best move. AIC, AICc, BIC, adjusted R2, Cp and p agree
+  /// on the best entry and on the best exit; PRESS and CV may not.
   Criterion select = Criterion::kBic;
-  /// The moves end where the best does not lower this (p: where it is not
-  /// significant); kNone: when no move is left.
+  /// Stops when the best move does not lower this (p: is not significant);
+  /// kNone: when no move is left.
   Criterion stop = Criterion::kBic;
-  /// The lowest of the models passed through is taken (p and kNone: the last).
+  /// Chooses the lowest of the models passed through (p and kNone: the last).
   Criterion choose = Criterion::kBic;
-  /// p: a term enters with p <= enter and leaves with p > remove;
-  /// 0 < enter <= remove < 1, since a term could enter and leave for ever
-  /// otherwise.
+  /// p: a term enters if p <= enter and leaves if p > remove. 0 <
+  /// enter <= remove < 1; otherwise a term could enter and leave
+  /// forever.
   double enter = 0.05;
   double remove = 0.10;
   Heredity heredity = Heredity::kNone;
-  /// Most terms; below 0: no limit but the rows.
+  /// Maximum number of terms; below 0: limited only by the rows.
   Eigen::Index max_terms = -1;
-  /// A candidate is passed over while what the chosen terms leave of it is
+  /// A candidate is skipped while its part orthogonal to the chosen terms is
   /// shorter than this times the candidate; above 0, below 1. R's lm has 1e-7.
   double collinearity = 1e-7;
-  /// Error variance for Cp; NaN: that of the model of all candidates.
-  double sigma2 = std::numeric_limits<double>::quiet_NaN();
+  /// Error variance for Cp; NaN: that of the model with all candidates.
+  double sigma2 = stats::kNaN;
 
   /// Throws std::invalid_argument naming field, value and range.
   void Validate() const;
-  /// True where `criterion` selects, stops or chooses.
+  /// Returns true if `criterion` selects, stops or chooses.
   bool Uses(Criterion criterion) const;
 };
 
-/// What may enter and leave.
+/// Rules for entering and leaving.
 struct TermRules {
   std::vector<Eigen::Index> include;  // always in, in this order
   std::vector<bool> excluded;         // (m) never in; empty: none
-  /// (m) the terms with one power less, as columns; -1 for one that is no
+  /// (m) columns of the terms with one power less; -1 for one that is not a
   /// candidate. Empty: no heredity.
   std::vector<std::vector<Eigen::Index>> parents;
   FoldCodes folds;  // for CV; without codes: none
 };
 
-/// One step of a selection; NaN: not computed or not defined.
+/// One step of a selection; NaN if not computed or not defined.
 struct SelectionStep {
   Eigen::Index candidate = -1;           // -1: the start
   double residual_sum_of_squares = 0.0;  // weighted
   double bic = 0.0;
   bool entered = true;
   Eigen::Index terms = 0;  // after the step, without the intercept
-  /// Partial F of the term that came or went (1 and n - k degrees of freedom,
-  /// k coefficients of the larger model) and its p.
-  double f = std::numeric_limits<double>::quiet_NaN();
-  double p = std::numeric_limits<double>::quiet_NaN();
-  double aic = std::numeric_limits<double>::quiet_NaN();
-  double aicc = std::numeric_limits<double>::quiet_NaN();
-  double adjusted_r2 = std::numeric_limits<double>::quiet_NaN();
-  /// Sum of w (e / (1 - h))^2, infinite where a leverage is 1; NaN where rows
-  /// are no observations.
-  double press = std::numeric_limits<double>::quiet_NaN();
-  double cp = std::numeric_limits<double>::quiet_NaN();
-  /// Squared error on held-out folds, the terms taken as given.
-  double cv = std::numeric_limits<double>::quiet_NaN();
+  /// Partial F of the term that entered or left (1 and n - k degrees of
+  /// freedom, k coefficients of the larger model) and its p.
+  double f = stats::kNaN;
+  double p = stats::kNaN;
+  double aic = stats::kNaN;
+  double aicc = stats::kNaN;
+  double adjusted_r2 = stats::kNaN;
+  /// Sum of w (e / (1 - h))^2, infinite if a leverage is 1. NaN if the rows are
+  /// not observations.
+  double press = stats::kNaN;
+  double cp = stats::kNaN;
+  /// Squared error on held-out folds, for the terms as given.
+  double cv = stats::kNaN;
 
-  /// Value of a criterion, the lower the better (adjusted R2 is negated).
+  /// Returns a criterion's value; lower is better (adjusted R2 is negated).
   double ValueOf(Criterion criterion) const;
 };
 
@@ -85,20 +85,20 @@ struct SelectionResult {
   std::vector<Eigen::Index> chosen;  // columns of the design, in order of entry
   std::vector<SelectionStep> steps;  // the start and each move
   std::size_t chosen_step = 0;       // the step whose model was chosen
-  std::vector<Eigen::Index> aliased_includes;  // determined by those before
-  std::string ended;           // why the moves ended, for people
-  bool at_most_terms = false;  // ... which is StepwiseOptions::max_terms
+  std::vector<Eigen::Index> aliased_includes;  // determined by earlier ones
+  std::string ended;           // why the selection ended, as text
+  bool at_most_terms = false;  // ... because of max_terms
 };
 
-/// Stepwise selection. From the intercept and `rules.include` (backward: from
-/// all candidates), makes the best move for as long as `options.stop` allows,
-/// and returns the model that `options.choose` prefers. At least one degree of
-/// freedom is left to the residual. Ties go to the lowest column.
+/// Stepwise selection. Starts from the intercept and `rules.include` (backward:
+/// from all candidates), makes the best move while `options.stop` allows it,
+/// and returns the model that `options.choose` prefers. Keeps at least one
+/// residual degree of freedom. Ties go to the lowest column.
 ///
-/// `stop_token` ends the moves early where it becomes true (null: never).
-/// Throws std::invalid_argument on bad shapes or options, on PRESS where rows
-/// are no observations, on CV without folds, on Cp without a variance, and on
-/// backward selection with more candidates than rows.
+/// `stop_token` ends the selection early when it becomes true (null: never).
+/// Throws std::invalid_argument for bad shapes or options, PRESS on rows that
+/// are not observations, CV without folds, Cp without a variance, and backward
+/// selection with more candidates than rows.
 SelectionResult SelectStepwise(const SelectionProblem& problem,
                                const TermRules& rules,
                                const StepwiseOptions& options,
@@ -107,43 +107,24 @@ SelectionResult SelectStepwise(const SelectionProblem& problem,
 /// A candidate outside a model.
 struct ExcludedTerm {
   Eigen::Index candidate = -1;
-  bool aliased = false;  // the model's terms determine it
-  double f = std::numeric_limits<double>::quiet_NaN();  // if it came in now
-  double p = std::numeric_limits<double>::quiet_NaN();
+  bool aliased = false;    // the model's terms determine it
+  double f = stats::kNaN;  // if it entered now
+  double p = stats::kNaN;
 };
 
-/// Every candidate that is not in `chosen`, with the partial F that it would
-/// have if it entered now; in the order of the columns. Those judged so far
-/// where `stop_token` becomes true (null: never).
+/// Returns every candidate that is not in `chosen`, in column order, with its
+/// partial F if it entered now. Returns those judged so far if `stop_token`
+/// becomes true (null: never).
 std::vector<ExcludedTerm> JudgeExcluded(
     const SelectionProblem& problem,
     const std::vector<Eigen::Index>& chosen,
     double collinearity,
     const std::atomic<bool>* stop_token = nullptr);
 
-/// Squared error of the terms in `design` (n x k, intercept and weights
-/// included) on each judged fold when fitted to the rows that predict it.
+/// Returns the sum of squared errors over the judged folds, each predicted by
+/// the terms in `design` (n x k, with intercept and weights) as FoldCodes says.
 double CrossValidatedError(const Eigen::MatrixXd& design,
                            const Eigen::VectorXd& response,
                            const FoldCodes& folds);
-
-struct ForwardSelectionOptions {
-  /// Most candidates to choose; below 0: no limit but the rows.
-  Eigen::Index max_terms = -1;
-  /// See StepwiseOptions.
-  double collinearity = 1e-7;
-
-  /// Throws std::invalid_argument naming field, value and range.
-  void Validate() const;
-};
-
-/// SelectStepwise forward by BIC (Schwarz 1978) on a matrix.
-///
-/// `candidates` (n x m) without an intercept column, `response` (n), `weights`
-/// (n) not negative or (0).
-SelectionResult SelectForward(const Eigen::MatrixXd& candidates,
-                              const Eigen::VectorXd& response,
-                              const Eigen::VectorXd& weights,
-                              const ForwardSelectionOptions& options = {});
 
 }  // namespace errmap::fitting

@@ -41,7 +41,7 @@ void SubtractMultiple(const double* direction,
   for (std::ptrdiff_t i = 0; i < n; ++i) values[i] -= factor * direction[i];
 }
 
-// Sum of ((e - c z) / (slack - f z^2))^2; infinite where a slack is too small.
+// Sum of ((e - c z) / (slack - f z^2))^2; infinite if a slack is too small.
 ERRMAP_MULTIVERSION
 double PressOf(const double* error,
                const double* slack,

@@ -8,29 +8,29 @@
 
 namespace errmap::fitting {
 
-/// Every candidate with the chosen terms swept out of it, held as a matrix
-/// (n x m): for criteria that need the rows of each candidate, such as PRESS
-/// and cross-validation, which no two numbers per candidate can give.
+/// Every candidate with the chosen terms swept out, stored as a matrix (n x m).
+/// For criteria that need the rows of each candidate, such as PRESS and
+/// cross-validation; two numbers per candidate do not suffice.
 class SweptCandidates {
  public:
-  /// `fitted` (n): rows that are fitted; `held_out` (n): rows, none of them
-  /// fitted, that HeldOutErrorAfterEntry judges.
+  /// `fitted` (n): true for rows to fit. `held_out` (n): true for rows, none of
+  /// them fitted, on which HeldOutErrorAfterEntry computes the error.
   SweptCandidates(const SelectionProblem& problem,
                   const std::vector<bool>& fitted,
                   const std::vector<bool>& held_out,
                   double collinearity);
 
-  /// Rebuilds for another set of terms, or goes on where `chosen` only grew.
+  /// Switches to the terms `chosen`; cheap if it only grew, else rebuilds.
   void Follow(const std::vector<Eigen::Index>& chosen);
 
-  /// Of each candidate in `open`: PRESS after its entry, sum over rows of
-  /// (e / (1 - h))^2; infinite where a leverage is 1, for candidates that the
-  /// chosen terms determine, and for those not open. All rows are fitted.
+  /// Returns PRESS, the sum over rows of (e / (1 - h))^2, after entry of each
+  /// candidate. Infinite if a leverage is 1, for those determined by the chosen
+  /// terms and those not `open`. All rows must be fitted.
   Eigen::VectorXd PressAfterEntry(const Eigen::VectorXd& leverage,
                                   const std::vector<bool>& open) const;
 
-  /// Of each candidate in `open`: squared error on the rows held out after its
-  /// entry. A candidate that the fitted rows determine adds nothing there.
+  /// Returns the squared error on the held-out rows after entry of each
+  /// candidate in `open`. One determined on the fitted rows adds nothing.
   Eigen::VectorXd HeldOutErrorAfterEntry(const std::vector<bool>& open) const;
 
  private:
@@ -45,7 +45,7 @@ class SweptCandidates {
   bool all_fitted_;
   Eigen::VectorXd roots_;  // (n)
   Eigen::MatrixXd rest_;   // (n x m)
-  Eigen::VectorXd least_;  // (m) squared lengths of the collinear
+  Eigen::VectorXd least_;  // (m) squared lengths that count as collinear
   Eigen::VectorXd error_;  // (n) sqrt(w) (y - fit), in all rows
   std::vector<Eigen::Index> chosen_;
 };

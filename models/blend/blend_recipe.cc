@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -22,6 +21,7 @@
 #include "models/option_list.h"
 #include "models/polynomial/penalized_candidates.h"
 #include "models/polynomial/polynomial_model.h"
+#include "stats/indices.h"
 
 namespace errmap::models {
 namespace {
@@ -33,7 +33,7 @@ using Eigen::VectorXd;
 // Which candidates an average is of.
 enum class Among { kAll, kStraight };
 
-// What inner hold-outs say of a candidate.
+// Result of inner hold-outs for a candidate.
 struct Score {
   double rmse = 0.0;
   bool straight = false;
@@ -77,10 +77,10 @@ VectorXd WeightsAmong(const std::vector<Score>& scores,
   return weights / weights.sum();
 }
 
-// Where rows are to be foretold that lie beyond those known, a bend that helps
-// between them is worth less than it seems: the average of all is averaged with
-// that of the straight lines among them, which count as much where they err no
-// more, and an eighth as much where they err twice as much.
+// For rows beyond the known ones, a bend that helps between them is worth less
+// than it seems. The average of all is therefore averaged with that of the
+// straight lines, which count as much if their errors are equal, and an eighth
+// as much if they are twice as large.
 VectorXd AveragedWithLines(const std::vector<Score>& scores, double power) {
   constexpr double kShrinkPower = 3.0;
   VectorXd all = WeightsAmong(scores, Among::kAll, power);
@@ -119,10 +119,6 @@ class BlendRecipe final : public ModelRecipe {
     return "inputs: a blend needs at least one";
   }
 
-  std::optional<Index> NumCoefficients(const Dataset&) const override {
-    return std::nullopt;
-  }
-
   FittedModel Fit(const Dataset& training,
                   const FitContext& context) const override {
     if (const auto missing = WhatIsMissing(training)) {
@@ -144,7 +140,8 @@ class BlendRecipe final : public ModelRecipe {
       grows = grows || basis.viewed->grows();
     }
     std::optional<FittedModel> net;
-    // What only grows is to go on in a straight line, which no net does.
+    // Inputs that only grow need a straight line beyond the data, which a net
+    // lacks.
     if (options_.net && !grows) {
       net = FitNet(training, context);
       scores.push_back({.rmse = net->inner_rmse});
@@ -310,8 +307,8 @@ class BlendRecipe final : public ModelRecipe {
     }
     const History& history = read_by.history;
     const Dataset read = DeriveDataset(training, history);
-    std::vector<Index> all(history.form_inputs.size());
-    std::iota(all.begin(), all.end(), Index{0});
+    const std::vector<Index> all =
+        stats::AllIndices(std::ssize(history.form_inputs));
     fitted.name = name_;
     fitted.kind = ModelKind::kBlend;
     fitted.align = training.align();

@@ -11,17 +11,17 @@
 namespace errmap::models {
 
 /// blend: the weighted average of candidates (family x view x terms, each at
-/// its best penalty, and a net where one is asked for), with weights from the
-/// inner hold-outs of the training rows alone: error^-p, averaged with the same
-/// of the straight lines alone, where p is the number of groups held out, at
-/// most 8, as their likelihood would have it were each one error, or of
+/// its best penalty, and a net if requested). Weights are error^-p from inner
+/// hold-outs of the training rows only. Unless an input only grows, they are
+/// averaged with such weights of the straight lines alone. p is the number of
+/// groups held out, at most 8 (their likelihood if each were one error), or of
 /// sessions less one (3 to 7). One choice among near-equals is a gamble;
 /// averages of maps that see the inputs differently are not.
 struct BlendOptions {
-  /// With NetInViews in its views, but where an input only grows. Its figures
-  /// differ from one processor to another.
+  /// Adds NetInViews in its views, unless an input only grows. Its figures
+  /// depend on the processor.
   bool net = false;
-  /// Views are what averaging lives on: without a `view` it is auto.
+  /// Averaging profits from different views: without a `view` it is auto.
   BasisOptions bases = {.view = ViewOptions()};
 
   std::string_view type() const { return "blend"; }
@@ -30,7 +30,7 @@ struct BlendOptions {
   bool operator==(const BlendOptions&) const = default;
 };
 
-/// Throws as Validate. The recipe's name is `name` or, where that is empty,
+/// Throws like Validate. The recipe's name is `name`; if that is empty,
 /// SpecOf(options).
 std::unique_ptr<ModelRecipe> MakeRecipe(const BlendOptions& options,
                                         std::string name = "");

@@ -8,9 +8,9 @@
 
 namespace errmap::models {
 
-/// The model of a form that was read back; `parameters` of a polynomial says
-/// whether its intercept is one. Throws std::invalid_argument where the form
-/// does not agree with itself.
+/// Returns the model of a form read from a file. `parameters` of a polynomial
+/// tells whether its intercept is one. Throws std::invalid_argument if the form
+/// is inconsistent.
 std::shared_ptr<const ErrorModel> ModelOfForm(ModelDescription form,
                                               Eigen::Index parameters);
 

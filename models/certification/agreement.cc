@@ -45,8 +45,8 @@ void CertifyAgreement(Certification* certification) {
   std::vector<AgreementCertificate> rows(solvers.size());
   std::vector<VectorXd> predictions(solvers.size());
   fitting::ParallelFor(0, solvers.size(), [&](std::size_t i) {
-    // The slowest, nonlinear conjugate gradients, comes within the floor after
-    // some 20000 iterations: sooner or later by the processor's rounding.
+    // The slowest, nonlinear conjugate gradients, reaches the floor after some
+    // 20000 iterations, which vary with the processor's rounding.
     constexpr fitting::StoppingRules kStopping{
         .iterations = 60000, .evaluations = 300000, .gradient_goal = 1e-9};
     const NetObjective objective = MakeNetExample(example);

@@ -11,7 +11,8 @@
 
 namespace errmap::models {
 
-/// What was found, beside the digits that it shares with the certified value.
+/// The value found, and the number of digits it shares with the certified
+/// value.
 struct CertifiedEstimate {
   std::string name;
   double estimate = 0.0;
@@ -29,19 +30,20 @@ struct NonlinearCertificate {
   std::int64_t iterations = 0;
   std::string stop = {};  // fitting::ToString of the termination
   bool claims_minimum = false;
-  std::string message = {};  // the solver's own words, or what it threw
-  /// Why a minimum that is claimed here may be another than the certified one;
-  /// empty: it may not.
+  std::string message = {};  // the solver's message or its exception's text
+  /// Why a claimed minimum may differ from the certified one; empty: it may
+  /// not.
   std::string other_minimum = {};
   std::vector<CertifiedEstimate> estimates = {};
   double rss = 0.0;
 };
 
-/// All runs of one solver, with its floors. Solved = lre_parameters above 4.
+/// All runs of one solver, with its floors. Solved means lre_parameters above
+/// 4.
 struct SolverCertificate {
   std::string solver;
-  /// "net:scg" of "scg:moller": the models that it fits in the commands;
-  /// nothing for the default.
+  /// The models that this solver fits in the commands, such as "net:scg" for
+  /// "scg:moller"; empty for the default solver.
   std::optional<std::string> fits = {};
   int runs = 0;
   int solved = 0;
@@ -52,7 +54,7 @@ struct SolverCertificate {
   double floor_mean_lre_parameters = 0.0;
 };
 
-/// A linear NIST problem by `errmap fit --model SPEC` on its data as CSV.
+/// A linear NIST problem, solved as by `errmap fit --model SPEC` from CSV data.
 struct LinearCertificate {
   std::string problem;
   std::string model = {};  // the SPEC
@@ -60,9 +62,8 @@ struct LinearCertificate {
   double lre_sd = 0.0;
   double lre_rss = 0.0;
   double condition = 0.0;  // of the design with columns of unit length
-  int bits = 0;            // of the arithmetic that its condition asked for
-  std::vector<CertifiedEstimate> estimates =
-      {};  // the intercept first, where there is one
+  int bits = 0;            // of the arithmetic chosen by its condition
+  std::vector<CertifiedEstimate> estimates = {};  // intercept first, if any
   double rss = 0.0;
 };
 
@@ -75,10 +76,10 @@ struct UnivariateCertificate {
   double sd = 0.0;
   double autocorrelation = 0.0;  // at lag 1
   double condition = 0.0;        // sqrt(1 + (mean / sd)^2)
-  /// Of the figures above: 53 where double data hold the digits, 106 where the
-  /// condition says that the decimal text must be kept.
+  /// Precision of the values above: 53 if double data hold the digits, 106 if
+  /// the condition requires the decimal text.
   int bits = 0;
-  /// The same from double data whatever the condition: what compare uses.
+  /// The same from double data, whatever the condition: compare uses these.
   double lre_mean_double = 0.0;
   double lre_sd_double = 0.0;
   double lre_autocorrelation_double = 0.0;
@@ -92,44 +93,44 @@ struct GradientCertificate {
 struct AgreementCertificate {
   std::string solver;
   double objective = 0.0;
-  double difference = 0.0;  // of the objective to the lowest, relative
-  double prediction_difference = 0.0;  // largest, as share of the target range
+  double difference = 0.0;  // relative, of the objective to the lowest
+  double prediction_difference = 0.0;  // largest, as share of target range
   double most_difference = 0.0;        // the floors of this solver
   double most_prediction_difference = 0.0;
   std::int64_t iterations = 0;
   std::string stop = {};
 };
 
-/// The name of the default: Levenberg-Marquardt with its fallbacks and polish
-/// (fitting::FitNonlinearRegression). Of the library only: the commands fit
-/// nets, by the other solvers.
+/// The default solver's name: Levenberg-Marquardt with its fallbacks and polish
+/// (fitting::FitNonlinearRegression). Only the library has it: the commands fit
+/// nets, with the other solvers.
 inline constexpr const char* kDefaultSolver = "lm";
 
-/// What an installation must reach; LRE are least values, errors greatest.
-/// Those of single solvers stand in their rows.
+/// The floors for an installation: LRE are minima, errors are maxima. Floors of
+/// a single solver are in its row.
 struct CertificationFloors {
-  std::string nonlinear_solver = kDefaultSolver;  // whose the next four are
+  std::string nonlinear_solver = kDefaultSolver;  // of the next four
   double nonlinear_lre_parameters = 10.0;
   double nonlinear_mean_lre_parameters = 10.6;
   double nonlinear_lre_sd = 10.0;
   double nonlinear_lre_rss = 10.0;
-  /// Of the sum of squares, wherever any solver claims a minimum.
+  /// For the sum of squares, whenever any solver claims a minimum.
   double claimed_lre_rss = 4.0;
   double linear_lre_coefficients = 13.0;
   double linear_lre_sd = 13.0;
   double linear_lre_rss = 13.0;
   double univariate_lre = 13.0;
-  /// A double keeps 8 digits of 0.1 beside 10000000.
+  /// A double keeps 8 digits of 0.1 added to 10000000.
   double univariate_lre_sd_numacc4 = 8.0;
-  /// Of the plain double figures: the mean; sd and autocorrelation.
+  /// For the values from plain double data: the mean; sd and autocorrelation.
   double univariate_double_lre_mean = 13.0;
   double univariate_double_lre = 8.0;
   double gradient_relative_error = 1e-6;
 };
 
-/// The members of all these are their keys in JSON.
+/// All results; the member names of these structs are their keys in JSON.
 struct Certification {
-  /// One line per floor that was missed, in words.
+  /// One line in words for each floor that was missed.
   std::vector<std::string> missed;
   std::vector<NonlinearCertificate> nonlinear;
   std::vector<SolverCertificate> nonlinear_summary;
@@ -141,29 +142,29 @@ struct Certification {
   bool passed() const { return missed.empty(); }
 };
 
-/// Runs every solver on every problem from both starts, in parallel; the
-/// figures do not depend on the number of threads.
+/// Runs every solver on every problem from both starts, in parallel. The
+/// results do not depend on the number of threads.
 void CertifyNonlinear(Certification* certification);
 void CertifyLinear(Certification* certification);
 void CertifyUnivariate(Certification* certification);
-/// Nets of several shapes and the NIST problems, at random points and at the
-/// minimum.
+/// Checks gradients of nets of several shapes and of the NIST problems, at
+/// random points and at the minimum.
 void CertifyGradients(Certification* certification);
-/// Every solver on one well-damped net from one start.
+/// Runs every solver on one well-damped net from one start.
 void CertifyAgreement(Certification* certification);
 
-/// Adds a row: the gradient of `f` at x (n) against Ridders extrapolation, and
-/// the Jacobian of its residuals, where it has them, along random combinations.
-/// Components are taken times their parameter's size. Below 1e-3 of the largest
-/// they are judged by that. `gradient_size`: the largest at a typical point,
-/// for a minimum, where the gradient vanishes; 0 = the largest at x.
+/// Adds a row: the gradient of `f` at x (n) against Ridders extrapolation.
+/// Checks the Jacobian of its residuals, if any, along random combinations.
+/// Components are multiplied by their parameter's size; those below 1e-3 of the
+/// largest are judged by that limit. `gradient_size`: the largest at a typical
+/// point, for a minimum, where the gradient vanishes; 0: the largest at x.
 void CertifyGradient(const std::string& name,
                      const fitting::Objective& f,
                      const Eigen::VectorXd& x,
                      double gradient_size,
                      Certification* certification);
 
-/// Fills `missed` from the parts that were run.
+/// Fills `missed` from the parts that have run.
 void JudgeFloors(const CertificationFloors& floors,
                  Certification* certification);
 

@@ -7,7 +7,7 @@
 
 namespace errmap::models {
 
-/// A net on synthetic patterns: every installation can fit it.
+/// A net on synthetic patterns, so that every installation can fit it.
 struct NetExampleShape {
   std::string name;  // "net 3-5-1, sigmoid output"
   NetShape shape;
@@ -15,19 +15,19 @@ struct NetExampleShape {
   double wfactor = 0.0;
 };
 
-/// Shapes that reach every branch: either output, several outputs, a slope, few
-/// and many hidden nodes.
+/// Returns shapes that reach every branch: either output, several outputs, a
+/// slope, few and many hidden nodes.
 const std::vector<NetExampleShape>& NetExampleShapes();
 
-/// The well-damped net of CertifyAgreement: large wfactor, one minimum.
+/// Returns the well-damped net of CertifyAgreement: large wfactor, one minimum.
 NetExampleShape DampedNetExample();
 
-/// Inputs (P x I) on a low-discrepancy grid in [-1, 1], and targets (P x J) of
-/// 0.2 to 0.8: a smooth function of them.
+/// Return inputs (P x I) on a low-discrepancy grid in [-1, 1], and targets (P x
+/// J) in 0.2 to 0.8, a smooth function of them.
 Eigen::MatrixXd ExampleInputs(const NetExampleShape& example);
 Eigen::MatrixXd ExampleTargets(const NetExampleShape& example);
 
-/// E(w) of a net on these.
+/// Returns E(w) of a net on these patterns.
 NetObjective MakeNetExample(const NetExampleShape& example);
 
 }  // namespace errmap::models

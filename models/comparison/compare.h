@@ -14,41 +14,41 @@
 
 namespace errmap::models {
 
-/// How maps are compared; what is left empty is chosen as `errmap compare`
-/// chooses it.
+/// How maps are compared. Empty options are chosen as `errmap compare` chooses
+/// them.
 struct ComparisonOptions {
   std::vector<std::string> holdouts = {};  // SPECs; empty: DefaultHoldouts
   std::vector<std::string> models = {};    // SPECs; empty: all that suit
-  std::optional<double> goal = {};         // RMSE wanted, in the target's unit
-  /// Difference in RMSE that never matters; else DefaultIndifference.
+  std::optional<double> goal = {};         // wanted RMSE, in the target's unit
+  /// Difference in RMSE that does not matter; empty: DefaultIndifference.
   std::optional<double> indifference = {};
   std::uint64_t seed = 1;
-  int jobs = 1;                             // at least 1; changes no figure
-  const std::atomic<bool>* stop = nullptr;  // ends the study where it is set
-  /// Told of each fit, from any thread; may be empty.
+  int jobs = 1;  // at least 1; does not change results
+  const std::atomic<bool>* stop = nullptr;  // ends the study once it is set
+  /// Called at each fit, from any thread; may be empty.
   std::function<void(const FitProgress&)> progress = {};
 };
 
-/// The whole study of one component, as `errmap compare FILE` does it: reads
-/// the CSV file, holds rows out, fits every model, judges them and gives the
-/// maps what they may promise. It has the file's name without its ending. With
-/// MakeComponentRecord or report::MakeRecord it becomes results.json.
-/// Throws data::InputError where the data cannot be used,
-/// std::invalid_argument for a SPEC that is wrong or that the data do not
-/// allow.
+/// Runs the whole study of one component, as `errmap compare FILE` does.
+/// Reads the CSV file, holds rows out, fits every model, judges them, and
+/// adds the predicted errors to the maps. The component has the file's
+/// name without its ending. MakeComponentRecord or report::MakeRecord
+/// turns it into results.json. Throws data::InputError if the data cannot
+/// be used, std::invalid_argument if a SPEC is wrong or the data do not
+/// allow it.
 ComponentStudy CompareMaps(const std::string& file,
                            const data::DatasetSelection& selection,
                            const ComparisonOptions& options);
 
-/// The same of measurements in memory, beside others a caller's own recipes.
-/// The component has the name that the data set gives as its source, and a map
-/// may be held against a file (`file:TEST.csv`) by the columns of the data set.
+/// The same for measurements in memory; a caller may add recipes of his own.
+/// The data set's source becomes the component's name. A map may be tested on a
+/// file (`file:TEST.csv`) that has the data set's columns.
 ComponentStudy CompareMaps(const data::Dataset& dataset,
                            const ComparisonOptions& options,
                            OwnRecipes own = {});
 
-/// What reads other rows with the columns of `like` (target, inputs, groups),
-/// else by `selection`, to be judged only.
+/// Returns a selection that reads other rows for judging only. They have the
+/// columns of `like` (target, inputs, groups); the rest is as in `selection`.
 data::DatasetSelection SelectionLike(const data::Dataset& like,
                                      data::DatasetSelection selection);
 

@@ -9,9 +9,9 @@
 
 #include "data/input_error.h"
 #include "data/text.h"
-#include "models/promise/promise.h"
 #include "models/recipe_catalog.h"
 #include "models/study/rezero/rezeroed_study.h"
+#include "models/uncertainty/promise.h"
 
 namespace errmap::models {
 namespace {
@@ -140,7 +140,8 @@ void RunComponent(ComponentPlan* plan,
                                     component.goal,
                                     options.seed,
                                     component.choose,
-                                    component.prefer});
+                                    component.prefer,
+                                    component.rezero.has_value()});
   if (component.judgement.recommendation && !component.study.interrupted) {
     const std::size_t h = component.judgement.recommendation->holdout;
     for (ModelResult& model : component.study.models) {

@@ -168,8 +168,8 @@ std::string CWriter::CellTables() const {
   for (const Cell cell : kTables) {
     if (!program_.Uses(cell)) continue;
     std::vector<std::string> numbers;
-    for (const ProgramReading& reading : program_.readings) {
-      numbers.push_back(RealText(TableValue(reading, cell)));
+    for (const double value : TableValues(program_, cell)) {
+      numbers.push_back(RealText(value));
     }
     text += fmt::format("\nstatic const double {}[{}_INPUTS] = {{\n{}}};\n",
                         language_.CellName(cell),

@@ -6,8 +6,8 @@
 
 namespace errmap::models {
 
-/// C99 of the program `name`: local arrays, a pointer to the state, tables and
-/// functions whose names begin with that of the program.
+/// Writes the program `name` as C99: local arrays, a pointer to the state, and
+/// tables and functions whose names begin with `name`.
 class CLanguage final : public Language {
  public:
   CLanguage(std::string name, Precision precision);

@@ -9,37 +9,37 @@
 
 namespace errmap::models {
 
-/// A map ready to be written, and what its program was found to lose.
+/// A map ready to be written, and how far its program deviates from it.
 struct MapExport {
   std::string name;  // a safe identifier
   Precision precision = Precision::kDouble;
   MapProgram program = {};
   std::vector<SelfTestRow> rows = {};  // ControllerSession
-  std::size_t num_checked = 0;         // rows held against the map itself
+  std::size_t num_checked = 0;         // rows compared with the map itself
   double error_range = 0.0;            // target's unit
   Deviations deviations = {};          // from the map
 
-  /// What a file may differ from the map by when it tests itself (target's
-  /// unit): AllowedDeviation, or twice what was found where a map's own sums
-  /// cancel, so that no order of them is better.
+  /// Largest deviation allowed in a file's self-test (target's unit). It is
+  /// AllowedDeviation, or twice the deviation found if that is larger: the
+  /// map's own sums then cancel, and no order of summation helps.
   double tolerance() const;
 };
 
-/// When a map acts.
+/// The direction of motion in which a map acts.
 enum class Motion { kAny, kIncreasing, kDecreasing };
-/// Throws std::invalid_argument where the map is made for rows of another
-/// direction of motion than it would act in.
+/// Throws std::invalid_argument if the map was made for rows of another
+/// direction of motion than `motion`.
 void RequireMadeFor(const FittedModel& fitted, Motion motion);
 
 /// Longest name of an exported map.
 inline constexpr std::size_t kLongestMapName = 40;
 
-/// Makes the program of one map, or of those of increasing and decreasing
-/// positions, with its controller, and holds it against each map. Throws
-/// std::invalid_argument as MakeMapProgram, JoinedPrograms and AddController,
-/// on a name that is no safe identifier of at most kLongestMapName characters,
-/// and where single precision loses more than AllowedDeviation within the
-/// trained range.
+/// Makes the program of one map, or of one map each for increasing and
+/// decreasing positions, with its controller. Compares it with each map. Throws
+/// std::invalid_argument as MakeMapProgram, JoinedPrograms and AddController.
+/// Also throws if the name is not a safe identifier of at most kLongestMapName
+/// characters. So it does if single precision loses more than AllowedDeviation
+/// within the trained range.
 MapExport PrepareExport(const std::vector<const FittedModel*>& maps,
                         const std::string& name,
                         Precision precision,

@@ -16,7 +16,7 @@ struct ExportedFile {
   std::string content;
 };
 
-/// Words of a language for what routines do; "{}" is what they are about.
+/// A language's syntax for routines; "{}" stands for the operand.
 struct Syntax {
   const char* conjunction;
   const char* disjunction;
@@ -25,16 +25,16 @@ struct Syntax {
   const char* absolute;  // a function
   const char* when;      // "if ({}) {{"
   const char* otherwise;
-  const char* end_when;  // "" where indentation ends it
+  const char* end_when;  // "" if indentation ends it
   const char* loop;      // over the index from 0 to below "{0}", last "{1}"
   const char* end_loop;
   const char* index;
   const char* indent;
 };
 
-/// How a language writes the instructions and routines of a program. What is
-/// computed, and in which order, is the program's; a language says how it
-/// looks.
+/// Writes the instructions and routines of a program in one language. The
+/// program decides what is computed and in which order; a language decides only
+/// the notation.
 class Language {
  public:
   Language(Precision precision, const Syntax& syntax)
@@ -45,43 +45,45 @@ class Language {
               const Instructions& instructions) const;
   Lines Write(const MapProgram& program, const Routine& routine) const;
 
-  /// The double that reads back the same.
+  /// Returns the shortest text that reads back as the same double.
   virtual std::string Number(double value, bool single) const;
-  /// Where the number of a cell is, in the language's own way of naming.
+  /// Returns the language's expression for a cell's value.
   virtual std::string CellName(Cell cell) const = 0;
-  /// The loop's trained state of a form, at one coordinate.
+  /// Returns one coordinate of the loop's trained state of a form.
   virtual std::string TrainedState(int form, int coordinate) const = 0;
-  /// Whether the status has one of these bits.
+  /// Returns the condition that the status has one of these bits.
   virtual std::string HasAny(int mask) const = 0;
 
  protected:
   enum class Function { kMeanDecay, kSine, kCosine, kSigmoid };
 
-  /// Arrays named as in C: "x[2]", "dt_s", "s[0]", "e".
+  /// Returns the operand with arrays named as in C: "x[2]", "dt_s", "s[0]",
+  /// "e".
   virtual std::string Place(Operand operand) const;
-  /// A bit of the status is set.
+  /// Returns the statement that sets a bit of the status.
   virtual std::string Flag(int bit) const = 0;
-  /// `narrows`: a double value for a single place.
+  /// `narrows`: a double value is assigned to a single-precision place.
   virtual std::string Assign(const std::string& to,
                              const std::string& value,
                              bool narrows) const = 0;
-  /// To a place, a value of its own or what it grows by.
+  /// Assigns a value to a place (Set), or adds to it (Grow).
   virtual Lines Set(Operand to, const std::string& value, bool narrows) const;
   virtual Lines Grow(Operand to, const std::string& by, bool narrows) const;
   virtual std::string Call(Function function,
                            const std::string& argument,
                            bool single) const = 0;
-  /// Where `condition` holds, `to` becomes `value`, and clipped where `guards`.
+  /// If `condition` holds, sets `to` to `value`, and `clipped` if `guards`.
   virtual Lines Bound(const std::string& condition,
                       const std::string& to,
                       const std::string& value,
                       bool guards) const = 0;
   virtual Lines Affine(const Instruction& instruction,
                        const Eigen::MatrixXd& table) const = 0;
-  /// kSigmoid of more than one number.
+  /// kSigmoid of more than one value.
   virtual Lines Sigmoids(const Instruction& instruction) const = 0;
 
-  /// The place `index` after `first` in its array: "u[j]", "s[3 + j]".
+  /// Returns the element `index` after `first` in its array: "u[j]", "s[3 +
+  /// j]".
   std::string ArrayAt(Operand first, const char* index) const;
 
   bool IsSingle(Space space) const {
@@ -105,7 +107,7 @@ class Language {
   const Syntax& syntax_;
 };
 
-/// The arrays that a step computes, in the order of their declarations.
+/// The arrays that a step computes, in declaration order.
 struct LocalArray {
   Space space;
   char name;
@@ -120,21 +122,21 @@ inline constexpr LocalArray kLocalArrays[] = {{Space::kGain, 'g'},
                                               {Space::kScore, 'q'},
                                               {Space::kDoubt, 'r'}};
 
-/// What the routines of a program keep from step to step.
+/// Returns the cells that a program's routines keep from step to step.
 std::vector<CellInfo> KeptCells(const MapProgram& program);
 
-/// How many numbers a saved state has: which map it is of, the filters' and
-/// those of KeptCells, and the sum of these, so that a changed one is refused.
+/// Number of values in a saved state: the map's identity, the filters, the
+/// cells of KeptCells, and their sum. The sum exposes a changed state.
 int NumSaved(const MapProgram& program);
 
-/// The names of the bits in `mask`, with `between` them.
+/// Returns the names of the bits in `mask`, with `between` between them.
 std::string StatusNames(int mask,
                         const std::string& before,
                         const std::string& between);
 
-/// What whoever opens an exported file must know, for a comment: what it
-/// computes, the sign, units, inputs in order with their trained range, the
-/// state. `single` as it was written.
+/// A comment for readers of an exported file: its purpose, the sign, the units,
+/// the inputs in order with their trained ranges, and the state. `single`
+/// precision is stated if it was used.
 Lines AboutMap(const MapProgram& program,
                const std::string& name,
                Precision precision);
@@ -142,11 +144,11 @@ Lines AboutMap(const MapProgram& program,
 /// The series of MeanDecay in `u`, nested, for languages without expm1.
 std::string MeanDecaySeries(const std::string& u);
 
-/// `items` with commas between them, in lines of at most 78 characters, each
-/// after `indent`.
+/// Joins `items` with commas, in lines of at most 78 characters, each after
+/// `indent`.
 Lines Wrapped(const std::vector<std::string>& items, const std::string& indent);
 
-/// Each line after `indent`, ended.
+/// Joins the lines, each after `indent` and ended by a newline.
 std::string Joined(const Lines& lines, const std::string& indent);
 
 }  // namespace errmap::models

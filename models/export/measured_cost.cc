@@ -41,7 +41,7 @@ class TemporaryFolder {
   std::string path_;
 };
 
-// stdout of a line of the shell run in `folder`; nothing where it fails.
+// Returns the stdout of a shell line run in `folder`; nothing if it fails.
 std::optional<std::string> OutputOf(const TemporaryFolder& folder,
                                     const std::string& line) {
   std::string quoted;

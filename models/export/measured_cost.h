@@ -8,16 +8,16 @@
 
 namespace errmap::models {
 
-/// What this machine's compiler and processor make of an exported map.
+/// Size and time of an exported map with this machine's compiler and processor.
 struct MeasuredCost {
   std::int64_t code_bytes = 0;
   std::int64_t constant_bytes = 0;
-  // In CPU time, which stands still while the system runs something else.
-  /// One step, of many made one after the other.
+  // CPU time, which excludes other programs.
+  /// Time of one step within many consecutive steps.
   double median_ns = 0.0;
-  /// Of a hundred thousand steps made alone, less what reading the clock takes:
-  /// what 99.9 % of them stay below, and the slowest. That one is mostly this
-  /// system's interrupts, which are counted as the program's.
+  /// Quantile 99.9 % and maximum of 100 000 steps timed one by one, less the
+  /// time to read the clock. The maximum is mostly due to this system's
+  /// interrupts, which count as the program's time.
   double high_ns = 0.0;
   double worst_ns = 0.0;
 };
@@ -25,8 +25,8 @@ struct MeasuredCost {
 /// The compiler and its flags, for people and JSON.
 inline constexpr const char* kCostCompiler = "cc -std=c99 -O2";
 
-/// Compiles the map's C and runs it. Nothing, with the reason in `why`, where
-/// there is no compiler.
+/// Compiles the map's C and runs it. Returns nothing, with the reason in `why`,
+/// if it cannot be compiled or run here.
 std::optional<MeasuredCost> MeasureCost(const MapExport& map, std::string* why);
 
 }  // namespace errmap::models

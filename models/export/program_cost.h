@@ -6,7 +6,7 @@
 
 namespace errmap::models {
 
-/// What one step of a program does, counted: the same on any machine.
+/// Operations of one step of a program: counted, so the same on any machine.
 struct ProgramCost {
   std::int64_t additions = 0;  // and subtractions
   std::int64_t multiplications = 0;
@@ -18,9 +18,9 @@ struct ProgramCost {
   std::int64_t state_bytes = 0;  // doubles kept from step to step
 };
 
-/// The cost of a step: of the arithmetic (`advance`, `evaluate`), or where
-/// there is a controller of its routines, checks and limits included; what
-/// depends on the readings is counted as if it always happened.
+/// Returns the cost of a step: the arithmetic (`advance`, `evaluate`), or with
+/// a controller its routines, including checks and limits. Whatever depends on
+/// the readings is counted as if it always ran.
 ProgramCost CostOf(const MapProgram& program);
 
 }  // namespace errmap::models

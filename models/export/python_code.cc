@@ -155,12 +155,9 @@ std::string PythonWriter::Tables() const {
   std::string text;
   for (const Cell cell : kTables) {
     if (!program_.Uses(cell)) continue;
-    std::vector<double> values;
-    for (const ProgramReading& reading : program_.readings) {
-      values.push_back(TableValue(reading, cell));
-    }
-    text += fmt::format(
-        "{} = {}\n", language_.CellName(cell), ListText(values, ""));
+    text += fmt::format("{} = {}\n",
+                        language_.CellName(cell),
+                        ListText(TableValues(program_, cell), ""));
   }
   for (std::size_t form = 0; form < program_.forms.size(); ++form) {
     const Eigen::MatrixXd& states = program_.forms[form].states;

@@ -8,9 +8,9 @@
 
 namespace errmap::models {
 
-/// NAME.py: plain Python 3, nothing but math. Functions check, and error, or
-/// init, step and zero of a map with a memory, as in C. Run as a program it
-/// checks `rows`, each within `tolerance` (target's unit).
+/// NAME.py: plain Python 3 that imports only math. It has functions check and
+/// error, or for a map with a memory init, step and zero, as in C. Run as a
+/// program, it checks `rows`, each within `tolerance` (target's unit).
 std::vector<ExportedFile> PythonCode(const MapProgram& program,
                                      const std::string& name,
                                      const std::vector<SelfTestRow>& rows,

@@ -153,8 +153,8 @@ class StructuredTextLanguage final : public Language {
         "{0}{1}{0}({2} := {3})", quote, function, named, argument);
   }
 
-  // A slow filter would stand still in single precision: what a step is less
-  // than the last digit of its state is kept (Kahan 1965).
+  // A slow filter would stop in single precision: the part of a step below the
+  // last digit of its state is kept (Kahan 1965).
   Lines Grow(Operand to, const std::string& by, bool narrows) const override {
     if (!is_single() || to.space != Space::kState) {
       return Language::Grow(to, by, narrows);
@@ -299,11 +299,7 @@ void AddTables(const MapProgram& program,
   };
   for (const Cell cell : kTables) {
     if (!program.Uses(cell)) continue;
-    std::vector<double> values;
-    for (const ProgramReading& reading : program.readings) {
-      values.push_back(TableValue(reading, cell));
-    }
-    add(language.VariableOf(cell), std::move(values));
+    add(language.VariableOf(cell), TableValues(program, cell));
   }
   for (std::size_t form = 0; form < program.forms.size(); ++form) {
     const Eigen::MatrixXd& states = program.forms[form].states;

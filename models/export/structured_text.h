@@ -7,10 +7,10 @@
 
 namespace errmap::models {
 
-/// A FUNCTION_BLOCK NAME_map with an input per reading. Assignments, IF, FOR,
-/// EXP and ABS (SIN and COS where the map reads angles), and no constant array,
-/// which controllers differ in. In single precision all of it is REAL, for
-/// controllers without LREAL.
+/// A FUNCTION_BLOCK NAME_map with one input for each reading. It uses
+/// assignments, IF, FOR, EXP and ABS (SIN and COS if the map reads angles). It
+/// has no constant arrays, since controllers differ in them. In single
+/// precision everything is REAL, for controllers without LREAL.
 ExportedFile StructuredText(const MapProgram& program,
                             const std::string& name,
                             Precision precision,

@@ -7,7 +7,7 @@
 
 namespace errmap::models {
 
-/// The forms in which controllers take structured text.
+/// The dialects of structured text that controllers accept.
 enum class TextForm {
   kStandard,  // IEC 61131-3, as matiec, CODESYS and TwinCAT read it
   kScl,       // Siemens: a source file of TIA Portal
@@ -20,8 +20,8 @@ struct TextVariable {
 
   std::string name;
   Type type = Type::kReal;
-  int size = 0;                      // of an array from 0; 0: a single one
-  std::vector<double> initial = {};  // none: the language's own
+  int size = 0;                      // of an array from 0; 0: a scalar
+  std::vector<double> initial = {};  // empty: the language's default
   std::string comment = {};
 };
 
@@ -32,7 +32,7 @@ struct TextSection {
   std::vector<TextVariable> variables;
 };
 
-/// Of one real number, as an expression or as statements.
+/// A function of one real number; its body is an expression or statements.
 struct TextFunction {
   std::string name;
   std::string argument;
@@ -40,8 +40,8 @@ struct TextFunction {
   std::string body;
 };
 
-/// A function block and what it calls, before it has a form. Bodies are of the
-/// form already: SCL marks what is local.
+/// A function block and the functions it calls, before formatting. The bodies
+/// are already in the target form: SCL marks local names.
 struct TextBlock {
   std::string name;
   Precision precision = Precision::kDouble;
@@ -51,8 +51,8 @@ struct TextBlock {
   std::string body;
 };
 
-/// The file of a block: NAME.st, NAME.scl or NAME.xml, where `name` is the
-/// map's.
+/// Returns the file of a block: NAME.st, NAME.scl or NAME.xml, where NAME is
+/// the map's `name`.
 ExportedFile TextFile(const TextBlock& block,
                       const std::string& name,
                       TextForm form);

@@ -1,7 +1,6 @@
 #include "models/export/thermal_state.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
@@ -16,7 +15,7 @@ namespace {
 
 using Eigen::Index;
 
-// Of the readings beside the position, where there is one.
+// The readings other than the position, if there is one.
 std::vector<std::string> NamesBeside(const MapProgram& program, int position) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < program.readings.size(); ++i) {

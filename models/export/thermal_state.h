@@ -11,28 +11,28 @@
 
 namespace errmap::models {
 
-/// "t1_degC=21,t2_degC=22". Throws std::invalid_argument naming what is no
-/// NAME=VALUE.
+/// Parses "t1_degC=21,t2_degC=22". Throws std::invalid_argument naming a part
+/// that is not NAME=VALUE.
 std::vector<HeldReading> ParseHeldReadings(std::string_view text);
 
-/// Throws std::invalid_argument unless every one of `held` is read by some of
-/// the maps, beside their position.
+/// Throws std::invalid_argument unless each of `held` is read by at least one
+/// of the maps, other than as its position.
 void RequireHeldReadings(const std::vector<HeldReading>& held,
                          const std::vector<const MapProgram*>& programs);
 
-/// The map in the state that the session of a log leads to at `row` (from 0,
-/// below log.num_rows); `log` has the map's names and units.
+/// Returns the map in the state after `row` of a log's session (from 0, below
+/// log.num_rows). `log` has the map's names and units.
 ErrorCurve CurveAfterLog(const FittedModel& fitted,
                          const MapProgram& program,
                          const data::CsvTable& log,
                          int row);
 
-/// "at t1_degC = 21, t2_degC = 22": all but the position.
+/// Returns "at t1_degC = 21, t2_degC = 22": all readings but the position.
 std::string StateText(const ErrorCurve& curve);
 
-/// The grid of "33x9" across the reading `over`, which may be "" where there is
-/// one beside the position, or none. Throws std::invalid_argument where the
-/// text is no grid, or the reading is none.
+/// Parses a grid such as "33x9" across the reading `over`. It may be "" if at
+/// most one reading exists besides the position. Throws std::invalid_argument
+/// if the text is not a grid, or `over` is not a reading.
 GridOptions ParseGrid(const std::string& grid,
                       const std::string& over,
                       const ErrorCurve& curve);

@@ -7,8 +7,8 @@
 namespace errmap::models {
 namespace {
 
-// Numbers are kept as they are spelt: a digit may differ where the double that
-// is read does not.
+// Numbers are kept as written: a digit may differ although the double read is
+// the same.
 std::string WithoutBlanks(std::string_view json) {
   std::string kept;
   kept.reserve(json.size());

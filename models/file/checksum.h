@@ -5,16 +5,16 @@
 
 namespace errmap::models {
 
-/// The last key of a model file.
+/// Last key of a model file.
 inline constexpr const char* kChecksumKey = "checksum";
 
-/// `json`, the text of an object with at least one member, with its checksum as
-/// one member more: the SHA-256 of all that stands before it, but for blanks
-/// between tokens, so that a copy may be indented or have other ends of lines.
+/// Returns `json`, an object with at least one member, with its checksum as a
+/// further member: the SHA-256 of all text before it, without blanks between
+/// tokens. A copy may thus be indented or have other line ends.
 std::string WithChecksum(std::string json);
 
-/// Whether `json` ends with `checksum` as WithChecksum wrote it, and is
-/// otherwise what it was then.
+/// Returns true if `json` ends with `checksum` as written by WithChecksum, and
+/// the text before is unchanged.
 bool HasChecksum(std::string_view json, std::string_view checksum);
 
 }  // namespace errmap::models

@@ -1,9 +1,9 @@
 #pragma once
 
-// What a map consists of as JSON of model files and back, member by member
-// (members.h); not for public headers. A column stands as its name and
-// unit beside the other members. What a file has otherwise is written and read
-// by those who call this.
+// Conversion of a map's parts to and from the JSON of model files, member by
+// member (members.h); not for public headers. A column is stored as its name
+// and unit beside the other members. Callers read and write the rest of the
+// file.
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@
 
 namespace errmap::models {
 
-/// The key of a form in model files; what has none cannot stand in them.
+/// Returns the key of a form in model files; forms without one cannot be saved.
 constexpr const char* FileKeyOf(const PolynomialForm* /*form*/) {
   return "polynomial";
 }
@@ -31,7 +31,7 @@ constexpr const char* FileKeyOf(const BlendForm* /*form*/) { return "blend"; }
 
 data::ColumnInfo ReadColumn(const ModelJsonNode& node);
 
-/// Calls visit(key, member) for what stands in a file by its own key.
+/// Calls visit(key, member) for each member stored under its own key.
 template <typename T, typename Visit>
 void VisitKeys(T& record, const Visit& visit) {
   VisitMembers(record, [&](std::string_view key, auto& member) {
@@ -42,8 +42,8 @@ void VisitKeys(T& record, const Visit& visit) {
   });
 }
 
-/// What is not finite, which JSON has no word for, becomes null. Numbers go
-/// through `shown` before.
+/// Writes non-finite numbers as null, since JSON has none. Passes numbers
+/// through `shown` first.
 template <typename T>
 ModelJson MembersToJson(const T& value, double (*shown)(double) = nullptr) {
   if constexpr (Record<T>) {
@@ -85,7 +85,7 @@ ModelJson MembersToJson(const T& value, double (*shown)(double) = nullptr) {
   }
 }
 
-/// The enumerator that ToString names so.
+/// Returns the enumerator with this name in ToString.
 template <typename T>
 T ReadWord(const ModelJsonNode& node) {
   const std::string word = node.Text();
@@ -93,17 +93,17 @@ T ReadWord(const ModelJsonNode& node) {
   for (int i = 0;; ++i) {
     const auto known = static_cast<T>(i);
     const std::string name(ToString(known));
-    // What is not known is the first, and has no word.
+    // Unknown is the first enumerator, and has no name.
     if (name.empty() && i == 0) continue;
     if (name == word) return known;
-    // Of what is no enumerator more ToString says "", or the last word again.
+    // For values past the last, ToString returns "" or the last name again.
     if (name.empty() || std::ranges::count(words, name) > 0) break;
     words.push_back(name);
   }
   node.RefuseWord(words, word);
 }
 
-/// Every member but those of the keys `except`, which the caller reads.
+/// Reads every member except those with keys in `except`, left to the caller.
 template <typename T>
 void ReadMembers(const ModelJsonNode& node,
                  T* value,

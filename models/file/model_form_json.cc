@@ -83,7 +83,7 @@ void ReadFormAt(const Node& node, NetForm* form) {
 
 void ReadFormAt(const Node& node, BlendForm* form);
 
-// Reads the first of the forms whose key is there and says where that is.
+// Reads the first form whose key is there, and returns its place.
 template <typename... Forms>
 Node ReadOneOf(const Node& around, std::variant<Forms...>* form) {
   std::optional<Node> found;

@@ -10,8 +10,8 @@
 
 #include "models/error_model.h"
 
-// What the writer and the reader of model files share; no public header
-// includes it, nor is it installed.
+// Shared by the writer and the reader of model files. Not installed, and not
+// included by public headers.
 
 namespace errmap::models {
 
@@ -19,10 +19,10 @@ using ModelJson = nlohmann::ordered_json;
 
 inline constexpr const char* kModelSchema = "errmap-model-1";
 
-/// What an interval's units are where they are that.
+/// Value of an interval's units that are whole sessions.
 inline constexpr const char* kWholeSessions = "sessions";
 
-/// The key of an interval's half-width: "90", "95".
+/// Returns the key of an interval's half-width: "90", "95".
 inline std::string CoverageKey(double coverage) {
   constexpr double kPercent = 100.0;
   return std::to_string(std::lround(coverage * kPercent));
@@ -32,9 +32,9 @@ ModelJson NumbersToJson(const Eigen::VectorXd& vector);
 /// By rows.
 ModelJson NumbersToJson(const Eigen::MatrixXd& matrix);
 
-/// A value of a model file together with its place, for messages. Refers to
-/// the document and the file's name, which must outlive it. Every reader
-/// throws data::InputError naming file and key where the value is another.
+/// A value of a model file and its place, for messages. Refers to the document
+/// and the file's name, which must outlive it. Every reader throws
+/// data::InputError naming file and key if the value is of another kind.
 class ModelJsonNode {
  public:
   ModelJsonNode(const ModelJson& value,
@@ -42,25 +42,25 @@ class ModelJsonNode {
                 const std::string& source);
 
   [[noreturn]] void Refuse(const std::string& why) const;
-  /// "must be 'a', 'b' or 'c', found 'd'".
+  /// Throws "must be 'a', 'b' or 'c', found 'd'".
   [[noreturn]] void RefuseWord(const std::vector<std::string>& words,
                                const std::string& found) const;
-  /// "has no key 'a', 'b' or 'c'".
+  /// Throws "has no key 'a', 'b' or 'c'".
   [[noreturn]] void RefuseWithout(const std::vector<std::string>& keys) const;
 
   ModelJsonNode At(const std::string& key) const;
-  /// Nothing where the key is not there, as in older files, or null.
+  /// Returns nothing if the key is missing, as in older files, or null.
   std::optional<ModelJsonNode> Find(const std::string& key) const;
   std::vector<ModelJsonNode> Elements() const;
 
   std::string Text() const;
-  /// Finite.
+  /// Reads a finite number.
   double Number() const;
   bool Truth() const;
-  /// At least 0.
+  /// Reads a number of at least 0.
   Eigen::Index Count() const;
   Eigen::VectorXd Vector() const;
-  /// Rows of one length.
+  /// Reads rows of equal length.
   Eigen::MatrixXd Matrix() const;
 
  private:
@@ -69,15 +69,15 @@ class ModelJsonNode {
   const std::string& source_;
 };
 
-/// Adds the model's form to its file: one key, named by the kind of form, of
-/// those that ReadForm knows. Throws data::InputError on a model without a
+/// Adds the model's form to its file under one key, named by the kind of
+/// form, that ReadForm knows. Throws data::InputError if the model has no
 /// formula.
 void WriteForm(const ErrorModel& model,
                const std::string& equation,
                ModelJson* document);
 
-/// The model itself and its equation, from the whole document and the kind that
-/// was read already; `num_inputs` of the form, memory's derived ones included.
+/// Reads the model and its equation from the whole document, given the kind
+/// already read; `num_inputs` is that of the form, including derived inputs.
 void ReadForm(const ModelJsonNode& document,
               Eigen::Index num_inputs,
               FittedModel* fitted);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "data/formats/nesting.h"
@@ -60,7 +61,7 @@ double ReadPositive(const Node& node) {
   return value;
 }
 
-// Of readings that stand in the order of the history's columns.
+// Reads changes in the order of the history's columns.
 std::vector<RowChange> ReadRowChanges(
     const Node& node,
     const History& history,
@@ -83,7 +84,7 @@ std::vector<RowChange> ReadRowChanges(
   return changes;
 }
 
-// How sessions began, which older files do not tell.
+// Reads the starts of sessions, which older files lack.
 void ReadStarts(const Node& node, History* history) {
   const auto read = [&](const char* key, double* value) {
     if (const auto number = node.Find(key)) *value = number->Number();
@@ -169,6 +170,15 @@ void RequirePositive(const Node& node,
   if (!(values.array() > 0.0).all()) node.Refuse("must be above 0");
 }
 
+// But for what rounding to the six digits of a file may take from its least
+// eigenvalue, of as many columns.
+bool IsPositiveDefinite(Eigen::MatrixXd matrix) {
+  constexpr double kHalfDigit = 5e-6;
+  const auto size = static_cast<double>(matrix.rows());
+  matrix.diagonal().array() += size * kHalfDigit * matrix.cwiseAbs().maxCoeff();
+  return Eigen::LLT<Eigen::MatrixXd>(matrix).info() == Eigen::Success;
+}
+
 std::vector<Index> ReadColumnsOf(const Node& node,
                                  const std::vector<TrainedInput>& inputs) {
   std::vector<Index> columns;
@@ -215,6 +225,20 @@ Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
       RequireSize(*repeats, trained.repeats, size);
     }
   }
+  if (trained.sessions) {
+    RequirePositive(
+        node.At("sessions").At("scatter"), trained.sessions->scatter, size);
+    const Node& precision = node.At("sessions").At("precision");
+    if (trained.sessions->precision.rows() != size ||
+        trained.sessions->precision.cols() != size ||
+        !(trained.sessions->precision.diagonal().minCoeff() > 0.0)) {
+      precision.Refuse(fmt::format(
+          "needs {0} rows of {0} numbers, positive on the diagonal", size));
+    }
+    if (!IsPositiveDefinite(trained.sessions->precision)) {
+      precision.Refuse("must be positive definite");
+    }
+  }
   RequirePositive(node.At("rest"), trained.rest, size);
   RequirePositive(node.At("relation_limit"), trained.relation_limit, size);
   ReadPositive(node.At("distance_limit"));
@@ -246,6 +270,9 @@ HeldOutErrors ReadHeldOut(const Node& node) {
     const Index rows = unit.residuals.size();
     if (rows == 0) element.Refuse("has no residuals");
     RequireSize(element.At("elapsed"), unit.elapsed, rows);
+    if (!std::ranges::is_sorted(unit.elapsed)) {
+      element.At("elapsed").Refuse("must not fall");
+    }
     RequireSize(element.At("position"),
                 unit.position,
                 errors.position.empty() ? 0 : rows);
@@ -261,8 +288,8 @@ HeldOutErrors ReadHeldOut(const Node& node) {
   return errors;
 }
 
-// Of rows inside or outside of what was trained; older files tell no
-// difference.
+// Half-width for rows inside or outside the trained range; older files do not
+// distinguish them.
 double ReadHalfWidth(const Node& interval,
                      const char* place,
                      const std::string& key,
@@ -307,7 +334,7 @@ PredictionInterval ReadInterval(const Node& node) {
   return interval;
 }
 
-// Of two values of one key a reader would take either.
+// With two values of one key, a reader would take either.
 Json ParseUniqueKeys(const std::string& text) {
   std::vector<std::set<std::string>> keys;  // of the objects around
   std::string repeated;

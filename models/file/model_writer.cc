@@ -60,7 +60,7 @@ Json ToJson(const PredictionInterval& interval) {
   return json;
 }
 
-// What no prediction depends on is written with so many digits.
+// Digits of numbers on which no prediction depends.
 constexpr int kDigits = 6;
 
 double Rounded(double value) {

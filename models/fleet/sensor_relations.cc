@@ -6,6 +6,7 @@
 #include "data/input_error.h"
 #include "fitting/least_squares/decompositions.h"
 #include "models/study/record/record_json.h"
+#include "stats/order_statistic.h"
 
 namespace errmap::models {
 
@@ -166,8 +167,7 @@ std::optional<SensorRelations> LearnRelations(const data::Dataset& training) {
     found.columns.push_back(training.inputs()[std::size_t(sensor)]);
   }
   found.sessions = used;
-  std::ranges::nth_element(sizes, sizes.begin() + used / 2);
-  found.rows = sizes[static_cast<std::size_t>(used / 2)];
+  found.rows = stats::UpperMedian(std::move(sizes));
   found.within = within / static_cast<double>(used);
   found.distance = distances.colwise().mean();
   found.spread = (shifts.array().square() / found.Widening(distances))

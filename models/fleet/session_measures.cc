@@ -4,7 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "models/promise/applicability.h"
+#include "models/sensors/applicability.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
@@ -120,7 +121,7 @@ std::vector<MeasuredSession> MeasureSessions(const FittedModel& fitted,
     session.offset = of_it.mean();
     session.mean_square = of_it.squaredNorm() / n;
     session.outside_share = static_cast<double>(outside) / n;
-    session.sensor_shift = session.p_sensor = ExpectedErrors::kNaN;
+    session.sensor_shift = session.p_sensor = stats::kNaN;
     if (is_watched) {
       const HeldOutErrors& errors = *fitted.held_out;
       const VectorXd positions =

@@ -7,7 +7,7 @@
 
 #include "models/error_model.h"
 #include "models/fleet/watch.h"
-#include "models/promise/map_rows.h"
+#include "models/session/map_rows.h"
 
 namespace errmap::models {
 

@@ -1,9 +1,12 @@
 #include "models/fleet/watch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "data/text.h"
 #include "stats/distributions.h"
+#include "stats/error_metrics.h"
 
 namespace errmap::models {
 namespace {
@@ -17,6 +20,17 @@ constexpr double kPriorSessions = 1.0;
 // days of simulated machines 1 instead of 3 has a corrected p below 0.0025.
 constexpr double kSensorWidening = 1.25;
 
+// Length of the travel over all units, which have positions.
+double TravelOf(const HeldOutErrors& errors) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const HeldOutErrors::Unit& unit : errors.units) {
+    low = std::min(low, unit.position.minCoeff());
+    high = std::max(high, unit.position.maxCoeff());
+  }
+  return high - low;
+}
+
 // For each of m rows the nearest of a unit's, in time as shares of the longest
 // unit and in place as shares of all places.
 class Neighbours {
@@ -25,19 +39,17 @@ class Neighbours {
              const VectorXd& elapsed,
              const VectorXd& position)
       : elapsed_(elapsed), position_(position) {
-    double longest = 0.0;
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    for (const HeldOutErrors::Unit& unit : errors.units) {
-      if (elapsed.size() > 0) {
+    if (elapsed.size() > 0) {
+      double longest = 0.0;
+      for (const HeldOutErrors::Unit& unit : errors.units) {
         longest = std::max(longest, unit.elapsed.maxCoeff());
       }
-      if (position.size() == 0) continue;
-      low = std::min(low, unit.position.minCoeff());
-      high = std::max(high, unit.position.maxCoeff());
+      if (longest > 0.0) per_time_ = 1.0 / longest;
     }
-    if (longest > 0.0) per_time_ = 1.0 / longest;
-    if (high > low) per_place_ = 1.0 / (high - low);
+    if (position.size() > 0) {
+      const double travel = TravelOf(errors);
+      if (travel > 0.0) per_place_ = 1.0 / travel;
+    }
   }
 
   Eigen::ArrayXd Residuals(const HeldOutErrors::Unit& unit,
@@ -105,16 +117,10 @@ MapJudgement JudgeNewest(const HeldOutErrors& held_out,
 bool AreTooFew(const HeldOutErrors& errors,
                Index rows,
                const VectorXd& position) {
+  constexpr double kLeastTravel = 0.5;
   if (rows < kFewestRows) return true;
-  if (position.size() == 0) return false;
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (const HeldOutErrors::Unit& unit : errors.units) {
-    low = std::min(low, unit.position.minCoeff());
-    high = std::max(high, unit.position.maxCoeff());
-  }
-  return position.maxCoeff() - position.minCoeff() <
-         kLeastTravel * (high - low);
+  return position.size() > 0 && position.maxCoeff() - position.minCoeff() <
+                                    kLeastTravel * TravelOf(errors);
 }
 
 ExpectedErrors ExpectedOf(const HeldOutErrors& errors,
@@ -158,7 +164,7 @@ void JudgeSensors(const SensorRelations& relations,
                   WatchedSession* session) {
   const VectorXd squares = relations.spread.cwiseAbs2();
   constexpr double kLeast = 1e-12;
-  const double common = std::exp(squares.cwiseMax(kLeast).array().log().mean());
+  const double common = stats::GeometricMean(squares.cwiseMax(kLeast));
   const auto n = static_cast<double>(relations.sessions);
   const Eigen::ArrayXd widening =
       relations.Widening(shifts.distance.transpose()).transpose();
@@ -222,30 +228,34 @@ bool IsWorse(const MapJudgement& judgement, double indifference) {
 }
 
 bool IsDoubtful(const MapJudgement& judgement, double indifference) {
+  constexpr double kFarAbove = 3.0;
   return !IsWorse(judgement, indifference) &&
          IsAbove(judgement, indifference) &&
          (judgement.p < kDoubtful ||
           judgement.found > kFarAbove * judgement.promised);
 }
 
+namespace {
+
+constexpr std::array<std::string_view, 7> kStatusNames = {"as promised",
+                                                          "worse",
+                                                          "sensor changed",
+                                                          "outside",
+                                                          "too few rows",
+                                                          "not judged",
+                                                          "doubtful"};
+
+}  // namespace
+
 std::string_view ToString(WatchStatus status) {
-  switch (status) {
-    case WatchStatus::kAsPromised:
-      return "as promised";
-    case WatchStatus::kWorse:
-      return "worse";
-    case WatchStatus::kSensorChanged:
-      return "sensor changed";
-    case WatchStatus::kOutside:
-      return "outside";
-    case WatchStatus::kTooFewRows:
-      return "too few rows";
-    case WatchStatus::kNotJudged:
-      return "not judged";
-    case WatchStatus::kDoubtful:
-      return "doubtful";
-  }
-  return "";
+  return data::NameOf(kStatusNames, status);
+}
+
+WatchStatus WatchStatusNamed(std::string_view name) {
+  const auto found = std::ranges::find(kStatusNames, name);
+  return found == kStatusNames.end()
+             ? WatchStatus::kNotJudged
+             : WatchStatus(found - kStatusNames.begin());
 }
 
 }  // namespace errmap::models

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +9,7 @@
 
 #include "models/fleet/sensor_relations.h"
 #include "models/map_experience.h"
+#include "stats/not_a_number.h"
 
 // Whether a map still does what it promised, and its sensors still go together
 // as they did: statistics of sessions, each held against what the sessions that
@@ -20,11 +20,10 @@ namespace errmap::models {
 
 /// What the held-out units show of rows at some times and places.
 struct ExpectedErrors {
-  static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  double offset = kNaN;      // RMS of the units' means, target's unit
-  double square = kNaN;      // mean of the units' mean squares
-  double log_square = kNaN;  // mean of their logarithms
-  double log_spread = kNaN;  // sd of these, shrunk to what is usual
+  double offset = stats::kNaN;      // RMS of the units' means, target's unit
+  double square = stats::kNaN;      // mean of the units' mean squares
+  double log_square = stats::kNaN;  // mean of their logarithms
+  double log_spread = stats::kNaN;  // sd of these, shrunk to what is usual
 
   bool known() const { return log_square == log_square; }
 };
@@ -39,10 +38,9 @@ ExpectedErrors ExpectedOf(const HeldOutErrors& errors,
 
 /// By two days nobody knows how days differ.
 inline constexpr Eigen::Index kFewestSessions = 3;
-/// Of fewer rows, or of less than this share of the travel, errmap check tells
+/// Of fewer rows, or of less than half of the travel, errmap check tells
 /// more: the mean of half a sweep is that of the map's own shape.
 inline constexpr Eigen::Index kFewestRows = 5;
-inline constexpr double kLeastTravel = 0.5;
 /// Whether these rows (`position` (m), or (0) where there are none) are so few.
 bool AreTooFew(const HeldOutErrors& errors,
                Eigen::Index rows,
@@ -99,10 +97,9 @@ inline constexpr double kLeastWorse = 0.2;
 /// `indifference` in the unit of the judgement.
 bool IsWorse(const MapJudgement& judgement, double indifference);
 /// Of errors above the promise by as much one more session is to tell, where p
-/// is below, or where they are so many times the promise: few sessions do not
+/// is below, or where they are three times the promise: few sessions do not
 /// show how seldom that is.
 inline constexpr double kDoubtful = 0.02;
-inline constexpr double kFarAbove = 3.0;
 bool IsDoubtful(const MapJudgement& judgement, double indifference);
 
 /// A session of which a larger share is outside of the trained states is so.
@@ -120,5 +117,7 @@ enum class WatchStatus {
 /// "as promised", "worse", "sensor changed", "outside", "too few rows", "not
 /// judged", "doubtful".
 std::string_view ToString(WatchStatus status);
+/// Its inverse; "not judged" of another text.
+WatchStatus WatchStatusNamed(std::string_view name);
 
 }  // namespace errmap::models

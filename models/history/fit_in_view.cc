@@ -1,7 +1,6 @@
 #include "models/history/fit_in_view.h"
 
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +9,7 @@
 
 #include "models/history/with_history.h"
 #include "models/inner_folds.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
@@ -18,8 +18,8 @@ using data::Dataset;
 using Eigen::Index;
 using Eigen::VectorXd;
 
-// Root of the TypicalError of `fit` on rows of one view; NaN where a fold
-// cannot be fitted.
+// Root of the TypicalError of `fit` on rows of one view; NaN if a fold cannot
+// be fitted.
 double HeldOutError(const Dataset& rows,
                     const FitContext& context,
                     const FitRows& fit) {
@@ -30,7 +30,7 @@ double HeldOutError(const Dataset& rows,
   VectorXd sizes(folds.count() - first);
   for (Index fold = first; fold < folds.count(); ++fold) {
     if (context.stop != nullptr && context.stop->load()) {
-      return std::numeric_limits<double>::quiet_NaN();
+      return stats::kNaN;
     }
     const fitting::FoldCodes::Rows split = folds.Split(fold);
     const Dataset test = rows.SelectRows(split.test);
@@ -40,7 +40,7 @@ double HeldOutError(const Dataset& rows,
           (test.target_values() - fitted.Predict(test)).squaredNorm() /
           static_cast<double>(test.num_rows());
     } catch (const std::invalid_argument&) {
-      return std::numeric_limits<double>::quiet_NaN();
+      return stats::kNaN;
     }
     sizes[fold - first] = static_cast<double>(test.num_rows());
   }
@@ -52,14 +52,15 @@ double HeldOutError(const Dataset& rows,
 }  // namespace
 
 FittedModel FitInView(const Dataset& training,
-                      const ViewOptions& options,
+                      const std::optional<ViewOptions>& options,
                       const FitContext& context,
                       const FitRows& fit) {
-  const auto shared = SharedViews(training, options, context);
+  if (!options) return fit(training, context);
+  const auto shared = SharedViews(training, *options, context);
   const std::vector<ViewedRows>& views = *shared;
   const ViewedRows* chosen = &views.front();
   std::string tried;
-  double least = std::numeric_limits<double>::quiet_NaN();
+  double least = stats::kNaN;
   if (views.size() > 1) {
     FitContext inner = context;
     inner.explain = false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
@@ -8,16 +9,17 @@
 
 namespace errmap::models {
 
-/// Fits rows that are in some view already.
+/// Fits rows that are already in some view.
 using FitRows =
     std::function<FittedModel(const data::Dataset&, const FitContext&)>;
 
-/// `fit` of `training` in the view of `options`: the one named, else that with
-/// the least TypicalError when `fit` is repeated on inner hold-outs, the
-/// simplest of equals. The map reads the columns of `training`; it is guarded
-/// where `fit` guards. Throws as MakeViews and `fit` do.
+/// Applies `fit` to `training` as it is without `options`, else in the view
+/// named in them. If none is named, it takes the view with the least
+/// TypicalError of `fit` on inner hold-outs, of equals the simplest. The map
+/// reads the columns of `training`; it is guarded if `fit` guards. Throws as
+/// MakeViews and `fit` do.
 FittedModel FitInView(const data::Dataset& training,
-                      const ViewOptions& options,
+                      const std::optional<ViewOptions>& options,
                       const FitContext& context,
                       const FitRows& fit);
 

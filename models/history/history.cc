@@ -16,6 +16,7 @@
 #include "models/history/history_state.h"
 #include "models/history/lag.h"
 #include "models/history/session_start.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
@@ -23,7 +24,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-// What the form reads in every row of a table, and its columns.
+// Inputs of the form in every row of a table, and their columns.
 struct Derived {
   std::vector<data::ColumnInfo> columns;
   MatrixXd values;
@@ -66,8 +67,7 @@ std::vector<std::vector<Index>> RowsOfSessions(const data::SessionLog& log) {
 std::vector<double> StartsOf(const data::SessionLog& log) {
   std::vector<double> starts;
   for (const std::vector<Index>& rows : RowsOfSessions(log)) {
-    starts.push_back(rows.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                  : log.time[rows.front()]);
+    starts.push_back(rows.empty() ? stats::kNaN : log.time[rows.front()]);
   }
   return starts;
 }
@@ -86,7 +86,7 @@ Derived DeriveLog(const data::SessionLog& log,
                   const std::vector<Index>& log_rows,
                   const std::vector<Index>& columns,
                   HistoryState state) {
-  // Where in the result each row of the log goes; most views are large.
+  // Index in the result of each row of the log; most views are large.
   std::vector<Index> place(static_cast<std::size_t>(log.time.size()), -1);
   std::vector<std::pair<Index, Index>> again;  // rows that stand there twice
   for (std::size_t i = 0; i < log_rows.size(); ++i) {
@@ -156,7 +156,7 @@ void RequireLog(const data::Dataset& dataset, const History& history) {
   }
 }
 
-// Of every row, by the log where there is one.
+// Derives every row, through the log if there is one.
 Derived Derive(const data::Dataset& dataset, const History& history) {
   RequireLog(dataset, history);
   const std::vector<Index> columns = FindColumns(dataset, history.columns());
@@ -169,7 +169,7 @@ Derived Derive(const data::Dataset& dataset, const History& history) {
              : DeriveRows(dataset, columns, std::move(state));
 }
 
-// How far readings lie apart, as far as filters mind; 0 where they do not.
+// Distance between readings if it exceeds what filters bridge; else 0.
 class StepsApart {
  public:
   StepsApart(const data::SessionLog& log, const History& history)
@@ -366,8 +366,7 @@ DerivedInput CosineOf(const data::ColumnInfo& angle) {
 }
 
 double LatestStart(const data::Dataset& training) {
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  if (training.log() == nullptr) return kUnknown;
+  if (training.log() == nullptr) return stats::kNaN;
   const data::SessionLog& log = *training.log();
   const std::vector<double> starts = StartsOf(log);
   double earliest = std::numeric_limits<double>::infinity();
@@ -381,7 +380,7 @@ double LatestStart(const data::Dataset& training) {
   constexpr double kLateSteps = 5.0;
   return latest - earliest <= data::kLeapSteps * step
              ? latest + kLateSteps * step
-             : kUnknown;
+             : stats::kNaN;
 }
 
 std::vector<RowChange> RowChanges(const data::Dataset& training,
@@ -420,8 +419,7 @@ std::vector<RowChange> RowChanges(const data::Dataset& training,
 }
 
 double LongestStep(const data::Dataset& training) {
-  if (training.log() == nullptr)
-    return std::numeric_limits<double>::quiet_NaN();
+  if (training.log() == nullptr) return stats::kNaN;
   const data::SessionLog& log = *training.log();
   const std::vector<std::vector<Index>> sessions = RowsOfSessions(log);
   double longest = 0.0;
@@ -484,7 +482,7 @@ data::Dataset DeriveDataset(const data::Dataset& dataset,
                              .align = dataset.align()};
   if (dataset.log() == nullptr) return data::Dataset(std::move(parts));
   parts.log_rows = dataset.log_rows();
-  // What is derived already is not derived again: sessions and times serve.
+  // Derived inputs are not derived again; only sessions and times are needed.
   auto log = std::make_shared<data::SessionLog>();
   log->sessions = dataset.log()->sessions;
   log->first_rows = dataset.log()->first_rows;

@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "models/history/lag.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
 
 using Eigen::Index;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void Refuse(const std::string& what) {
   throw std::invalid_argument("HistoryState: " + what);
@@ -70,15 +68,17 @@ HistoryState::HistoryState(const History& history,
         known[static_cast<std::size_t>(form_sources_.back())]);
   }
   gains_.resize(taus_.size());
-  values_ = Eigen::VectorXd::Constant(static_cast<Index>(known.size()), kNaN);
-  memory_ = Eigen::VectorXd::Constant(static_cast<Index>(nodes_.size()), kNaN);
-  form_inputs_ =
-      Eigen::VectorXd::Constant(static_cast<Index>(form_sources_.size()), kNaN);
+  values_ =
+      Eigen::VectorXd::Constant(static_cast<Index>(known.size()), stats::kNaN);
+  memory_ =
+      Eigen::VectorXd::Constant(static_cast<Index>(nodes_.size()), stats::kNaN);
+  form_inputs_ = Eigen::VectorXd::Constant(
+      static_cast<Index>(form_sources_.size()), stats::kNaN);
 }
 
 void HistoryState::Start(const Eigen::Ref<const Eigen::VectorXd>& readings) {
-  values_.setConstant(kNaN);
-  memory_.setConstant(kNaN);
+  values_.setConstant(stats::kNaN);
+  memory_.setConstant(stats::kNaN);
   SetReadings(readings);
   started_ = true;
   Update(false);
@@ -101,7 +101,7 @@ void HistoryState::Step(double dt,
 void HistoryState::TakeZero() {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     if (nodes_[i].filter == Filter::kZero) {
-      memory_[static_cast<Index>(i)] = kNaN;
+      memory_[static_cast<Index>(i)] = stats::kNaN;
     }
   }
   Update(false);

@@ -9,62 +9,62 @@
 
 namespace errmap::models {
 
-/// The filters of a history at work, reading by reading: what a controller
-/// runs. It keeps nothing but `state`.
+/// Runs the filters of a history reading by reading, as a controller does. It
+/// stores nothing but `state`.
 class HistoryState {
  public:
-  /// `columns`: of the readings, in their order. Throws std::invalid_argument
-  /// for an input that neither is a column nor derived before, a name that
-  /// stands twice, a tau that is not above 0, or the sine of what is no angle.
+  /// `columns` are those of the readings. Throws std::invalid_argument if an
+  /// input is neither a column nor derived before, a name is duplicated, a tau
+  /// is not above 0, or a sine is not of an angle.
   HistoryState(const History& history,
                const std::vector<data::ColumnInfo>& columns);
 
-  /// Begins a session: filters in the steady state of these readings (one per
-  /// column), the zero taken here. A reading that is NaN is not known yet: what
-  /// depends on it begins with its first number. Throws std::invalid_argument
-  /// on another number of readings.
+  /// Begins a session: filters start in the steady state of these readings (one
+  /// per column), and the zero is taken here. NaN means not yet known: values
+  /// that depend on it begin with its first number. Throws
+  /// std::invalid_argument if the number of readings is wrong.
   void Start(const Eigen::Ref<const Eigen::VectorXd>& readings);
 
-  /// Goes on by `dt` (unit of time, at least 0) to these readings; one that is
-  /// NaN holds its last value. dt = 0 leaves the filters as they are, the
-  /// readings replacing the earlier ones. Throws std::invalid_argument on a dt
-  /// below 0 or NaN, another number of readings, or before Start.
+  /// Advances by `dt` (unit of time, at least 0) to these readings; a reading
+  /// of NaN holds its last value. dt = 0 leaves the filters unchanged and
+  /// replaces the earlier readings. Throws std::invalid_argument if dt is below
+  /// 0 or NaN, the number of readings is wrong, or Start was not called.
   void Step(double dt, const Eigen::Ref<const Eigen::VectorXd>& readings);
 
-  /// Takes the zero here, in place of where the session began.
+  /// Takes the zero here instead of at the start of the session.
   void TakeZero();
 
-  /// What the form reads now, one per form input; NaN where not known.
+  /// Returns the form's inputs now; NaN if unknown.
   const Eigen::VectorXd& form_inputs() const { return form_inputs_; }
-  /// Columns and units of the same.
+  /// Returns their columns and units.
   const std::vector<data::ColumnInfo>& form_columns() const {
     return form_columns_;
   }
 
-  /// Readings held, filters and zeros (columns + derived inputs): all there is
-  /// to keep over a restart. Empty before Start.
+  /// Returns readings held, filters and zeros (columns + derived inputs): all
+  /// that must be saved for a restart. Empty before Start.
   Eigen::VectorXd state() const;
-  /// Goes on from what state() gave. Throws std::invalid_argument on another
-  /// size.
+  /// Continues from the result of state(). Throws std::invalid_argument if the
+  /// size is wrong.
   void set_state(const Eigen::VectorXd& state);
 
  private:
   struct Node {
     Filter filter = Filter::kEma;
-    Eigen::Index source = 0;  // into values_
-    std::size_t tau = 0;      // of kEma: into taus_
+    Eigen::Index source = 0;  // index into values_
+    std::size_t tau = 0;      // of kEma: index into taus_
     Between between = Between::kLinear;
-    double factor = 1.0;  // of sine and cosine: radians per unit
+    double factor = 1.0;  // sine and cosine: radians per unit
   };
 
   void SetReadings(const Eigen::Ref<const Eigen::VectorXd>& readings);
-  /// Everything that the memory says, which goes on by gains_ where time
-  /// `passes`.
+  /// Computes all derived values; if time `passes`, the filters advance by
+  /// gains_.
   void Update(bool passes);
 
   Eigen::Index num_columns_ = 0;
   std::vector<Node> nodes_;
-  /// Of the step at hand, as in models/history/lag.h.
+  /// Gains of the current step, as in models/history/lag.h.
   struct Gains {
     double decay = 0.0;  // u m
     double ramp = 0.0;   // 1 - m
@@ -75,7 +75,7 @@ class HistoryState {
   std::vector<data::ColumnInfo> form_columns_;
   bool started_ = false;
   Eigen::VectorXd values_;    // (columns + derived inputs)
-  Eigen::VectorXd previous_;  // the same before the step at hand
+  Eigen::VectorXd previous_;  // the same before the current step
   Eigen::VectorXd memory_;    // (derived inputs) filter or zero
   Eigen::VectorXd form_inputs_;
 };

@@ -1,8 +1,6 @@
 #include "models/history/map_log.h"
 
 #include <cmath>
-#include <limits>
-#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,6 +11,8 @@
 #include "data/measurements/column_match.h"
 #include "data/measurements/joined_tables.h"
 #include "data/text.h"
+#include "stats/indices.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
@@ -24,7 +24,7 @@ data::DatasetSelection SelectionFor(const History& history,
                                     const MapLogArguments& arguments) {
   data::DatasetSelection selection;
   selection.time = history.time_unit == "rows" ? "none" : arguments.time;
-  // Of several that could be the time, the one that the map was fitted by.
+  // Of several possible time columns, the one that the map was fitted with.
   if (selection.time.empty() && !history.time.empty() &&
       table.Find(history.time) >= 0) {
     selection.time = history.time;
@@ -48,8 +48,8 @@ data::DatasetSelection SelectionFor(const History& history,
 data::FoundSessions FindAll(const History& history,
                             const data::CsvTable& table,
                             const data::DatasetSelection& selection) {
-  std::vector<Index> rows(table.num_rows);
-  std::iota(rows.begin(), rows.end(), Index{0});
+  const std::vector<Index> rows =
+      stats::AllIndices(static_cast<Index>(table.num_rows));
   data::FoundSessions found = data::FindSessions(table, selection, rows);
   if (history.time_unit == "s" && found.time_column < 0) {
     throw data::InputError(fmt::format(
@@ -57,7 +57,7 @@ data::FoundSessions FindAll(const History& history,
         "or dates and times), or name it with {}{}",
         data::PrintablePath(table.file),
         data::ArgumentName("time"),
-        found.remarks.size() < 2 ? "" : " (" + found.remarks.front() + ")"));
+        found.remarks.empty() ? "" : " (" + found.remarks.front() + ")"));
   }
   return found;
 }
@@ -143,13 +143,11 @@ Earlier ReadEarlier(const FittedModel& fitted, const std::string& file) {
     needed.push_back(fitted.inputs[static_cast<std::size_t>(input)].column);
   }
   data::TableForMap read = data::InMapUnits(data::ReadCsv(file), needed);
-  std::vector<Index> rows(read.table.num_rows);
-  std::iota(rows.begin(), rows.end(), Index{0});
+  const std::vector<Index> rows =
+      stats::AllIndices(static_cast<Index>(read.table.num_rows));
   Earlier earlier{.table = std::move(read.table),
                   .readings = Eigen::MatrixXd::Constant(
-                      std::ssize(rows),
-                      std::ssize(fitted.inputs),
-                      std::numeric_limits<double>::quiet_NaN()),
+                      std::ssize(rows), std::ssize(fitted.inputs), stats::kNaN),
                   .remarks = std::move(read.remarks)};
   for (std::size_t i = 0; i < needed.size(); ++i) {
     const std::size_t at =
@@ -170,8 +168,8 @@ data::FoundSessions FindSessionsFor(const History& history,
 
 Eigen::MatrixXd ReadingsOf(const FittedModel& fitted,
                            const data::CsvTable& table) {
-  std::vector<Index> rows(table.num_rows);
-  std::iota(rows.begin(), rows.end(), Index{0});
+  const std::vector<Index> rows =
+      stats::AllIndices(static_cast<Index>(table.num_rows));
   Eigen::MatrixXd readings(static_cast<Index>(rows.size()),
                            static_cast<Index>(fitted.inputs.size()));
   Index column = 0;

@@ -12,23 +12,23 @@
 
 namespace errmap::models {
 
-/// A table and what a map reads in its rows; NaN where it is not known.
+/// A table and a map's inputs in its rows; NaN if unknown.
 struct RowsForMap {
   const data::CsvTable& table;
   const Eigen::MatrixXd& inputs;  // (rows x inputs of the map)
 };
 
-/// What the filters of a map run through where points lie between the rows of
-/// a log: both, session by session, in order of time, the log first where both
-/// have the same time.
+/// Rows for the filters of a map if points lie between the rows of a log:
+/// both, session by session, in time order. At equal times the log is
+/// first.
 struct PointLog {
   std::shared_ptr<const data::SessionLog> log;
-  std::vector<Eigen::Index> rows;  // (points) in the log
+  std::vector<Eigen::Index> rows;  // (points) index in the log
   std::vector<Missing> missing;    // (points)
 };
 
-/// `log` may be null. Sessions of the log without a point are left out. The
-/// zero is taken where the session begins. Throws data::InputError as
+/// `log` may be null. Sessions of the log without points are omitted. The zero
+/// is taken where the session begins. Throws data::InputError like
 /// FindSessionsFor.
 PointLog MakePointLog(const History& history,
                       const RowsForMap& points,

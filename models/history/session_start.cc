@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <set>
 #include <utility>
 #include <vector>
@@ -20,9 +19,9 @@ using Eigen::VectorXd;
 
 constexpr double kDay = 86400.0;
 constexpr std::size_t kFewestSessions = 4;
-// Of sound sessions so many begin within the limits; of 48 whole days of
-// simulated machines none was beyond .97 of readings, but two fifths of the
-// rows of logs that lack up to a tenth were not.
+// Shares of sound sessions within the limits. In 48 simulated whole days no
+// readings were beyond .97, but neither were two fifths of the rows of logs
+// that lack up to a tenth.
 constexpr double kReadingsWithin = 0.9;
 constexpr double kClockWithin = 0.97;
 
@@ -52,7 +51,7 @@ VectorXd Differences(const data::SessionLog& log,
   return readings.array() - readings.mean();
 }
 
-// What separates rows within sessions from their starts.
+// The separation of rows within sessions from their starts.
 struct Separation {
   VectorXd mean;    // (columns) at the starts
   VectorXd sd;      // (columns) likewise
@@ -63,7 +62,8 @@ struct Separation {
   }
 };
 
-// Of the sessions but `left_out`; rows of `starts` and `changes` are sessions.
+// Separates all sessions but `left_out`; rows of `starts` and `changes` are
+// sessions.
 Separation Separate(const MatrixXd& starts,
                     const MatrixXd& changes,
                     Index left_out) {
@@ -82,7 +82,7 @@ Separation Separate(const MatrixXd& starts,
                                 .sum() /
                             static_cast<double>(kept.size() - 1);
   separation.sd = variance.cwiseSqrt();
-  // Of few starts some columns seem not to differ at all.
+  // Among few starts some columns seem not to differ at all.
   separation.weight = change.array() / (variance.array() + variance.mean() +
                                         std::numeric_limits<double>::min());
   const double within = separation.weight.dot(change);

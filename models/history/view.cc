@@ -14,6 +14,8 @@
 #include "data/text.h"
 #include "models/history/view_options.h"
 #include "models/shared_work.h"
+#include "stats/not_a_number.h"
+#include "stats/order_statistic.h"
 
 namespace errmap::models {
 namespace {
@@ -33,8 +35,8 @@ bool IsAngle(const data::ColumnInfo& column) {
   return column.unit.quantity == data::Quantity::kAngle;
 }
 
-// Whether an angle among the inputs turns so far that its sine and cosine are
-// more than the angle itself.
+// Returns true if an angle among the inputs turns so far that its sine and
+// cosine carry more than the angle itself.
 bool TurnsFar(const Dataset& training) {
   constexpr double kFar = 0.5;  // rad
   for (Index j = 0; j < training.num_inputs(); ++j) {
@@ -94,7 +96,7 @@ History DefineView(const Dataset& training,
   return history;
 }
 
-// Why these rows have no such view; "" where they have.
+// Returns why these rows have no such view; "" if they have.
 std::string WhyNot(const Dataset& training,
                    View view,
                    const std::vector<double>& time_constants) {
@@ -152,7 +154,7 @@ std::vector<bool> ColumnsThatOnlyGrow(const Dataset& rows) {
     const auto column = rows.input_values().col(j);
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
-    double mean_before = std::numeric_limits<double>::quiet_NaN();
+    double mean_before = stats::kNaN;
     double returned = 0.0;  // shares of the later sessions
     bool rises = true;
     bool falls = true;
@@ -194,10 +196,8 @@ std::vector<double> MakeTimeConstants(const Dataset& training) {
     lengths.push_back(span.second - span.first);
   }
   if (lengths.empty()) return {};
-  const auto middle =
-      lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::ranges::nth_element(lengths, middle);
-  if (!(*middle > 0.0)) return {};
+  const double typical = stats::UpperMedian(std::move(lengths));
+  if (!(typical > 0.0)) return {};
   // Three digits: they stand in names, and more would mean nothing.
   const auto rounded = [](double value) {
     const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
@@ -206,13 +206,13 @@ std::vector<double> MakeTimeConstants(const Dataset& training) {
   constexpr std::array<double, 3> kShares = {100.0, 30.0, 10.0};
   std::vector<double> constants;
   for (const double share : kShares) {
-    constants.push_back(rounded(*middle / share));
+    constants.push_back(rounded(typical / share));
   }
   return constants;
 }
 
 double LargestFirstError(const Dataset& training) {
-  double largest = std::numeric_limits<double>::quiet_NaN();
+  double largest = stats::kNaN;
   if (training.log() == nullptr) return largest;
   const data::SessionLog& log = *training.log();
   const std::set<Index> firsts(log.first_rows.begin(), log.first_rows.end());
@@ -282,8 +282,8 @@ std::vector<ViewedRows> MakeViews(const Dataset& training,
       viewed.is_position.push_back(data::IsPosition(input));
     }
     viewed.only_grows = ColumnsThatOnlyGrow(*viewed.rows);
-    // Inputs that are zero where a session begins give an error that is zero
-    // there, if that is what was measured.
+    // Inputs that are zero at the start of a session give a zero error there,
+    // if that is what was measured.
     viewed.intercept =
         options.intercept && !(TakesZero(view) && first_error <= indifference);
     views.push_back(std::move(viewed));

@@ -8,11 +8,11 @@
 
 namespace errmap::models {
 
-/// What a SPEC may say of views: view, history, zero, intercept and angles. A
-/// map without `view` reads its inputs as they are, and the others are checked
-/// only.
+/// Options of views in a SPEC: view, history, zero, intercept and angles. A map
+/// without `view` reads its inputs as measured; the others are then only
+/// checked.
 const OptionList<std::optional<ViewOptions>>& ViewOptionList();
-/// clip, of all that may extrapolate: a member of that name.
+/// The option clip of all families that may extrapolate: a member so named.
 template <typename Options>
 Option<Options> ClipOption() {
   return OptionFor("clip",
@@ -21,13 +21,13 @@ Option<Options> ClipOption() {
                    OneOf<bool>{{{"auto", true}, {"none", false}}});
 }
 
-/// Adds the view= that a SPEC implies: that of history= and zero=, raw where
-/// there are only angles=sincos and the like (or intercept=no, where that
-/// `counts`); none where there is no word of views.
+/// Adds the view= implied by a SPEC: by history= and zero=, or raw if there is
+/// only angles= (or intercept=no, if `intercept_counts`). Adds none if the SPEC
+/// has no option of views.
 void NameTheView(ModelSpec* spec, bool intercept_counts);
 inline void NameTheViewOf(ModelSpec* spec) { NameTheView(spec, true); }
 
-/// Words that tell which views MakeViews gives, but for the view alone.
+/// Returns a key of the options besides view that decide MakeViews' result.
 std::string KeyOf(const std::optional<ViewOptions>& options);
 
 }  // namespace errmap::models

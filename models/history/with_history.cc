@@ -17,6 +17,7 @@ FittedModel WithHistory(FittedModel fitted,
   read->time_unit = history.time_unit;
   read->session = history.session;
   read->time = history.time;
+  read->gap = history.gap;
   read->latest_start = LatestStart(training);
   read->longest_step = LongestStep(training);
   std::set<std::string> needed;

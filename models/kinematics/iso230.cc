@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "stats/not_a_number.h"
+
 namespace errmap::models {
 namespace {
 
@@ -16,17 +18,15 @@ using Eigen::Index;
 using Eigen::MatrixX3d;
 using Eigen::Vector3d;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 Approaches ApproachesOf(const std::vector<double>& deviations) {
   const Eigen::Map<const Eigen::ArrayXd> values(
       deviations.data(), static_cast<Index>(deviations.size()));
   const auto n = static_cast<double>(values.size());
-  const double mean = deviations.empty() ? kNaN : values.mean();
+  const double mean = deviations.empty() ? stats::kNaN : values.mean();
   return {.runs = values.size(),
           .mean = mean,
           .sd = deviations.size() < 2
-                    ? kNaN
+                    ? stats::kNaN
                     : std::sqrt((values - mean).square().sum() / (n - 1.0))};
 }
 
@@ -34,8 +34,8 @@ Approaches ApproachesOf(const std::vector<double>& deviations) {
 class Range {
  public:
   void Add(double value) {
-    low_ = std::isnan(value) ? kNaN : std::min(low_, value);
-    high_ = std::isnan(value) ? kNaN : std::max(high_, value);
+    low_ = std::isnan(value) ? stats::kNaN : std::min(low_, value);
+    high_ = std::isnan(value) ? stats::kNaN : std::max(high_, value);
   }
   double width() const { return high_ - low_; }
 
@@ -45,7 +45,7 @@ class Range {
 };
 
 double LargerOrNaN(double a, double b) {
-  return std::isnan(a) || std::isnan(b) ? kNaN : std::max(a, b);
+  return std::isnan(a) || std::isnan(b) ? stats::kNaN : std::max(a, b);
 }
 
 void Check(const PositioningTest& test) {
@@ -84,7 +84,6 @@ PositioningFigures PositioningFiguresOf(const PositioningTest& test) {
 PositioningFigures PositioningFiguresOf(
     const std::vector<PositioningPoint>& points) {
   PositioningFigures figures;
-  figures.num_positions = static_cast<Index>(points.size());
   Range both;
   double reversals = 0.0;
   for (const PositioningPoint& point : points) {

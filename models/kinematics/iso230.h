@@ -41,7 +41,6 @@ std::vector<PositioningPoint> PositioningPointsOf(const PositioningTest& test);
 /// the runs at each target position and direction. NaN where runs of one
 /// direction, or fewer than two in a direction, leave a figure open.
 struct PositioningFigures {
-  Eigen::Index num_positions = 0;
   /// Bidirectional systematic positioning error E: range of all means.
   double systematic = 0.0;
   /// Mean bidirectional positioning error M: range of the means of both.

@@ -131,11 +131,6 @@ KinematicChain::Ends KinematicChain::EndsOf(const VectorXd& coordinates,
   return ends;
 }
 
-Isometry3d KinematicChain::NominalTool(const VectorXd& coordinates) const {
-  CheckSizes(coordinates, nullptr);
-  return EndsOf(coordinates, nullptr).tool;
-}
-
 Vector3d KinematicChain::NominalReach(const VectorXd& coordinates) const {
   CheckSizes(coordinates, nullptr);
   const Ends nominal = EndsOf(coordinates, nullptr);
@@ -188,12 +183,6 @@ Matrix3Xd KinematicChain::Sensitivities(const VectorXd& coordinates) const {
     }
   }
   return sensitivities;
-}
-
-Vector3d KinematicChain::FirstOrderError(const VectorXd& coordinates,
-                                         const VectorXd& errors) const {
-  CheckSizes(coordinates, &errors);
-  return Sensitivities(coordinates) * errors;
 }
 
 }  // namespace errmap::models

@@ -75,21 +75,18 @@ class KinematicChain {
     return static_cast<Eigen::Index>(errors_.size());
   }
 
-  /// T_TOOL of Eq. 6 without errors: the tool's frame in that of the base.
-  /// Throws std::invalid_argument on another number of coordinates, as all
-  /// below do; theirs of errors likewise.
-  Eigen::Isometry3d NominalTool(const Eigen::VectorXd& coordinates) const;
-
   /// The tip less the work's origin (3), without errors, along the axes of the
-  /// base: where on the work the tool is, turned as the machine has it.
+  /// base: where on the work the tool is, turned as the machine has it. Throws
+  /// std::invalid_argument on another number of coordinates, as all below do;
+  /// theirs of errors likewise.
   Eigen::Vector3d NominalReach(const Eigen::VectorXd& coordinates) const;
 
-  /// T_TOOL with errors.
+  /// T_TOOL of Eq. 6 with errors: the tool's frame in that of the base.
   Eigen::Isometry3d Tool(const Eigen::VectorXd& coordinates,
                          const Eigen::VectorXd& errors) const;
 
-  /// T_WORK with errors: the frame that the workpiece carries and that is
-  /// NominalTool without errors (Eq. 3 and 4).
+  /// T_WORK with errors: the frame that the workpiece carries and that is Tool
+  /// without errors (Eq. 3 and 4).
   Eigen::Isometry3d Work(const Eigen::VectorXd& coordinates,
                          const Eigen::VectorXd& errors) const;
 
@@ -99,12 +96,9 @@ class KinematicChain {
 
   /// Its derivatives (3 x errors) at errors of 0: the unit vector of a length,
   /// rotation axis times arm of an angle; with minus on the work's branch.
+  /// Times errors they are what remains of ExactError by the algebra of
+  /// infinitesimals (section 3.1), without products of errors.
   Eigen::Matrix3Xd Sensitivities(const Eigen::VectorXd& coordinates) const;
-
-  /// Sensitivities times errors (3): what remains of ExactError by the algebra
-  /// of infinitesimals (section 3.1), without products of errors.
-  Eigen::Vector3d FirstOrderError(const Eigen::VectorXd& coordinates,
-                                  const Eigen::VectorXd& errors) const;
 
  private:
   struct Ends {

@@ -6,6 +6,16 @@ data::Unit UnitOf(const Machine& machine, ErrorDirection direction) {
   return IsRotation(direction) ? data::UnitOfSymbol("rad") : machine.length;
 }
 
+Eigen::VectorXd SensitiveLengths(const Machine& machine,
+                                 const Eigen::MatrixX3d& errors) {
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(errors.rows());
+  for (std::size_t d = 0; d < machine.sensitive.size(); ++d) {
+    if (!machine.sensitive[d]) continue;
+    squares += errors.col(static_cast<Eigen::Index>(d)).cwiseAbs2();
+  }
+  return squares.cwiseSqrt();
+}
+
 std::string_view LetterOf(ErrorDirection direction) {
   constexpr std::array<std::string_view, kNumErrorDirections> kLetters = {
       "X", "Y", "Z", "A", "B", "C"};

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "data/units.h"
 #include "models/error_model.h"
 #include "models/kinematics/kinematic_chain.h"
@@ -39,6 +41,10 @@ struct Machine {
 
 /// Unit of an error's values: the machine's length, or rad.
 data::Unit UnitOf(const Machine& machine, ErrorDirection direction);
+
+/// Lengths (m) of errors (m x 3) in the sensitive directions.
+Eigen::VectorXd SensitiveLengths(const Machine& machine,
+                                 const Eigen::MatrixX3d& errors);
 
 /// "X" ... "C".
 std::string_view LetterOf(ErrorDirection direction);

@@ -77,9 +77,9 @@ PlaneCells CellsOf(const WorkingPlane& plane,
   for (Index row = 0; row < points.rows(); ++row) {
     const std::pair place{up.Of(points(row, plane.up)),
                           across.Of(points(row, plane.across))};
-    PlaneCell& cell = cells[place];
-    cell.across = across.Middle(place.second);
-    cell.up = up.Middle(place.first);
+    const PlaneCell empty{
+        across.Middle(place.second), up.Middle(place.first), 0, 0.0, 0.0, 0.0};
+    PlaneCell& cell = cells.try_emplace(place, empty).first->second;
     const double error_across = errors(row, plane.across);
     const double error_up = errors(row, plane.up);
     ++cell.points;

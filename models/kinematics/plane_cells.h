@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "stats/not_a_number.h"
+
 namespace errmap::models {
 
 /// The plane that a machine works in, as it is drawn: 0 X, 1 Y, 2 Z.
@@ -19,14 +21,14 @@ struct WorkingPlane {
 std::optional<WorkingPlane> WorkingPlaneOf(
     const std::array<bool, 3>& sensitive);
 
-/// The errors at the points of a part of the plane.
+/// The errors at the points of a part of the plane; NaN where not known.
 struct PlaneCell {
-  double across = 0.0;  // its middle
-  double up = 0.0;
+  double across = stats::kNaN;  // its middle
+  double up = stats::kNaN;
   Eigen::Index points = 0;
-  double mean_across = 0.0;  // of the errors along both
-  double mean_up = 0.0;
-  double rms = 0.0;  // of their lengths in the plane
+  double mean_across = stats::kNaN;  // of the errors along both
+  double mean_up = stats::kNaN;
+  double rms = stats::kNaN;  // of their lengths in the plane
 };
 
 /// Cells that have points, row by row from below; where none were is no cell.

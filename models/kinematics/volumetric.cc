@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
 #include "stats/distributions.h"
+#include "stats/not_a_number.h"
 #include "stats/random.h"
 #include "stats/summary.h"
 
@@ -19,8 +19,6 @@ using Eigen::MatrixX3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void RefuseVolumetric(const std::string& what) {
   throw std::invalid_argument("CombineErrors: " + what);
@@ -188,7 +186,7 @@ VolumetricErrors CombineErrors(const KinematicChain& chain,
        {&result.exact, &result.first_order, &result.half_widths}) {
     part->resize(m, 3);
   }
-  result.lower = MatrixX3d::Constant(m, 3, kUnknown);
+  result.lower = MatrixX3d::Constant(m, 3, stats::kNaN);
   result.upper = result.lower;
   result.contributions.assign(components.size(), MatrixX3d(m, 3));
   for (Index row = 0; row < m; ++row) {

@@ -10,7 +10,7 @@
 
 namespace errmap::models {
 
-/// Column-major matrix of zeros whose memory begins at a whole vector of
+/// Column-major matrix of zeros, aligned to the widest vectors of
 /// models/net/net_kernels.h, so that no load crosses a cache line.
 template <typename Scalar>
 class AlignedMatrix {

@@ -1,13 +1,13 @@
 #include "models/net/feedforward_net.h"
 
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "models/row_scratch.h"
+#include "stats/indices.h"
 #include "stats/random.h"
 
 namespace errmap::models {
@@ -121,9 +121,8 @@ FittedModel MapOfWeights(const NetShape& shape,
         " weights, found " + std::to_string(w.size()) + " and " +
         std::to_string(training.num_inputs()) + " inputs");
   }
-  std::vector<Eigen::Index> columns(
-      static_cast<std::size_t>(training.num_inputs()));
-  std::iota(columns.begin(), columns.end(), Eigen::Index{0});
+  const std::vector<Eigen::Index> columns =
+      stats::AllIndices(training.num_inputs());
   FittedModel map;
   map.name = name;
   map.kind = ModelKind::kNet;

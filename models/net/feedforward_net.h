@@ -12,8 +12,8 @@ namespace errmap::models {
 /// One-hidden-layer sigmoid net (NISTIR 5367, Eq. 14-18) as an error map.
 class FeedforwardNet final : public ErrorModel {
  public:
-  /// Throws std::invalid_argument where shapes do not agree, a number is not
-  /// finite, a target slope is 0, or there is not exactly one output.
+  /// Throws std::invalid_argument if shapes do not agree, a number is not
+  /// finite, a target slope is 0, or the number of outputs is not one.
   explicit FeedforwardNet(NetForm form);
 
   Eigen::Index num_inputs() const override { return form_.input_offset.size(); }
@@ -29,23 +29,23 @@ class FeedforwardNet final : public ErrorModel {
   NetForm form_;
 };
 
-/// Initial weights (N) of a net: uniform in +-0.5, drawn node by node (to
-/// outer, from inner, bias last) as the report's program does.
+/// Returns initial weights (N) of a net: uniform in +-0.5, drawn node by node
+/// (to outer, from inner, bias last) as in the report's program.
 Eigen::VectorXd InitialWeights(const NetShape& shape, std::uint64_t seed);
 
-/// The two weight matrices of a weight vector (N).
+/// Returns the two weight matrices of a weight vector (N).
 Eigen::MatrixXd FirstLayer(const NetShape& shape, const Eigen::VectorXd& w);
 Eigen::MatrixXd SecondLayer(const NetShape& shape, const Eigen::VectorXd& w);
 
-/// The net of the weights w (N) of a training on inputs and targets scaled so.
+/// Returns the net with weights w (N), trained on inputs and targets so scaled.
 NetForm FormOfWeights(const NetShape& shape,
                       const Eigen::VectorXd& w,
                       const ColumnScaling& inputs,
                       const TargetScaling& target);
 
-/// Such a net as a map of the rows that it was trained on, with their columns
-/// and ranges: of a training of one's own, stopped when rows that it did not
-/// see grew worse, say. Throws std::invalid_argument as FeedforwardNet does.
+/// Returns such a net as a map of its training rows, with their columns and
+/// ranges: for training loops of your own, with early stopping for example.
+/// Throws std::invalid_argument as FeedforwardNet does.
 FittedModel MapOfWeights(const NetShape& shape,
                          const Eigen::VectorXd& w,
                          const ColumnScaling& inputs,

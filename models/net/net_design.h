@@ -8,10 +8,10 @@
 
 namespace errmap::models {
 
-/// How inputs are scaled: to mean 0 and sd 1, to their range, not at all.
+/// Scaling of inputs: to mean 0 and sd 1, to their range, or none.
 enum class InputScaling { kStandard, kRange, kNone };
 
-/// What a net is before it sees any rows.
+/// Structure of a net before it sees any rows.
 struct NetDesign {
   std::int64_t hidden = 20;
   InputScaling scaling = InputScaling::kStandard;

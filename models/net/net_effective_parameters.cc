@@ -8,6 +8,7 @@
 #include "fitting/least_squares/decompositions.h"
 #include "fitting/matrix_product.h"
 #include "models/net/net_objective.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
@@ -16,7 +17,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr Index kMostDimensions = 3000;
 constexpr double kMostProducts = 5e11;
 
@@ -78,7 +78,7 @@ double WithFreeBiases(NetTraining training, const VectorXd& w) {
   }
   decay.array() += tiny;
   damped.diagonal() += decay;
-  if (!fitting::FactorizeCholesky(damped)) return kNaN;
+  if (!fitting::FactorizeCholesky(damped)) return stats::kNaN;
   return static_cast<double>(n) - decay.dot(fitting::DiagonalOfInverse(damped));
 }
 
@@ -96,18 +96,20 @@ double EffectiveParameters(const NetTraining& training, const VectorXd& w) {
   const double products = static_cast<double>(residuals) *
                           static_cast<double>(dimensions) *
                           static_cast<double>(dimensions);
-  if (dimensions > kMostDimensions || products > kMostProducts) return kNaN;
+  if (dimensions > kMostDimensions || products > kMostProducts)
+    return stats::kNaN;
   if (training.shape.free_biases) {
-    return weights > kMostDimensions ? kNaN : WithFreeBiases(training, w);
+    return weights > kMostDimensions ? stats::kNaN
+                                     : WithFreeBiases(training, w);
   }
   const MatrixXd gram =
       residuals <= weights ? PatternGram(training, w) : WeightGram(training, w);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(gram,
                                                        Eigen::EigenvaluesOnly);
-  if (solver.info() != Eigen::Success) return kNaN;
+  if (solver.info() != Eigen::Success) return stats::kNaN;
   const VectorXd& eigenvalues = solver.eigenvalues();  // ascending
   const double c = training.wfactor / static_cast<double>(weights);
-  // What is below the roundings of the largest is taken as 0.
+  // Eigenvalues below the roundings of the largest count as 0.
   const double least = eigenvalues[dimensions - 1] *
                        static_cast<double>(dimensions) *
                        std::numeric_limits<double>::epsilon();

@@ -4,20 +4,20 @@
 
 namespace errmap::models {
 
-/// Effective number of parameters of a net at its fitted weights w (N):
+/// Effective number of parameters of a net with fitted weights w (N):
 ///
 ///   trace of J (J'J + c I)^-1 J',  c = wfactor / N,
 ///
-/// J (P x N) and c being those of E = 1/2 |r|^2 + 1/2 c |w|^2 (net_residuals.h;
+/// J (P x N) and c are those of E = 1/2 |r|^2 + 1/2 c |w|^2 (net_residuals.h;
 /// Moody 1992; MacKay 1992, Eq. 4.9, with J'J for the Hessian of the misfit).
-/// Where biases bear no decay, I is without them. It is the number of
-/// directions in the space of the targets that the fit follows: the rank of J
-/// where wfactor is 0, and less the larger it is.
+/// If biases have no decay, I omits them. It is the number of directions in the
+/// space of the targets that the fit follows: the rank of J if wfactor is 0,
+/// and less for larger wfactors.
 ///
-/// `training` holds the fitted rows and their wfactor. Worked out in the
-/// smaller of the spaces of patterns and weights, or in that of the weights
-/// where biases bear no decay. NaN where that has more than 3000 dimensions or
-/// the products would take more than about a minute.
+/// `training` holds the fitted rows and their wfactor. Computed in the smaller
+/// of the spaces of patterns and weights, or in that of the weights if biases
+/// have no decay. NaN if that has more than 3000 dimensions or the products
+/// would take more than about a minute.
 double EffectiveParameters(const NetTraining& training,
                            const Eigen::VectorXd& w);
 

@@ -1,7 +1,6 @@
 #include "models/net/net_fit.h"
 
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -9,14 +8,13 @@
 #include "fitting/parallel_for.h"
 #include "models/net/feedforward_net.h"
 #include "models/net/training_sample.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
 
 using data::Dataset;
 using Eigen::Index;
-
-constexpr double kNotYet = std::numeric_limits<double>::quiet_NaN();
 
 ColumnScaling ScalingOf(InputScaling kind, const Eigen::MatrixXd& inputs) {
   switch (kind) {
@@ -65,14 +63,14 @@ bool IsStopped(const FitContext& context) {
   return context.stop != nullptr && context.stop->load();
 }
 
-// Sum of squared errors on the test rows; NaN where there is no fit.
+// Sum of squared errors on the test rows; NaN if there is no fit.
 double HeldOutSquares(const NetDesign& design,
                       const NetTrainer& trainer,
                       const Dataset& all,
                       const fitting::FoldCodes::Rows& fold,
                       const NetTrial& trial,
                       const FitContext& context) {
-  if (IsStopped(context)) return kNotYet;
+  if (IsStopped(context)) return stats::kNaN;
   try {
     NetDesign tried = design;
     tried.hidden = trial.hidden;
@@ -84,11 +82,12 @@ double HeldOutSquares(const NetDesign& design,
                    trial.seed,
                    {.stop = context.stop, .keep_trace = false});
     if (minimum.summary.termination == fitting::Termination::kFailed) {
-      return kNotYet;
+      return stats::kNaN;
     }
     return SquaresOn(all.SelectRows(fold.test), rows, minimum.x);
   } catch (const std::invalid_argument&) {
-    return kNotYet;  // these rows cannot be fitted, such as a constant target
+    // These rows cannot be fitted, such as a constant target.
+    return stats::kNaN;
   }
 }
 
@@ -265,8 +264,8 @@ std::vector<double> InnerHoldoutRmse(const NetDesign& design,
 struct WfactorWalk::Fold {
   std::optional<NetRows> rows;  // none where they cannot be fitted
   Dataset test;
-  Eigen::VectorXd weights;   // of the last step
-  double squares = kNotYet;  // of the last step
+  Eigen::VectorXd weights;       // of the last step
+  double squares = stats::kNaN;  // of the last step
 };
 
 WfactorWalk::WfactorWalk(const NetDesign& design,
@@ -307,7 +306,7 @@ double WfactorWalk::Step(double wfactor) {
         trainer_.Train(training, {.stop = context_.stop, .keep_trace = false});
     if (minimum.summary.termination == fitting::Termination::kFailed) {
       fold.rows.reset();
-      fold.squares = kNotYet;
+      fold.squares = stats::kNaN;
       return;
     }
     fold.squares = SquaresOn(fold.test, *fold.rows, minimum.x);

@@ -13,63 +13,63 @@
 
 namespace errmap::models {
 
-/// Training rows as a net sees them, and the way back to physical units.
+/// Training rows as scaled for a net, and the way back to physical units.
 struct NetRows {
   ColumnScaling scaling;
   TargetScaling target;
   NetTraining training;  // wfactor, initial weights and seed not yet set
 
-  /// `training` from the start of that seed.
+  /// Returns `training` with the initial weights of `seed`.
   NetTraining From(std::uint64_t seed, double wfactor) const;
-  /// RMS residual of these rows at the weights w (N), in the target's unit;
-  /// weighted as the cost is.
+  /// Returns the RMS residual of these rows for the weights w (N), in the
+  /// target's unit, weighted like the cost.
   double TrainingRms(const Eigen::VectorXd& w) const;
-  /// The net of these weights in the rows' own units.
+  /// Returns the net with these weights in the units of the rows.
   NetForm FormOf(const Eigen::VectorXd& w) const;
-  /// The weights (N) of a net that FormOf made, but for roundings.
+  /// Returns the weights (N) of a net made by FormOf, up to rounding.
   Eigen::VectorXd WeightsOf(const NetForm& form) const;
 };
 
-/// Throws std::invalid_argument where the targets do not vary.
+/// Throws std::invalid_argument if the targets do not vary.
 NetRows ScaleRows(const NetDesign& design, const data::Dataset& training);
 
-/// Seed of start k (0-based): start 0 is that of the fit itself.
+/// Returns the seed of start k (0-based); start 0 has the seed of the fit.
 std::uint64_t SeedOfStart(std::uint64_t seed, std::int64_t k);
 
-/// Wfactors of a path from strong to weak: 1 and every half decade below it,
-/// down to 1e-7.
+/// Returns the wfactors of a path from strong to weak: from 1 down to 1e-7 in
+/// steps of half a decade.
 const std::vector<double>& WfactorPath();
 
-/// The beginning of WfactorPath that is above `wfactor`, then `wfactor`.
+/// Returns the values of WfactorPath above `wfactor`, then `wfactor`.
 std::vector<double> WfactorPathTo(double wfactor);
 
-/// A net to be judged by inner hold-outs.
+/// A net to be assessed on inner hold-outs.
 struct NetTrial {
-  std::int64_t hidden = 1;       // in place of the design's
+  std::int64_t hidden = 1;       // instead of the design's
   std::vector<double> wfactors;  // trained along, see TrainAlong
   std::uint64_t seed = 1;
 };
 
-/// So many rows stand for all where nets are compared, and on the way to one.
+/// Most rows used to compare nets, and in all but the last fit along a path.
 inline constexpr Eigen::Index kMostTuningRows = 5'000;
 
-/// Trains at each of `wfactors` in turn, the first from the start of `seed`,
-/// each other from the weights of the one before. Of more rows than
-/// kMostTuningRows, two wfactors or more: at all but the first on so many of
-/// the rows, drawn from all over them, then at the last again on all. The
-/// summary is that of the last, but for the counts, seconds and trace, which
-/// are those of all. Throws std::invalid_argument where there are no wfactors.
+/// Trains at each of `wfactors` in turn: first from the start of `seed`, then
+/// from the previous weights. With more than kMostTuningRows rows and at least
+/// two wfactors, all but the first use that many rows, spread over all. The
+/// last is then repeated on all rows. The summary is that of the last fit, with
+/// counts, seconds and trace of all. Throws std::invalid_argument if there are
+/// no wfactors.
 fitting::Minimum TrainAlong(const NetRows& rows,
                             const NetTrainer& trainer,
                             const std::vector<double>& wfactors,
                             std::uint64_t seed,
                             const fitting::RunControl& run);
 
-/// A net on inner folds whose wfactor falls from step to step.
+/// A net on inner folds whose wfactor decreases from step to step.
 class WfactorWalk {
  public:
-  /// Each step trains from the weights of the last where `warm`, else from the
-  /// start of `seed`. What is given must outlive the walk.
+  /// Each step trains from the last weights if `warm`, else from the start of
+  /// `seed`. All arguments must outlive the walk.
   WfactorWalk(const NetDesign& design,
               const NetTrainer& trainer,
               const data::Dataset& training,
@@ -81,7 +81,7 @@ class WfactorWalk {
   WfactorWalk(const WfactorWalk&) = delete;
   WfactorWalk& operator=(const WfactorWalk&) = delete;
 
-  /// Trains at `wfactor`: the RMSE on the rows left out, as InnerHoldoutRmse.
+  /// Trains at `wfactor`; returns the held-out RMSE like InnerHoldoutRmse.
   double Step(double wfactor);
 
  private:
@@ -94,9 +94,9 @@ class WfactorWalk {
   bool warm_;
 };
 
-/// Of each trial the RMSE on the rows left out of its fits, all folds pooled,
-/// in the target's unit; NaN where one of its fits failed. Runs on
-/// context.threads, which changes no bit.
+/// Returns, for each trial, the RMSE on held-out rows, pooled over all folds,
+/// in the target's unit; NaN if one of its fits failed. Runs on
+/// context.threads; their number does not change any bit.
 std::vector<double> InnerHoldoutRmse(const NetDesign& design,
                                      const NetTrainer& trainer,
                                      const data::Dataset& training,
@@ -104,10 +104,10 @@ std::vector<double> InnerHoldoutRmse(const NetDesign& design,
                                      const std::vector<NetTrial>& trials,
                                      const FitContext& context);
 
-/// The minima of TrainAlong from the starts of these seeds, in their order; on
-/// context.threads, which changes no bit. Where context.stop comes, those of
-/// the seeds that were begun, the first among them; others are taken out of
-/// `seeds`.
+/// Returns the minima of TrainAlong from the starts of these seeds, in their
+/// order. Runs on context.threads; their number does not change any bit. If
+/// context.stop becomes true, it returns those of the seeds already started,
+/// always including the first, and removes the others from `seeds`.
 std::vector<fitting::Minimum> TrainFromStarts(
     const NetRows& rows,
     const NetTrainer& trainer,

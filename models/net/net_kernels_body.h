@@ -1,10 +1,10 @@
 #pragma once
 
-// The code behind models/net/net_kernels.h. Each net_kernels_<version>.cc
-// compiles it with compiler options of its own, so whatever stands here must be
-// local to that file or inlined: the linker might else take a function of the
-// fastest version for the whole program. Hence no standard library and no
-// Eigen. Those with instructions of their own include <immintrin.h> before it.
+// Implementation of models/net/net_kernels.h. Each net_kernels_<version>.cc
+// compiles it with its own compiler options, so everything here must be local
+// to that file or inlined: the linker might else use a function of the fastest
+// version for the whole program. Hence no standard library and no Eigen.
+// Versions with instructions of their own include <immintrin.h> first.
 
 #include <cstddef>
 
@@ -16,7 +16,7 @@
 namespace errmap::models {
 namespace {
 
-// kWide columns share what is read of the weights.
+// kWide columns share each read of the weights.
 template <typename Scalar, int kWide>
 ERRMAP_INLINE void OutputColumns(BlockSize size,
                                  std::ptrdiff_t column,
@@ -104,7 +104,7 @@ void Advance(BlockSize size, const Scalar* t, Scalar a, Scalar* s) {
                     });
 }
 
-// kWide columns share what is read of the weights.
+// kWide columns share each read of the weights.
 template <typename Scalar, int kWide>
 ERRMAP_INLINE void BendColumns(BlockSize size,
                                std::ptrdiff_t column,
@@ -185,8 +185,8 @@ struct BackwardVector {
   }
 };
 
-// kCount vectors from row h on of all columns, and half a one below them where
-// kHalf: side by side, since each sum waits for itself.
+// kCount vectors from row h on of all columns, and half a vector below them if
+// kHalf, side by side: each sum alone would wait for its own additions.
 template <typename Scalar, int kCount, bool kHalf>
 ERRMAP_INLINE void BackwardRows(BlockSize size,
                                 std::ptrdiff_t h,
@@ -223,7 +223,7 @@ ERRMAP_INLINE void BackwardRows(BlockSize size,
   if constexpr (kHalf) HalfVector::Write(half.sum, d_w2 + h + kWhole);
 }
 
-// The rows from h on, fewer than four vectors, with half a one or without.
+// The rows from h on: fewer than four vectors, and half a vector if kHalf.
 template <typename Scalar, bool kHalf>
 ERRMAP_INLINE void BackwardRest(BlockSize size,
                                 std::ptrdiff_t h,

@@ -9,9 +9,9 @@
 namespace errmap::models {
 namespace {
 
-// 2^r = 1 + r q(r) on [-1/2, 1/2]: q interpolates at Chebyshev nodes, worked
-// out in 50 digits, to 1.3e-17 and 7.8e-9. Adding kShift rounds u to a whole
-// number k whose biased exponent then stands in the lowest bits.
+// 2^r = 1 + r q(r) on [-1/2, 1/2]. q interpolates at Chebyshev nodes, computed
+// in 50 digits, to 1.3e-17 and 7.8e-9. Adding kShift rounds u to a whole number
+// k and puts its biased exponent into the lowest bits.
 template <typename Scalar>
 struct PowerOfTwo;
 template <>
@@ -48,16 +48,16 @@ struct PowerOfTwo<float> {
   static constexpr int kMantissa = 23;
 };
 
-// As many side by side as the registers hold: each waits for its own chain of
-// products.
+// Vectors side by side, as many as the registers hold: each alone would wait
+// for its own chain of products.
 #if defined(__AVX512F__)
 constexpr int kLogistics = 6;
 #else
 constexpr int kLogistics = 4;
 #endif
 
-// 1 / (1 + 2^u), u = -s log2(e) held where 2^u is a normal number; NaN goes
-// through.
+// 1 / (1 + 2^u), u = -s log2(e) clamped so that 2^u is a normal number. NaN
+// stays NaN.
 template <typename Scalar, int kCount>
 ERRMAP_INLINE void ApplyLogistic(Group<Scalar, kCount>* s) {
   using Power = PowerOfTwo<Scalar>;
@@ -120,8 +120,8 @@ ERRMAP_INLINE void LogisticGroup(const Scalar* s,
   }
 }
 
-// n a multiple of the lanes, or of half of them where heights may be. Where
-// kAlong, it is that of s + a t.
+// n is a multiple of the lanes, or of half of them if heights may be. If
+// kAlong, computes the function of s + a t.
 template <typename Scalar, bool kAlong>
 ERRMAP_INLINE void LogisticOfVectors(
     std::ptrdiff_t n, const Scalar* s, const Scalar* t, Scalar a, Scalar* y) {

@@ -7,7 +7,7 @@
 namespace errmap::models {
 namespace {
 
-// Nothing but the formulas, summed in order; the products as Eigen has them.
+// Only the formulas, summed in order; the products are those of Eigen.
 
 template <typename Scalar>
 using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;

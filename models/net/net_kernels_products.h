@@ -9,9 +9,9 @@
 namespace errmap::models {
 namespace {
 
-// A tile of the result, `kTall` vectors by `kWide` columns, stays in
-// registers while the inner dimension goes by, and nothing is packed: what nets
-// have is small enough for the first-level cache as it lies.
+// A tile of the result, `kTall` vectors by `kWide` columns, stays in registers
+// during the loop over the inner dimension. Nothing is packed: matrices of nets
+// are small enough for the first-level cache.
 
 // Sizes that fill the registers: 32 with AVX-512, else 16.
 #if defined(__AVX512F__)
@@ -26,8 +26,8 @@ constexpr int WidestOf(int) { return 4; }
 #endif
 
 // c (+)= a b over `inner` steps k: column k of a begins at a + k stride_a,
-// element (k, j) of b stands at b + k inner_b + j column_b, column j of c
-// begins at c + j stride_c.
+// element (k, j) of b is at b + k inner_b + j column_b, column j of c begins at
+// c + j stride_c.
 template <typename Scalar>
 struct Factors {
   std::ptrdiff_t inner;
@@ -40,8 +40,8 @@ struct Factors {
   std::ptrdiff_t stride_c;
 };
 
-// The half vectors of kWide columns, two columns to a vector where there are
-// two; `value(j)` is what column j is multiplied by.
+// The half vectors of kWide columns, two columns per vector if there are two;
+// `value(j)` is the factor of column j.
 template <typename Scalar, int kWide>
 struct HalfVectors {
   static constexpr int kPairs = kHasHalves ? kWide / 2 : 0;
@@ -79,7 +79,7 @@ struct HalfVectors {
   }
 };
 
-// kTall vectors, and half a one below them where kHalf.
+// kTall vectors, and half a vector below them if kHalf.
 template <typename Scalar, bool kAdd, int kTall, bool kHalf, int kWide>
 ERRMAP_INLINE void MultiplyTile(const Factors<Scalar>& f,
                                 std::ptrdiff_t row,
@@ -142,7 +142,7 @@ ERRMAP_INLINE void MultiplyColumns(const Factors<Scalar>& f,
   }
 }
 
-// The rows from `row` on that kTall vectors hold, and a half one.
+// The rows from `row` on that fill kTall vectors, and half a vector.
 template <typename Scalar, bool kAdd, int kTall, bool kHalf>
 void MultiplyRows(const Factors<Scalar>& f,
                   std::ptrdiff_t row,
@@ -156,7 +156,7 @@ void MultiplyRows(const Factors<Scalar>& f,
   MultiplyColumns<Scalar, kAdd, kTall, kHalf, 1>(f, row, columns, &column);
 }
 
-// The last `rest` vectors, fewer than kTallest, and a half one.
+// The last `rest` vectors, fewer than kTallest, and half a vector.
 template <typename Scalar, bool kAdd, bool kHalf>
 ERRMAP_INLINE void MultiplyRest(const Factors<Scalar>& f,
                                 std::ptrdiff_t row,

@@ -1,7 +1,7 @@
 #pragma once
 
-// Vectors as wide as the compiler options of this version allow: a part of
-// net_kernels_body.h, which says what may stand here.
+// Vectors as wide as the compiler options of this version allow. A part of
+// net_kernels_body.h, which says what this file may contain.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +14,7 @@
 namespace errmap::models {
 namespace {
 
-// The width of this version's vectors; wider ones would be cut up, badly.
+// The width of this version's vectors; the compiler splits wider ones badly.
 #if defined(__AVX512F__)
 constexpr std::ptrdiff_t kBytes = 64;
 #elif defined(__AVX2__)
@@ -42,7 +42,7 @@ template <typename Scalar>
 constexpr std::ptrdiff_t kLanes = kBytes /
                                   static_cast<std::ptrdiff_t>(sizeof(Scalar));
 static_assert(kVectorBytes % kBytes == 0);
-// Whether a height may end in half a vector.
+// True if a height may end in half a vector.
 constexpr bool kHasHalves = kPaddingBytes < kBytes;
 static_assert(kPaddingBytes % kBytes == 0 || kBytes == 2 * kPaddingBytes);
 
@@ -67,8 +67,8 @@ ERRMAP_INLINE Values Repeated(Scalar value) {
 template <typename Scalar, std::ptrdiff_t kCount>
 using Pack __attribute__((vector_size(kCount * sizeof(Scalar)))) = Scalar;
 
-// a b + c, rounded once where the machine can: asked for here, since the
-// compiler may not contract products and sums by itself (-ffp-contract=off).
+// a b + c, rounded once if the machine can. Explicit, since the compiler is not
+// allowed to contract products and sums by itself (-ffp-contract=off).
 #if defined(__FMA__)
 ERRMAP_INLINE Pack<double, 4> MultiplyAdd(Pack<double, 4> a,
                                           Pack<double, 4> b,
@@ -101,9 +101,9 @@ ERRMAP_INLINE Values MultiplyAdd(const Values& a,
 }
 #endif
 
-// Lane by lane the larger and the smaller one; b where it is NaN. Of a choice
-// the compiler would make a comparison and a blend. (Under a mask of all: the
-// unmasked ones begin with what GCC 12 calls uninitialised.)
+// The larger and the smaller one of each lane; b if it is NaN. A conditional
+// would be compiled to a comparison and a blend. (Masked by all ones: the
+// unmasked ones start from a value that GCC 12 calls uninitialised.)
 #if defined(__AVX512F__)
 ERRMAP_INLINE Vec<double> Larger(Vec<double> a, Vec<double> b) {
   return _mm512_maskz_max_pd(0xFF, a, b);
@@ -141,7 +141,7 @@ ERRMAP_INLINE Values Smaller(const Values& a, const Values& b) {
 }
 #endif
 
-// Half a vector; a vector's first one; a vector of one and zeros.
+// Half a vector; the first half of a vector; a vector of a half and zeros.
 template <typename Scalar>
 using Half = Pack<Scalar, kLanes<Scalar> / 2>;
 
@@ -237,7 +237,7 @@ ERRMAP_INLINE float Sum(const Pack<float, 16>& v) {
   return Sum(halves);
 }
 
-// A whole vector of a column of hidden quantities, or the half one at its end.
+// A whole vector of a column of hidden quantities, or half a one at its end.
 struct WholeVector {
   template <typename Scalar>
   static ERRMAP_INLINE Vec<Scalar> Read(const Scalar* from) {
@@ -263,14 +263,14 @@ struct HalfVector {
 using HalfVector = WholeVector;  // never used
 #endif
 
-// Vectors worked on side by side: one alone waits for its own chain of
+// Vectors processed side by side: one alone would wait for its own chain of
 // products.
 template <typename Scalar, int kCount>
 struct Group {
   Vec<Scalar> v[kCount];
 };
 
-// work(vector, h) over a column: WholeVector or HalfVector from row h on.
+// Calls work(vector, h) along a column: WholeVector or HalfVector from row h.
 template <typename Scalar, typename Work>
 ERRMAP_INLINE void ForColumn(std::ptrdiff_t height, Work work) {
   std::ptrdiff_t h = 0;

@@ -2,8 +2,8 @@
 
 #include "models/net/net_kernels.h"
 
-// The versions of models/net/net_kernels.h; AVX ones on x86-64 only, and only
-// to be called where the machine has those instructions.
+// The versions of models/net/net_kernels.h. Those for AVX exist on x86-64 only;
+// call them only on machines with these instructions.
 
 namespace errmap::models {
 

@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Index;
 
-// What a block reads and writes stays in the second-level cache, what a strip
-// does in the first-level one: its patterns and a hidden quantity.
+// Data of a block stay in the second-level cache, those of a strip in the
+// first-level one: its patterns and a hidden quantity.
 constexpr Index kBlockBytes = Index{128} << 10;
 constexpr Index kStripBytes = Index{48} << 10;
 

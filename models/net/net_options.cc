@@ -10,7 +10,7 @@ namespace errmap::models {
 namespace {
 
 constexpr double kDefaultWfactor = 1e-5;
-// Of a net in a view: as many as a vector of the widest kind holds in single
+// Nodes of a net in a view: as many as the widest vector holds in single
 // precision, which compares its wfactors.
 constexpr std::int64_t kFewNodes = 16;
 
@@ -56,7 +56,7 @@ std::string Contradiction(const NetOptions& options) {
   return "";
 }
 
-// Of every net.
+// Options of every net.
 OptionList<NetOptions> CommonList() {
   using Options = NetOptions;
   constexpr std::int64_t kMostNodes = 10'000;

@@ -20,7 +20,7 @@
 
 namespace errmap::models {
 
-/// Says of a number that inner hold-outs choose it.
+/// Marks a number as chosen on inner hold-outs.
 struct ByCrossValidation {};
 inline constexpr ByCrossValidation kByCrossValidation;
 
@@ -32,7 +32,7 @@ class GivenOrByCv {
   constexpr GivenOrByCv(ByCrossValidation /*by_cv*/) {}
 
   constexpr bool by_cv() const { return !value_.has_value(); }
-  /// Of one that is given.
+  /// Makes one that is given.
   constexpr explicit operator Value() const { return *value_; }
   bool operator==(const GivenOrByCv&) const = default;
 
@@ -40,12 +40,12 @@ class GivenOrByCv {
   std::optional<Value> value_;
 };
 
-// How a net is trained, one type for each method.
+// Training methods of a net, one type each.
 
 /// net:scg: fitting::ScaledConjugateGradient.
 struct ScgTraining {
   fitting::ScgVariant variant = fitting::ScgVariant::kMoller;
-  bool is_single = false;  // float in place of double
+  bool is_single = false;  // float instead of double
 
   bool operator==(const ScgTraining&) const = default;
 };
@@ -94,33 +94,33 @@ using NetMethod = std::variant<ScgTraining,
                                CeresTraining,
                                NloptTraining>;
 
-/// What wfactor draws towards 0.
+/// What wfactor shrinks towards 0.
 enum class Decay {
   kAll,      // every weight and bias, as in the report
-  kWeights,  // no bias: where the inputs lie costs nothing
+  kWeights,  // no bias: an offset of the inputs costs nothing
 };
 
-/// Which of several starts is taken: of lowest cost, or of least error on inner
+/// Rule to choose among several starts: lowest cost, or least error on inner
 /// hold-outs.
 enum class StartRule { kCost, kCrossValidation };
 
-/// A net of one hidden layer. What is left empty follows from the others
-/// (Resolved): a net in a view is to hold where it was not trained.
+/// A net with one hidden layer. Empty options follow from the others
+/// (Resolved), since a net in a view must hold beyond its training data.
 struct NetOptions {
   NetMethod method = ScgTraining{};
-  /// Nodes, 1 .. 10,000; empty: 20, in a view 16.
+  /// Number of nodes, 1 .. 10,000; empty: 20, in a view 16.
   std::optional<GivenOrByCv<std::int64_t>> hidden = {};
-  /// The wfactor of Eq. 20, 0 .. 1e6; empty: 1e-5, in a view by
+  /// wfactor of Eq. 20, 0 .. 1e6; empty: 1e-5, in a view chosen by
   /// cross-validation.
   std::optional<GivenOrByCv<double>> wfactor = {};
-  /// Empty: all, in a view the weights. net:lm and net:ceres have all alone.
+  /// Empty: all, in a view the weights. net:lm and net:ceres allow only all.
   std::optional<Decay> decay = {};
-  /// In place of a wfactor: the largest whose RMS residual on the training rows
-  /// is at most this, above 0, in the target's unit (Eq. 126-135).
+  /// Instead of a wfactor: takes the largest whose RMS residual on the training
+  /// rows is at most this, above 0, in the target's unit (Eq. 126-135).
   std::optional<double> discrepancy = {};
-  /// Goes down WfactorPath to its wfactor; empty: where a view's is chosen.
+  /// Goes down WfactorPath to its wfactor. Empty: if that of a view is chosen.
   std::optional<bool> path = {};
-  /// Limits of a fit, its path included; 1 .. 1e9. Empty: 1500, of net:lm 200,
+  /// Limit of a fit, including its path; 1 .. 1e9. Empty: 1500, for net:lm 200,
   /// in a view at most 500.
   std::optional<std::int64_t> iterations = {};
   /// 0 .. 1e12 (fitting::StoppingRules::cost_goal).
@@ -129,7 +129,7 @@ struct NetOptions {
   double gwgoal = fitting::StoppingRules().gradient_goal;
   InputScaling scale = InputScaling::kStandard;
   OutputFunction output = OutputFunction::kSigmoid;
-  double slope = 1.0;  // of the sigmoid, Eq. 12; 1e-3 .. 1e3
+  double slope = 1.0;  // slope of the sigmoid, Eq. 12; 1e-3 .. 1e3
   /// At least 1 (fitting::StoppingRules::evaluations).
   std::int64_t evaluations = fitting::StoppingRules().evaluations;
   /// 1e-6 .. 1e12 (fitting::StoppingRules::slow_ratio); empty: never stops.
@@ -137,41 +137,41 @@ struct NetOptions {
   /// 1 .. 1e9 (fitting::StoppingRules::progress_interval).
   std::int64_t nfreq = fitting::StoppingRules().progress_interval;
   std::optional<double> seconds = {};  // 1e-3 .. 1e12; empty: no limit
-  /// Of which one is taken, 1 .. 10,000; empty: 1.
+  /// Number of starts, of which one is taken, 1 .. 10,000; empty: 1.
   std::optional<std::int64_t> starts = {};
-  std::optional<StartRule> choose = {};  // of several starts; empty: kCost
-  /// Starts that are averaged, 1 .. 100; empty: 1, in a view 3 unless `starts`
+  std::optional<StartRule> choose = {};  // for several starts; empty: kCost
+  /// Number of starts averaged, 1 .. 100. Empty: 1, in a view 3 unless `starts`
   /// or `discrepancy` is given.
   std::optional<std::int64_t> members = {};
-  /// Of those it trains on, at least 100; kAllRows takes all. Time grows with
-  /// the rows, accuracy beyond these hardly.
+  /// Maximum number of training rows, at least 100; kAllRows uses all. Time
+  /// grows with the rows; accuracy beyond these hardly does.
   std::int64_t rows = 20'000;
   std::optional<ViewOptions> view = {};
-  bool clip = true;  // whether the map is guarded (Guards)
+  bool clip = true;  // true: the map is guarded (Guards)
 
   static constexpr std::int64_t kAllRows =
       std::numeric_limits<std::int64_t>::max();
 
   std::string_view type() const;
-  /// Throws std::invalid_argument naming option, value and range, or what
-  /// contradicts.
+  /// Throws std::invalid_argument naming option, value and range, or the
+  /// contradiction.
   void Validate() const;
   bool operator==(const NetOptions&) const = default;
 
-  /// With all that is empty filled in, but for wfactor beside discrepancy and
-  /// choose beside one start.
+  /// Returns the options with all empty ones filled in, except wfactor beside
+  /// discrepancy and choose beside one start.
   NetOptions Resolved() const;
 
-  // Of resolved ones:
+  // For resolved options:
   NetDesign design() const;
   fitting::StoppingRules stopping() const;
   bool tunes_hidden() const { return hidden->by_cv(); }
   bool tunes_wfactor() const { return wfactor && wfactor->by_cv(); }
-  /// The wfactor given; the default where it is found otherwise.
+  /// Returns the given wfactor; the default if it is found otherwise.
   double given_wfactor() const;
 };
 
-/// Throws as Validate. The recipe's name is `name` or, where that is empty,
+/// Throws like Validate. The recipe's name is `name`; if that is empty,
 /// SpecOf(options).
 std::unique_ptr<ModelRecipe> MakeRecipe(const NetOptions& options,
                                         std::string name = "");

@@ -6,24 +6,24 @@
 namespace errmap::models {
 
 /// A net's weights moving along directions. The inputs S = W1 X of the hidden
-/// nodes are linear in the first-layer weights, so along w + a p they are
-/// S + a T with T = P1 X: one product for a direction serves the curvature and
-/// every trial step, and one more gives the gradient at the step accepted.
+/// nodes are linear in the first-layer weights. Along w + a p they are S + a T
+/// with T = P1 X. One product per direction serves the curvature and every
+/// trial step; one more gives the gradient at the accepted step.
 ///
-/// S, T and the hidden outputs are kept while they fit the caches; for more
-/// patterns they are made again block by block, which is then no slower and
-/// needs no memory beyond the patterns. What is kept is renewed from the
-/// weights now and then, before the roundings of the steps add up.
+/// S, T and the hidden outputs are stored while they fit the caches. For more
+/// patterns they are recomputed block by block, which is then no slower and
+/// needs no memory besides the patterns. Stored values are renewed from the
+/// weights from time to time, before rounding errors accumulate.
 ///
-/// The caches are what this is short of: hidden outputs have one place, for
-/// trials too, and are made again where the point itself is asked for after
-/// one; S takes a step only when T is at hand anyway.
+/// To save cache, hidden outputs have one place, also for trials, and are
+/// recomputed if the point itself is needed after one. S takes a step only when
+/// T is at hand anyway.
 template <typename Scalar>
 class NetPath final : public fitting::Path<Scalar> {
  public:
   using Vector = fitting::VectorOf<Scalar>;
 
-  /// Starts at w (N). `problem` must outlive this.
+  /// Starts at w (N). `problem` must outlive this path.
   NetPath(const NetProblem<Scalar>& problem, const Vector& w);
 
   void SetDirection(const Vector& p) override;
@@ -39,13 +39,13 @@ class NetPath final : public fitting::Path<Scalar> {
     const Scalar* z;
   };
   Block At(Eigen::Index begin, Eigen::Index columns);
-  // From S: hidden outputs and outputs at the point itself, where kept.
+  // From S: hidden outputs and outputs at the point itself, if stored.
   void ReturnToPoint();
   void Forward(Eigen::Index begin, Eigen::Index columns);
-  // S at the point and T of a strip, where kept; then for all, it is done.
+  // S at the point and T of a strip, if stored; done once all strips are.
   void Prepare(Eigen::Index begin, Eigen::Index columns);
   void EndPreparation();
-  // Everything that is kept, from the weights.
+  // Renews everything stored from the weights.
   void Renew();
   template <typename Work>
   void ForEachBlock(Work work) const;
@@ -55,23 +55,23 @@ class NetPath final : public fitting::Path<Scalar> {
   Vector w_;
   Vector p_;
   Vector gradient_;
-  PackedWeights<Scalar> weights_;    // w; what is kept has no need of its w1
+  PackedWeights<Scalar> weights_;  // w; its w1 is not needed for stored values
   PackedWeights<Scalar> direction_;  // p
   PackedWeights<Scalar> trial_;      // w + a p
   GradientSum<Scalar> gradient_sum_;
-  // Of what bears decay:
+  // For the parameters with decay:
   double w_squared_ = 0.0;  // |w|^2
-  double w_along_ = 0.0;    // p'w, where it is found
+  double w_along_ = 0.0;    // p'w, if computed
   double p_squared_ = 0.0;  // |p|^2
   Scalar trial_a_ = 0;
   Scalar untaken_ = 0;  // S + this T is S at the point
   bool is_taken_ = true;
-  bool is_at_point_ = false;  // y and z are, not at a trial
+  bool is_at_point_ = false;  // y and z are of the point, not a trial
   bool has_trial_ = false;
   bool has_t_ = false;
   bool has_along_ = false;
   int accepted_ = 0;
-  // (height x P) where kept, else of one block.
+  // (height x P) if stored, else of one block.
   AlignedMatrix<Scalar> s_;
   AlignedMatrix<Scalar> t_;
   AlignedMatrix<Scalar> y_;

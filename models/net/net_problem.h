@@ -13,34 +13,34 @@
 
 namespace errmap::models {
 
-/// How sums and the logistic function are worked out.
+/// Arithmetic of sums and the logistic function.
 enum class NetArithmetic {
-  kFast,   // the widest vectors: a machine's own last digits
-  kPlain,  // as the formulas stand: the last digits of the 1995 program
+  kFast,   // widest vectors; last digits depend on the machine
+  kPlain,  // formulas as written; last digits of the 1995 program
 };
 
-/// Nodes of a one-hidden-layer net and the layout of its weight vector w:
-/// w1 (H x (I+1)) column by column, then w2 (J x (H+1)) likewise; the last
-/// column of each is the bias (NISTIR 5367, Eq. 14-17).
+/// Nodes of a one-hidden-layer net and the layout of its weight vector w: w1 (H
+/// x (I+1)) by columns, then w2 (J x (H+1)) likewise. The last column of each
+/// is the bias (NISTIR 5367, Eq. 14-17).
 struct NetShape {
   Eigen::Index inputs = 0;   // I
   Eigen::Index hidden = 0;   // H
   Eigen::Index outputs = 1;  // J
   OutputFunction output = OutputFunction::kSigmoid;
   double slope = 1.0;        // c of f(s) = 1 / (1 + e^(-c s)), Eq. 12; above 0
-  bool free_biases = false;  // wfactor counts no bias
+  bool free_biases = false;  // true: wfactor excludes biases
 
   Eigen::Index num_weights1() const { return hidden * (inputs + 1); }
   Eigen::Index num_weights() const {
     return num_weights1() + outputs * (hidden + 1);
   }
-  /// First place and number of the biases of each layer.
+  /// First index and number of the biases of each layer.
   std::array<std::pair<Eigen::Index, Eigen::Index>, 2> biases() const {
     return {{{hidden * inputs, hidden}, {num_weights() - outputs, outputs}}};
   }
 };
 
-/// Product of two weight vectors without what bears no decay.
+/// Returns the product of two weight vectors over the parameters with decay.
 template <typename Scalar>
 double DecayingProduct(const NetShape& shape,
                        const fitting::VectorOf<Scalar>& a,
@@ -55,13 +55,13 @@ double DecayingProduct(const NetShape& shape,
   return product;
 }
 
-/// Slope of the output nodes: that of `shape`, but 1 for linear ones.
+/// Returns the output nodes' slope: that of `shape`, 1 for linear ones.
 inline double OutputSlope(const NetShape& shape) {
   return shape.output == OutputFunction::kSigmoid ? shape.slope : 1.0;
 }
 
-/// Scaled patterns and the cost over them; what evaluations share. The slope c
-/// is multiplied into the patterns once, so that hidden nodes see slope 1.
+/// Scaled patterns and their cost, shared by evaluations. The slope c is
+/// multiplied into the patterns once, so hidden nodes have slope 1.
 template <typename Scalar>
 struct NetProblem {
   using Vector = fitting::VectorOf<Scalar>;
@@ -73,20 +73,20 @@ struct NetProblem {
   Vector weights;           // (P) of mean 1, or (0)
   Scalar decay = 0;         // wfactor / N
   Eigen::Index height = 0;  // H, padded
-  Eigen::Index block = 0;   // patterns whose sums are added at a time
-  Eigen::Index strip = 0;   // of these, worked on at a time
+  Eigen::Index block = 0;   // patterns summed at a time
+  Eigen::Index strip = 0;   // patterns of a block handled at a time
   const NetKernels<Scalar>* kernels = nullptr;
 
   Eigen::Index num_patterns() const { return patterns.cols(); }
   BlockSize Size(Eigen::Index columns) const {
     return {height, columns, shape.outputs};
   }
-  /// s = w1 X over the patterns from `begin` on, s (height x columns).
+  /// Computes s = w1 X from pattern `begin` on, s (height x columns).
   void Activate(const AlignedMatrix<Scalar>& w1,
                 Eigen::Index begin,
                 Eigen::Index columns,
                 Scalar* s) const;
-  /// work(begin, columns) for each strip of the patterns from `begin` on.
+  /// Calls work(begin, columns) for each strip of patterns from `begin` on.
   template <typename Work>
   void ForEachStrip(Eigen::Index begin, Eigen::Index columns, Work work) const {
     const Eigen::Index end = begin + columns;
@@ -96,7 +96,7 @@ struct NetProblem {
   }
 };
 
-/// A weight vector as the kernels want it; zeros in the padding.
+/// A weight vector in the layout of the kernels, with zeros in the padding.
 template <typename Scalar>
 struct PackedWeights {
   AlignedMatrix<Scalar> w1;        // (height x (I+1))
@@ -104,14 +104,14 @@ struct PackedWeights {
   fitting::VectorOf<Scalar> bias;  // (J)
 
   explicit PackedWeights(const NetProblem<Scalar>& problem);
-  /// From the vector w (N).
+  /// Copies from the vector w (N).
   void Pack(const NetShape& shape, const fitting::VectorOf<Scalar>& w);
-  /// sum = this as such a vector + a w (N).
+  /// Sets sum = this as such a vector + a w (N).
   void UnpackAndAdd(const NetShape& shape,
                     Scalar a,
                     const fitting::VectorOf<Scalar>& w,
                     fitting::VectorOf<Scalar>* sum) const;
-  /// This = base + a direction: what leads to the outputs, and all of it.
+  /// Set this = base + a direction: only the weights into the outputs, or all.
   void MoveSecond(const PackedWeights& base,
                   Scalar a,
                   const PackedWeights& direction);
@@ -120,9 +120,9 @@ struct PackedWeights {
             const PackedWeights& direction);
 };
 
-/// Adds the bias to o (J x columns), the sums into the output nodes of the
-/// patterns from `begin` on, and turns it into the outputs z (Eq. 17, 18).
-/// Returns the sum of the squared, weighted residuals.
+/// Adds the bias to o (J x columns), the sums into the output nodes from
+/// pattern `begin` on, and turns it into the outputs z (Eq. 17, 18). Returns
+/// the sum of squared, weighted residuals.
 template <typename Scalar>
 double Outputs(const NetProblem<Scalar>& problem,
                Eigen::Index begin,
@@ -130,7 +130,7 @@ double Outputs(const NetProblem<Scalar>& problem,
                const fitting::VectorOf<Scalar>& bias,
                Scalar* o);
 
-/// dE/do (J x columns) at the outputs z, less the decay.
+/// Computes dE/do (J x columns) at the outputs z, without the decay.
 template <typename Scalar>
 void OutputSlopes(const NetProblem<Scalar>& problem,
                   Eigen::Index begin,
@@ -138,9 +138,9 @@ void OutputSlopes(const NetProblem<Scalar>& problem,
                   const Scalar* z,
                   Scalar* d_output);
 
-/// Second derivative along a line of the sum of squares that Outputs returns,
-/// halved, from z and the first and second derivative of o (J x columns);
-/// `bias_step` (J) is still to be added to the first.
+/// Returns half the second derivative along a line of the sum of squares
+/// returned by Outputs, from z and the first and second derivatives of o (J x
+/// columns). `bias_step` (J) is yet to be added to the first.
 template <typename Scalar>
 double OutputCurvature(const NetProblem<Scalar>& problem,
                        Eigen::Index begin,
@@ -150,20 +150,20 @@ double OutputCurvature(const NetProblem<Scalar>& problem,
                        const Scalar* first,
                        const Scalar* second);
 
-/// Gathers dE/dw over blocks.
+/// Accumulates dE/dw over blocks.
 template <typename Scalar>
 class GradientSum {
  public:
   explicit GradientSum(const NetProblem<Scalar>& problem);
   void Clear();
-  /// Adds the patterns from `begin` on, from their y (height x columns) and
+  /// Adds the patterns from `begin` on, given their y (height x columns) and
   /// outputs z (J x columns).
   void Add(Eigen::Index begin,
            Eigen::Index columns,
            const Scalar* y,
            const Scalar* z,
            const PackedWeights<Scalar>& weights);
-  /// dE/dw (N) with the decay of `w`.
+  /// Returns dE/dw (N), including the decay of `w`.
   void Finish(const fitting::VectorOf<Scalar>& w,
               fitting::VectorOf<Scalar>* gradient) const;
 
@@ -175,7 +175,7 @@ class GradientSum {
   fitting::VectorOf<Scalar> d_output_;  // (J * block)
 };
 
-/// E from the sum of weighted squares and |w|^2.
+/// Returns E from the sum of weighted squares and |w|^2.
 template <typename Scalar>
 double Cost(const NetProblem<Scalar>& problem,
             double sum_of_squares,

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -22,6 +21,7 @@
 #include "models/net/training_sample.h"
 #include "models/option_list.h"
 #include "models/shared_work.h"
+#include "stats/indices.h"
 
 namespace errmap::models {
 namespace {
@@ -48,8 +48,8 @@ std::int64_t Share(std::int64_t iterations, std::int64_t parts) {
   return (iterations + parts - 1) / parts;
 }
 
-// Which wfactor and which view err least shows in single precision, too, in
-// half the time. Null where the method has none, or all is in it.
+// Single precision suffices to compare wfactors and views, in half the time.
+// Null if the method has none, or all is in it.
 std::shared_ptr<const NetTrainer> InSinglePrecision(
     const NetOptions& options, const fitting::StoppingRules& rules) {
   const auto* scg = std::get_if<ScgTraining>(&options.method);
@@ -140,7 +140,7 @@ class OneLayerRecipe final : public NetRecipe {
                                : sample;
     const NetRows rows = ScaleRows(fixed.design_, viewed);
     const ModelDescription description = fitted.model->Describe();
-    // Of averaged starts the first speaks for the others.
+    // The first of the averaged starts represents the others.
     const auto* blend = std::get_if<BlendForm>(&description);
     const NetForm& form = blend != nullptr
                               ? std::get<NetForm>(blend->members.front().form)
@@ -209,14 +209,8 @@ class OneLayerRecipe final : public NetRecipe {
     return fitted;
   }
 
-  static std::vector<Index> AllColumns(Index count) {
-    std::vector<Index> columns(static_cast<std::size_t>(count));
-    std::iota(columns.begin(), columns.end(), Index{0});
-    return columns;
-  }
-
   static std::vector<TrainedInput> DescribeAllInputs(const Dataset& rows) {
-    return DescribeInputs(rows, AllColumns(rows.num_inputs()));
+    return DescribeInputs(rows, stats::AllIndices(rows.num_inputs()));
   }
 
   static Dataset Sample(const Dataset& rows, Index most) {
@@ -286,7 +280,8 @@ class OneLayerRecipe final : public NetRecipe {
                      const TunedNet& tuned,
                      const FitContext& context,
                      FittedModel* fitted) const {
-    const std::vector<Index> columns = AllColumns(rows.training.shape.inputs);
+    const std::vector<Index> columns =
+        stats::AllIndices(rows.training.shape.inputs);
     std::vector<std::uint64_t> seeds;
     for (std::int64_t k = 0; k < *options_.members; ++k) {
       seeds.push_back(SeedOfStart(context.seed, k));
@@ -307,12 +302,12 @@ class OneLayerRecipe final : public NetRecipe {
     }
     fitted->model = std::make_shared<AveragedModel>(
         static_cast<Index>(columns.size()), "equal", std::move(members));
-    // What the first start did stands for all; each is in `starts`.
+    // The summary is that of the first start; each is in `starts`.
     fitted->summary = std::move(minima.front().summary);
   }
 
-  // What inner hold-outs choose on rows as they stand; where nothing is to be
-  // chosen but is to be `judged`, its error. `rival`: that of another view.
+  // Returns the choices of inner hold-outs on rows as they are. If there is no
+  // choice but it is to be `judged`, its error. `rival`: that of another view.
   TunedNet Tune(const Dataset& training,
                 bool judged,
                 double rival,
@@ -414,8 +409,8 @@ class OneLayerRecipe final : public NetRecipe {
     return std::move(minima[best]);
   }
 
-  // The start that errs least on inner hold-outs; `by_cost` where none of them
-  // could be judged.
+  // Returns the start with the least error on inner hold-outs; `by_cost` if
+  // none of them could be judged.
   static std::size_t ChooseByRmse(const Dataset& training,
                                   const std::vector<std::uint64_t>& seeds,
                                   const std::vector<double>& rmse,

@@ -7,18 +7,18 @@
 
 namespace errmap::models {
 
-/// The net that comparisons offer beside the report's, which is trained past
-/// what unseen groups bear: "net:scg:view=auto".
+/// The net that comparisons offer besides the report's, which is overtrained
+/// for unseen groups: "net:scg:view=auto".
 inline NetOptions NetInViews() { return {.view = ViewOptions()}; }
 
-/// What a net's recipe can do besides fitting.
+/// Further operations of a net's recipe.
 class NetRecipe : public ModelRecipe {
  public:
-  /// This recipe with every choice of `fitted`, one of its fits, made fixed:
-  /// its hidden nodes, its wfactor, and one start, whose seed the caller gives.
+  /// Returns this recipe with the choices of `fitted`, one of its fits, fixed:
+  /// hidden nodes, wfactor, and one start, with the seed given by the caller.
   virtual std::unique_ptr<NetRecipe> WithChoicesOf(
       const FittedModel& fitted) const = 0;
-  /// Of `fitted`, one of its fits to `training`: net_effective_parameters.h.
+  /// Effective parameters of a fit of it: see net_effective_parameters.h.
   virtual double EffectiveParametersOf(const FittedModel& fitted,
                                        const data::Dataset& training) const = 0;
 };

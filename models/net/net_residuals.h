@@ -10,18 +10,18 @@
 namespace errmap::models {
 
 /// A net's objective as a sum of squares: with P patterns, J outputs and N
-/// weights E = 1/2 |r|^2 + 1/2 (wfactor / N) |w|^2, and
+/// weights, E = 1/2 |r|^2 + 1/2 (wfactor / N) |w|^2, and
 ///   r_(j P + p) = sqrt(row weight_p / (P J)) (target_jp - z_jp).
 ///
-/// Per pair of outputs J J' is, with k_jp = dr_jp / do_jp, w2_j the weights
-/// into output j and X the patterns with the bias row,
+/// For each pair of outputs, J J' is, with k_jp = dr_jp / do_jp, w2_j the
+/// weights into output j and X the patterns with the bias row,
 ///   (A_j A_l') .* (X'X),  A_j (P x H) = diag(k_j) (y (1 - y))' diag(w2_j),
-/// plus, for j = l, B_j B_j' of the second layer, B_j (P x (H+1)) =
-/// diag(k_j) [y' 1]: products of (P x H) matrices, where J is (P J x N) (slopes
+/// plus, for j = l, B_j B_j' of the second layer, B_j (P x (H+1)) = diag(k_j)
+/// [y' 1]. These are products of (P x H) matrices, while J is (P J x N) (slopes
 /// c as in NetProblem).
 class NetResiduals final : public fitting::ResidualFunction {
  public:
-  /// `problem` must outlive this and what is made by it.
+  /// `problem` must outlive this object and all that it makes.
   explicit NetResiduals(const NetProblem<double>& problem);
 
   Eigen::Index num_residuals() const override {
@@ -35,11 +35,11 @@ class NetResiduals final : public fitting::ResidualFunction {
 
  private:
   const NetProblem<double>& problem_;
-  // Of one block of patterns.
+  // For one block of patterns.
   mutable PackedWeights<double> weights_;
   mutable AlignedMatrix<double> hidden_;
   mutable AlignedMatrix<double> outputs_;
-  // X'X (P x P), once it is asked for.
+  // X'X (P x P), once needed.
   mutable std::shared_ptr<const Eigen::MatrixXd> inner_products_;
 };
 

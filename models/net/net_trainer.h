@@ -9,8 +9,8 @@
 
 namespace errmap::models {
 
-/// What a net is fitted to: scaled inputs (P x I), scaled targets (P x J),
-/// weights of the rows (P) or (0), and the initial weights of the net (N).
+/// Data of a net's training: scaled inputs (P x I), scaled targets (P x J), row
+/// weights (P) or (0), and the initial weights of the net (N).
 struct NetTraining {
   NetShape shape;
   Eigen::MatrixXd inputs;
@@ -18,10 +18,10 @@ struct NetTraining {
   Eigen::VectorXd row_weights;
   double wfactor = 0.0;
   Eigen::VectorXd initial_weights;
-  std::uint64_t seed = 1;  // of a method that draws at random
+  std::uint64_t seed = 1;  // for methods that draw at random
 };
 
-/// One way of minimising a net's objective; immutable.
+/// A method to minimise a net's objective; immutable.
 class NetTrainer {
  public:
   virtual ~NetTrainer() = default;
@@ -29,7 +29,7 @@ class NetTrainer {
                                  const fitting::RunControl& run) const = 0;
 };
 
-/// The trainer of a method that stops by these rules.
+/// Returns the trainer of `method` with these stopping rules.
 std::unique_ptr<NetTrainer> MakeNetTrainer(
     const NetMethod& method, const fitting::StoppingRules& stopping);
 

@@ -11,18 +11,19 @@
 #include <fmt/format.h>
 
 #include "models/out_of_reach.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
 
 using Eigen::Index;
 
-// What was tried and its held-out error, simplest first: the most nodes last,
-// the largest wfactor first.
+// Values tried and their held-out errors, simplest first: by rising number of
+// nodes, or by falling wfactor.
 template <typename Value>
 using Scores = std::vector<std::pair<Value, double>>;
 
-// The first of the lowest errors; end() where there is none.
+// Returns the first of the lowest errors; end() if there is none.
 template <typename Value>
 auto Lowest(const Scores<Value>& scores) {
   auto best = scores.end();
@@ -159,7 +160,7 @@ class Tuner {
     std::tie(wfactor_, wfactor_rmse_) = *best;
   }
 
-  // Whether the brief fits by which the wfactor was chosen are long enough.
+  // Checks if the brief fits that chose the wfactor are long enough.
   void ChooseIterations() {
     const std::vector<double> full =
         InnerHoldoutRmse(design_,
@@ -221,13 +222,13 @@ class Tuner {
   double wfactor_;
   bool along_path_;
   double hopeless_;  // an RMSE
-  double hidden_rmse_ = std::numeric_limits<double>::quiet_NaN();
-  double wfactor_rmse_ = std::numeric_limits<double>::quiet_NaN();
+  double hidden_rmse_ = stats::kNaN;
+  double wfactor_rmse_ = stats::kNaN;
   Scores<std::int64_t> by_hidden_;
   Scores<double> by_wfactor_;  // with hidden_ nodes
-  // Of the wfactor chosen by brief fits.
+  // For the wfactor chosen by brief fits.
   std::int64_t iterations_ = 0;  // 0: nothing to choose
-  double iterations_rmse_ = std::numeric_limits<double>::quiet_NaN();
+  double iterations_rmse_ = stats::kNaN;
   Scores<std::int64_t> by_iterations_;
 };
 

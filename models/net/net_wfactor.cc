@@ -3,9 +3,9 @@
 namespace errmap::models {
 namespace {
 
-// A fit that a limit has ended goes on from where it was until another run
-// lowers the cost by no more than a hundredth: its misfit would otherwise tell
-// how long it ran rather than what alpha is.
+// Continues a fit ended by a limit until another run lowers the cost by at most
+// a hundredth. Otherwise its misfit would depend on the length of the run
+// instead of on alpha.
 fitting::Minimum TrainUntilSettled(const NetTrainer& trainer,
                                    const fitting::RunControl& run,
                                    NetTraining* training) {

@@ -5,8 +5,8 @@
 
 namespace errmap::models {
 
-/// The largest wfactor whose fit has an RMS residual of at most `delta`, in the
-/// target's unit, on the training rows.
+/// Returns the largest wfactor whose fit has an RMS residual of at most
+/// `delta`, in the target's unit, on the training rows.
 fitting::DiscrepancyChoice ChooseWfactorByDiscrepancy(
     const NetRows& rows,
     const NetTrainer& trainer,

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <stdexcept>
 
+#include "stats/indices.h"
 #include "stats/random.h"
 
 namespace errmap::models {
@@ -48,9 +48,7 @@ std::vector<std::vector<Index>> RowsByGroup(const data::Grouping& groups) {
 std::vector<Index> StratifiedRows(Index count, Index most) {
   if (most < 1) throw std::invalid_argument("StratifiedRows: no row is wanted");
   if (count > most) return OneOfEachStretch(count, most);
-  std::vector<Index> rows(static_cast<std::size_t>(count));
-  std::iota(rows.begin(), rows.end(), Index{0});
-  return rows;
+  return stats::AllIndices(count);
 }
 
 std::vector<Index> StratifiedRows(const data::Dataset& training, Index most) {

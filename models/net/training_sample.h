@@ -8,16 +8,16 @@
 
 namespace errmap::models {
 
-/// At most `most` rows of `training`, ascending, that stand for all of them;
-/// all where they are no more. Whole groups, one by chance out of each stretch
-/// of groups in order of the file, while enough of them fit to stand for the
-/// others; else one row by chance out of each stretch of rows: regular steps
-/// might meet the same positions again and again. The draw depends on nothing
-/// but `training` and `most`. Throws std::invalid_argument where most < 1.
+/// Returns at most `most` representative rows of `training`, ascending; all if
+/// there are no more. Takes whole groups if enough of them fit: one drawn from
+/// each stretch of groups in file order. Else takes one row drawn from each
+/// stretch of rows, since regular steps might hit the same positions
+/// repeatedly. The draw depends only on `training` and `most`. Throws
+/// std::invalid_argument if most < 1.
 std::vector<Eigen::Index> StratifiedRows(const data::Dataset& training,
                                          Eigen::Index most);
 
-/// The same of `count` rows without groups.
+/// Returns the same for `count` rows without groups.
 std::vector<Eigen::Index> StratifiedRows(Eigen::Index count, Eigen::Index most);
 
 }  // namespace errmap::models

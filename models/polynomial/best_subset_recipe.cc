@@ -39,10 +39,6 @@ class BestSubsetRecipe final : public PolynomialRecipe {
     return InEffect(options_);
   }
 
-  std::optional<Index> NumCoefficients(const Dataset&) const override {
-    return std::nullopt;
-  }
-
   FittedModel Fit(const Dataset& training,
                   const FitContext& context) const override {
     if (training.num_rows() < 3) {
@@ -122,26 +118,22 @@ class BestSubsetRecipe final : public PolynomialRecipe {
                  RegressionReport* report) const {
     const auto repetitions = static_cast<int>(options_.bootstrap);
     if (repetitions == 0 || !rows.are_observations()) return;
-    const Dataset& training = dictionary.design.dataset();
     report->bootstrap = repetitions;
-    report->bootstrap_unit =
-        training.has_groups() ? training.groups().column : "row";
-    ReportInclusion(dictionary,
-                    best.chosen,
-                    BootstrapInclusion(
-                        rows,
-                        training.groups().codes,
-                        repetitions,
-                        [&](const fitting::SelectionProblem& drawn) {
-                          return fitting::SelectBestSubset(drawn,
-                                                           dictionary.include,
-                                                           dictionary.excluded,
-                                                           rules_,
-                                                           context.stop)
-                              .chosen;
-                        },
-                        context),
-                    report);
+    ReportInclusion(
+        dictionary,
+        rows,
+        dictionary.design.dataset().groups().codes,
+        best.chosen,
+        [&](const fitting::SelectionProblem& drawn) {
+          return fitting::SelectBestSubset(drawn,
+                                           dictionary.include,
+                                           dictionary.excluded,
+                                           rules_,
+                                           context.stop)
+              .chosen;
+        },
+        context,
+        report);
   }
 
   BestSubsetOptions options_;

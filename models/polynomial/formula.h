@@ -8,7 +8,7 @@
 
 namespace errmap::models {
 
-/// A term as it is written: factors with their powers.
+/// A term as written: factors with their powers.
 struct NamedTerm {
   struct Factor {
     std::string input;
@@ -19,26 +19,26 @@ struct NamedTerm {
   std::vector<Factor> factors;
   std::size_t position = 0;  // 1-based, of its first character
 
-  /// The same term, wherever it stands.
+  /// Compares the terms, not their positions.
   bool operator==(const NamedTerm& other) const {
     return factors == other.factors;
   }
 };
 
-/// Terms as ParseTerms reads them.
+/// Terms as parsed by ParseTerms.
 std::string TermsText(const std::vector<NamedTerm>& terms);
 
-/// Reads a sum of products of powers, "position_mm+t1_degC^2*t2_degC", in
-/// ordinary arithmetic (`^` is a power; there is no crossing as in R). Names
-/// other than letters, digits, `_` and `.` stand in double quotes. Throws
-/// std::invalid_argument with the position (1-based, in characters) of what
-/// cannot be read, naming `what` ("formula").
+/// Parses a sum of products of powers, "position_mm+t1_degC^2*t2_degC", as
+/// ordinary arithmetic (`^` is a power, not R's crossing). Names with
+/// characters other than letters, digits, `_` and `.` must be in double quotes.
+/// Throws std::invalid_argument with the position (1-based, in characters) of
+/// the first error, naming `what` ("formula").
 std::vector<NamedTerm> ParseTerms(std::string_view text,
                                   const std::string& what);
 
-/// Powers of the inputs `names` in each term. Throws std::invalid_argument
-/// naming an input that is not there and those that are, or a term given
-/// twice.
+/// Returns the powers of the inputs `names` in each term. Throws
+/// std::invalid_argument if a term is given twice or an input does not exist;
+/// the message names it and those that do.
 std::vector<TermPowers> ResolveTerms(const std::vector<NamedTerm>& terms,
                                      const std::vector<std::string>& names,
                                      const std::string& what);

@@ -1,8 +1,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "models/history/fit_in_view.h"
 #include "models/history/view_options.h"
 #include "models/option_list.h"
@@ -10,6 +8,7 @@
 #include "models/polynomial/polynomial_fit.h"
 #include "models/polynomial/polynomial_options.h"
 #include "models/regression_report.h"
+#include "stats/indices.h"
 
 namespace errmap::models {
 namespace {
@@ -17,8 +16,8 @@ namespace {
 using data::Dataset;
 using Eigen::Index;
 
-// The terms that are written down. They are products of the inputs as they
-// are, moved only where that leaves the set of maps the same.
+// The terms as written: products of the inputs as they are, centred only if
+// that leaves the set of maps the same.
 class FormulaRecipe final : public PolynomialRecipe {
  public:
   FormulaRecipe(const FormulaOptions& options, std::string name)
@@ -57,9 +56,8 @@ class FormulaRecipe final : public PolynomialRecipe {
 
   FittedModel Fit(const Dataset& training,
                   const FitContext& context) const override {
-    if (!options_.view) return FitRows(training, context);
     return FitInView(training,
-                     *options_.view,
+                     options_.view,
                      context,
                      [&](const Dataset& rows, const FitContext& inner) {
                        return FitRows(rows, inner);
@@ -75,11 +73,8 @@ class FormulaRecipe final : public PolynomialRecipe {
     }
     const std::vector<TermPowers> terms =
         ResolveTerms(terms_, names, "formula");
-    std::vector<Index> all;
-    for (std::size_t i = 0; i < terms.size(); ++i) {
-      all.push_back(static_cast<Index>(i));
-    }
-    const UsedTerms used = KeepUsedInputs(terms, all);
+    const UsedTerms used =
+        KeepUsedInputs(terms, stats::AllIndices(std::ssize(terms)));
     return FitTerms(training, used.inputs, used.terms, context, form_);
   }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "fitting/matrix_product.h"
 #include "models/polynomial/polynomial_fit.h"
 #include "models/polynomial/polynomial_model.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
@@ -24,7 +24,6 @@ using Eigen::VectorXd;
 using fitting::CrossProducts;
 using fitting::Penalty;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr Index kBlockRows = 4096;
 
 void ClipColumns(const VectorXd& min,
@@ -37,8 +36,8 @@ void ClipColumns(const VectorXd& min,
   }
 }
 
-// Whether a term bends an input that only grows: nothing supports a bend where
-// such an input has never been.
+// Returns true if a term bends an input that only grows: nothing supports a
+// bend beyond its values so far.
 bool BendsWhatGrows(const TermPowers& powers, const ViewedRows& viewed) {
   if (std::accumulate(powers.begin(), powers.end(), 0) < 2) return false;
   for (std::size_t i = 0; i < powers.size(); ++i) {
@@ -106,10 +105,10 @@ PolynomialDesign MakeDesign(const ViewedRows& viewed,
 }  // namespace
 
 RowRanges::RowRanges(Index inputs)
-    : input_min(VectorXd::Constant(inputs, kNaN)),
-      input_max(VectorXd::Constant(inputs, kNaN)),
-      error_min(kNaN),
-      error_max(kNaN) {}
+    : input_min(VectorXd::Constant(inputs, stats::kNaN)),
+      input_max(VectorXd::Constant(inputs, stats::kNaN)),
+      error_min(stats::kNaN),
+      error_max(stats::kNaN) {}
 
 void RowRanges::Include(const MatrixXd& inputs, const VectorXd& targets) {
   RowRanges rows(inputs.cols());
@@ -120,7 +119,7 @@ void RowRanges::Include(const MatrixXd& inputs, const VectorXd& targets) {
   Include(rows);
 }
 
-// Of a number and NaN std::fmin and std::fmax take the number.
+// std::fmin and std::fmax of a number and NaN return the number.
 void RowRanges::Include(const RowRanges& other) {
   for (Index j = 0; j < input_min.size(); ++j) {
     input_min[j] = std::fmin(input_min[j], other.input_min[j]);

@@ -31,7 +31,7 @@ std::vector<SetToTry> ServingTerms(const std::vector<bool>& is_position,
                                    std::optional<int> degree) {
   // More terms than this are left to those who ask for them.
   constexpr Index kMostCandidateTerms = 1500;
-  // Of these all products are few; beside a position kAxis has those that
+  // So few inputs have few products; beside a position kAxis has those that
   // matter.
   constexpr Index kFewForCubes = 4;
   constexpr Index kFewForSquares = 12;
@@ -57,8 +57,8 @@ std::vector<SetToTry> ServingTerms(const std::vector<bool>& is_position,
   return serving;
 }
 
-// Fits penalized maps to views of some rows, shared with other recipes where
-// they want the same.
+// Fits penalized maps to views of some rows, shared with other recipes that
+// need the same.
 class BasisJudge {
  public:
   BasisJudge(const BasisOptions& options,
@@ -108,7 +108,7 @@ class BasisJudge {
   }
 
  private:
-  // What others may want as well depends on the words of its key alone.
+  // A result can be shared if it depends only on the words of its key.
   bool is_shareable() const {
     return context_.shared != nullptr && options_.exclude.empty() &&
            !rule_.strength && !rule_.one_standard_error;
@@ -158,8 +158,8 @@ class BasisJudge {
         key, [&] { return FitAll(viewed, basis, wanted); });
   }
 
-  // What only grows tells most by how sessions differ, and a drift is no offset
-  // of each.
+  // An input that only grows acts mostly between sessions, and a drift is not
+  // an offset of each.
   double BetweenIn(const ViewedRows& viewed) const {
     constexpr double kInViews = 0.25;
     if (!folds_.whole_sessions) return 1.0;

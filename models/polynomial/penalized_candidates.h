@@ -11,11 +11,11 @@
 
 namespace errmap::models {
 
-/// What a SPEC may say of a basis: views, terms, degree, centred, exclude,
-/// clip and between.
+/// Options of a basis in a SPEC: views, terms, degree, centred, exclude, clip
+/// and between.
 OptionList<BasisOptions> BasisOptionList();
 
-/// A family over one basis, judged.
+/// A family over one basis, with its held-out error.
 struct BasisCandidate {
   std::shared_ptr<const ViewedRows> viewed;
   std::shared_ptr<const PenalizedFit> fit;
@@ -26,9 +26,9 @@ struct BasisCandidate {
   std::string label;  // "ridge, history+zero, squares"
 };
 
-/// Every penalty over every basis of `options` that these rows allow, in a
-/// fixed order; what context.shared has is taken from there. Throws
-/// std::invalid_argument where no basis is possible.
+/// Returns every penalty over every basis of `options` that these rows allow,
+/// in a fixed order; takes from context.shared what is there. Throws
+/// std::invalid_argument if no basis is possible.
 std::vector<BasisCandidate> JudgeBases(
     const data::Dataset& training,
     const BasisOptions& options,

@@ -11,6 +11,7 @@
 #include "models/out_of_reach.h"
 #include "models/polynomial/polynomial_fit.h"
 #include "models/polynomial/polynomial_model.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
@@ -21,7 +22,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using fitting::Penalty;
 
-// What the inner hold-outs say of each strength tried.
+// Results of the inner hold-outs for each strength tried.
 class StrengthSearch {
  public:
   StrengthSearch(const SummedBasis& rows, Penalty penalty, double indifference)
@@ -84,7 +85,7 @@ class StrengthSearch {
   // By falling strength: the key is its negative.
   using Results = std::map<double, InnerError>;
 
-  // Of equal errors the stronger penalty.
+  // Returns the lowest error; of equal ones the stronger penalty.
   Results::const_iterator Lowest() const {
     return std::ranges::min_element(judged_, {}, [](const auto& judged) {
       return judged.second.mean_square;
@@ -104,9 +105,9 @@ std::vector<double> EverySecond(const std::vector<double>& values) {
   return taken;
 }
 
-// Each strength of a ridge costs a factorisation: the falling `grid` first,
-// then the strengths around the best; no further where the first few leave the
-// basis behind.
+// Each strength of a ridge costs a factorisation. Judges the falling `grid`
+// first, then the strengths around the best; stops early if the first few leave
+// the basis behind.
 void SearchRidge(const std::vector<double>& grid,
                  double promising,
                  StrengthSearch* search) {
@@ -120,9 +121,9 @@ void SearchRidge(const std::vector<double>& grid,
   }
 }
 
-// What is left of a term that stops to bend is its slope at the offset, which
-// must lie where the input was trained: an input with another, as of terms that
-// are not centred, bends everywhere. `columns`: of the inputs, in the view.
+// A term beyond its bend keeps its slope at the offset, which must lie in the
+// trained range. An input with another offset, as in terms that are not
+// centred, bends everywhere. `columns`: of the inputs, in the view.
 std::vector<BendRange> BendsWithin(const ViewedRows& viewed,
                                    const std::vector<Index>& columns,
                                    const std::vector<TrainedInput>& inputs,
@@ -150,7 +151,7 @@ std::shared_ptr<const PenalizedFit> FitPenalty(const SummedBasis& basis,
                                                double promising) {
   PenalizedCandidate candidate;
   candidate.penalty = penalty;
-  candidate.held_out_rmse = std::numeric_limits<double>::quiet_NaN();
+  candidate.held_out_rmse = stats::kNaN;
   const fitting::PenalizedPath path = basis.PathOf(penalty, std::nullopt);
   if (rule.strength) {
     candidate.strength = *rule.strength;

@@ -46,10 +46,6 @@ class PenalizedRecipe final : public PolynomialRecipe {
     return "inputs: there is nothing to penalise";
   }
 
-  std::optional<Index> NumCoefficients(const Dataset&) const override {
-    return std::nullopt;
-  }
-
   FittedModel Fit(const Dataset& training,
                   const FitContext& context) const override {
     if (training.num_rows() < 3) {
@@ -58,7 +54,7 @@ class PenalizedRecipe final : public PolynomialRecipe {
     }
     const InnerFolds folds =
         MakeInnerFolds(training, context, DealFor(options_.basis));
-    // What the penalty is chosen over; one that is given, over nothing.
+    // The folds that choose the penalty; none if it is given.
     const std::string over = options_.penalty.strength ? "" : folds.text;
     const std::vector<BasisCandidate> candidates = JudgeBases(training,
                                                               options_.basis,

@@ -169,8 +169,8 @@ std::string EquationText(const PolynomialForm& form,
   std::vector<std::string> names;
   for (const TrainedInput& input : inputs) names.push_back(input.column.name);
   const std::vector<PolynomialTerm> terms = ExpandToPhysicalUnits(form);
-  // Sum of the sizes of the terms where they are largest: a coefficient of d
-  // digits errs by half a unit of the last.
+  // Sum of the largest sizes of the terms: a coefficient of d digits errs by
+  // half a unit of the last.
   double size = 0.0;
   for (const PolynomialTerm& term : terms) {
     double largest = std::abs(term.coefficient);

@@ -65,7 +65,7 @@ ColumnScaling PolynomialScaling(const Dataset& training,
   }
   const auto count = static_cast<Index>(inputs.size());
   ColumnScaling scaling{VectorXd(count), VectorXd(count)};
-  // Of very many terms the set alone would take seconds.
+  // With very many terms the set alone would take seconds.
   const std::set<TermPowers> set =
       centring == Centring::kHarmless
           ? std::set<TermPowers>(terms.begin(), terms.end())

@@ -16,16 +16,16 @@ namespace errmap::models {
 
 struct FitContext;
 
-/// Scaling of the columns `inputs` of `training` for `terms`: each input's
-/// largest size, after centring or not, becomes 1 (its sd, where it is
+/// Returns the scaling of the columns `inputs` of `training` for `terms`: it
+/// makes each input's largest size, after any centring, 1 (its sd, if it is
 /// standardised).
 ColumnScaling PolynomialScaling(const data::Dataset& training,
                                 const std::vector<Eigen::Index>& inputs,
                                 const std::vector<TermPowers>& terms,
                                 Centring centring);
 
-/// Terms over the rows of a data set, formed when they are needed. References
-/// must outlive it.
+/// Terms over the rows of a data set, computed when needed. The references must
+/// outlive it.
 class PolynomialDesign {
  public:
   PolynomialDesign(const data::Dataset& dataset,
@@ -42,20 +42,20 @@ class PolynomialDesign {
   const ColumnScaling& scaling() const { return scaling_; }
   const std::vector<TermPowers>& terms() const { return terms_; }
   std::vector<std::string> TermNames() const;
-  /// One of them: of very many, all take a second.
+  /// Returns one of them; with very many terms, all take a second.
   std::string NameOf(Eigen::Index term) const;
 
-  /// Scaled inputs (n x p).
+  /// Returns the scaled inputs (n x p).
   Eigen::MatrixXd ScaledInputs() const;
-  /// Terms (b x k) of these rows.
+  /// Return the terms (b x k) of these rows.
   Eigen::MatrixXd Rows(const std::vector<Eigen::Index>& rows) const;
   Eigen::MatrixXd Rows(Eigen::Index first, Eigen::Index count) const;
 
-  /// Intercept's column, terms (n x (k + 1)) and response (n), formed in 106
-  /// bits from the decimals that the data are roundings of.
+  /// Returns intercept's column and terms (n x (k + 1)) and response (n) in 106
+  /// bits, from the decimals that the data are roundings of.
   fitting::ExtendedSystem Exact() const;
-  /// Length of what rounding of the data to double may do to a combination of
-  /// the intercept's column and the terms (k + 1), weights worked in.
+  /// Returns the length of the effect of rounding the data to double on a
+  /// combination (k + 1) of the intercept's column and the terms, with weights.
   double Noise(const Eigen::VectorXd& combination) const;
 
  private:
@@ -67,43 +67,43 @@ class PolynomialDesign {
   std::vector<TermPowers> terms_;
 };
 
-/// What least squares needs of a design: its rows, or triangles that stand for
+/// Input of least squares from a design: its rows, or triangles that represent
 /// them (fitting/least_squares/triangular_reduction.h).
 struct DesignRows {
   Eigen::MatrixXd terms;      // (r x k)
   Eigen::VectorXd response;   // (r)
   Eigen::VectorXd weights;    // (r) or (0)
-  Eigen::VectorXd intercept;  // (r); (0) where rows are observations
+  Eigen::VectorXd intercept;  // (r); (0) if rows are observations
   double observations = 0.0;
-  /// (r) part that each row belongs to; (0) where no parts were asked for.
+  /// (r) part of each row; (0) if no parts were requested.
   std::vector<Eigen::Index> parts;
 
   bool are_observations() const { return intercept.size() == 0; }
 };
 
-/// The rows themselves while they hold no more than `most_values` numbers,
-/// else a triangle for each part: rows of equal code in `parts` (n, or empty:
-/// one part) stay together. Weights are worked into triangles. Throws
-/// std::invalid_argument ("interrupted") where `stop` becomes true on the way
-/// to a triangle.
+/// Returns the rows themselves if they have at most `most_values` numbers,
+/// else a triangle for each part: rows of equal code in `parts` (n, or
+/// empty: one part). Triangles include the weights. Throws
+/// std::invalid_argument ("interrupted") if `stop` becomes true while a
+/// triangle is computed.
 DesignRows CollectRows(const PolynomialDesign& design,
                        const std::vector<Eigen::Index>& parts,
                        double most_values,
                        int threads,
                        const std::atomic<bool>* stop = nullptr);
 
-/// The same by what `context` says. The triangle of all rows is made once for
-/// the recipes that share the work of these rows.
+/// Returns the same with the limits of `context`. The triangle of all rows is
+/// computed once for the recipes that share these rows.
 DesignRows CollectRows(const PolynomialDesign& design,
                        const std::vector<Eigen::Index>& parts,
                        const FitContext& context);
 
-/// True where CollectRows makes triangles of such a design.
+/// Returns true if CollectRows makes triangles of such a design.
 bool NeedsTriangle(Eigen::Index rows, Eigen::Index terms, double most_values);
 
-/// `context`, but with a triangle where the design has more than `most_values`
-/// numbers and few columns: one pass then costs less than the many that least
-/// squares would make over rows that no cache holds.
+/// Returns `context`, but preferring a triangle if the design has more than
+/// `most_values` numbers and few columns. One pass then costs less than the
+/// many of least squares over rows that fit no cache.
 FitContext PreferTriangle(const PolynomialDesign& design,
                           double most_values,
                           const FitContext& context);

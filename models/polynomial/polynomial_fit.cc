@@ -12,6 +12,7 @@
 #include "fitting/interruption.h"
 #include "models/history/view.h"
 #include "models/polynomial/polynomial_model.h"
+#include "stats/indices.h"
 
 namespace errmap::models {
 namespace {
@@ -101,7 +102,7 @@ Solved SolveRows(const PolynomialDesign& design,
   DesignRows& rows = solved.rows;
   const bool are_observations = rows.are_observations();
   if (!form_options.intercept) rows.intercept.setZero(rows.response.size());
-  // Whether they are read or not: the same rows give the same bits.
+  // Always the same, so that the same rows give the same bits.
   constexpr double kDigits = 13.0;
   fitting::LeastSquaresOptions options;
   if (are_observations) {
@@ -123,8 +124,8 @@ Solved SolveRows(const PolynomialDesign& design,
   return solved;
 }
 
-// By a triangle where the rows are so many that they would not be asked for
-// further digits; but what follows from other terms is told by the rows.
+// Uses a triangle if there are too many rows to refine digits; but the rows
+// decide which terms follow from others.
 Solved Solve(const PolynomialDesign& design,
              const FormOptions& form_options,
              const FitContext& context) {
@@ -144,7 +145,7 @@ Solved Solve(const PolynomialDesign& design,
   return SolveRows(design, form_options, context);
 }
 
-// What a fit makes of its terms.
+// Result of fitting terms.
 struct FittedTerms {
   PolynomialForm form;               // of those that are not aliased
   std::vector<std::string> aliased;  // left out: they follow from others
@@ -209,7 +210,7 @@ void RemarkOnTerms(const FittedTerms& kept,
   }
 }
 
-// Whether a plane has an input that only grows.
+// Returns true if a plane has an input that only grows.
 bool GrowsStraight(const PolynomialForm& form,
                    const std::vector<TrainedInput>& inputs,
                    const Dataset& training) {
@@ -228,9 +229,7 @@ bool GrowsStraight(const PolynomialForm& form,
 }  // namespace
 
 std::vector<Index> AllColumns(const Dataset& dataset) {
-  std::vector<Index> columns(static_cast<std::size_t>(dataset.num_inputs()));
-  std::iota(columns.begin(), columns.end(), Index{0});
-  return columns;
+  return stats::AllIndices(dataset.num_inputs());
 }
 
 UsedTerms KeepUsedInputs(const std::vector<TermPowers>& terms,

@@ -62,7 +62,7 @@ PolynomialModel::PolynomialModel(PolynomialForm form, Index num_parameters)
     if (input < 0 || input >= p || !(range.min <= range.max)) {
       refuse("bends_within names an input that is not there, or no range");
     }
-    // As a program scales: (x - offset) * scale.
+    // Scaled as in exported programs: (x - offset) * scale.
     const auto scaled = [&](double value) {
       return (value - form_.input_offset[input]) * form_.input_scale[input];
     };

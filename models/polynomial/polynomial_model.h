@@ -6,16 +6,16 @@
 
 namespace errmap::models {
 
-/// Whether a term of these powers is more than a straight line of the inputs
-/// that bend within a range; such a term sees them held within it.
+/// Returns true if a term with these powers is not a straight line in the
+/// inputs that bend within a range. Such a term sees them clipped to it.
 bool Bends(const std::vector<BendRange>& within,
            const std::vector<int>& powers);
 
 /// Polynomial map (NISTIR 5367, Eq. 7-9 and beyond); without terms, a constant.
 class PolynomialModel final : public ErrorModel {
  public:
-  /// `num_parameters` is what was fitted: the terms, and the intercept unless
-  /// it is fixed (the zero map has none). Throws std::invalid_argument where
+  /// `num_parameters` is the number fitted: the terms, and the intercept unless
+  /// it is fixed (the zero map has none). Throws std::invalid_argument if
   /// shapes do not agree, a power is negative or above 64, or a number is not
   /// finite.
   PolynomialModel(PolynomialForm form, Eigen::Index num_parameters);
@@ -26,7 +26,7 @@ class PolynomialModel final : public ErrorModel {
   const PolynomialForm& form() const { return form_; }
 
  private:
-  // A term as the list of its factors, each an index into the row's powers.
+  // A term as a list of factors, each an index into the row's powers.
   struct SparseTerm {
     std::vector<Eigen::Index> factors;
     double coefficient;

@@ -18,10 +18,10 @@
 
 namespace errmap::models {
 
-// The options of constants and polynomials. Of each, `Validate` throws
-// std::invalid_argument naming option, value and range, or what contradicts;
-// `MakeRecipe` does so as well, and the recipe's name is `name` or, where that
-// is empty, SpecOf(options).
+// Options of constants and polynomials. `Validate` throws
+// std::invalid_argument naming option, value and range, or the contradiction;
+// so does `MakeRecipe`. The recipe's name is `name`; if that is empty,
+// SpecOf(options).
 
 /// zero (no compensation at all) and mean.
 struct ConstantOptions {
@@ -32,8 +32,8 @@ struct ConstantOptions {
   bool operator==(const ConstantOptions&) const = default;
 };
 
-/// The forms of the report in position x and one temperature T; two of them
-/// read only one of both.
+/// The report's forms in position x and one temperature T; two of them use only
+/// one of them.
 enum class PositionTemperatureForm {
   kPosition,
   kTemperature,
@@ -45,9 +45,9 @@ enum class PositionTemperatureForm {
 /// poly:position, poly:temperature, poly:eq7, poly:eq8, poly:eq9.
 struct PositionTemperatureOptions {
   PositionTemperatureForm form = PositionTemperatureForm::kEq8;
-  std::string position = {};     // "": the first input named so
-  std::string temperature = {};  // T; "": the input that leaves least
-  bool clip = true;              // whether the map is guarded (Guards)
+  std::string position = {};     // "": the first input called so
+  std::string temperature = {};  // T; "": the one of least residual
+  bool clip = true;              // true: the map is guarded (Guards)
 
   std::string_view type() const;
   void Validate() const;
@@ -57,14 +57,14 @@ struct PositionTemperatureOptions {
 /// poly:full: all products up to a degree.
 struct FullOptions {
   int degree = 2;    // 1 .. 12
-  bool clip = true;  // whether the map is guarded (Guards)
+  bool clip = true;  // true: the map is guarded (Guards)
 
   std::string_view type() const { return "poly:full"; }
   void Validate() const;
   bool operator==(const FullOptions&) const = default;
 };
 
-/// Which terms may be chosen.
+/// Terms to choose from.
 struct TermOptions {
   TermSet set = TermSet::kFull;
   std::optional<int> degree = {};      // 1 .. 4; empty: DefaultDegreeOf the set
@@ -77,7 +77,7 @@ struct TermOptions {
 
 /// poly:stepwise: terms chosen one by one (fitting::StepwiseOptions).
 struct StepwiseOptions {
-  /// max_terms without a limit.
+  /// Value of max_terms without a limit.
   static constexpr std::int64_t kNoLimit = -1;
 
   fitting::Criterion criterion = fitting::Criterion::kBic;
@@ -86,19 +86,19 @@ struct StepwiseOptions {
   std::optional<fitting::Criterion> choose = {};
   fitting::Direction direction = fitting::Direction::kForward;
   fitting::Heredity heredity = fitting::Heredity::kNone;
-  /// p-values, 0 < enter <= remove < 1; only where p selects or stops. Empty:
-  /// 0.05, and 0.10 or `enter`, whichever is larger.
+  /// p-values, 0 < enter <= remove < 1; used only if p selects or stops. Empty:
+  /// 0.05, and the larger of 0.10 and `enter`.
   std::optional<double> enter = {};
   std::optional<double> remove = {};
   /// 0 .. 1,000,000, or kNoLimit; empty: a fifth of the rows.
   std::optional<std::int64_t> max_terms = {};
   std::optional<double> sigma2 = {};  // for Cp, above 0; empty: estimated
-  /// 0 .. 1,000,000 for the report; empty: 200 where the rows are few.
+  /// 0 .. 1,000,000 for the report; empty: 200 if the rows are few.
   std::optional<std::int64_t> bootstrap = {};
   TermOptions terms = {};
   /// Its `intercept` is always true.
   std::optional<ViewOptions> view = {};
-  bool clip = true;  // whether the map is guarded (Guards)
+  bool clip = true;  // true: the map is guarded (Guards)
 
   std::string_view type() const { return "poly:stepwise"; }
   void Validate() const;
@@ -112,41 +112,41 @@ struct BestSubsetOptions {
   std::optional<double> sigma2 = {};  // for Cp, above 0; empty: estimated
   std::int64_t bootstrap = 0;         // 0 .. 1,000,000 for the report
   TermOptions terms = {};
-  bool clip = true;  // whether the map is guarded (Guards)
+  bool clip = true;  // true: the map is guarded (Guards)
 
   std::string_view type() const { return "poly:best"; }
   void Validate() const;
   bool operator==(const BestSubsetOptions&) const = default;
 };
 
-/// How a penalty is chosen.
+/// Rule to choose a penalty.
 struct PenaltyRule {
-  /// Given, at least 0; empty: by inner hold-outs.
+  /// The strength, if given, at least 0; empty: chosen by inner hold-outs.
   std::optional<double> strength = {};
-  /// The strongest within one standard error of the least (Breiman et al.
-  /// 1984).
+  /// True to take the strongest within one standard error of the least (Breiman
+  /// et al. 1984).
   bool one_standard_error = false;
 
   bool operator==(const PenaltyRule&) const = default;
 };
 
-/// Bases that a penalised family may take.
+/// Bases of a penalised family.
 struct BasisOptions {
   std::optional<ViewOptions> view = {};
-  std::optional<TermSet> terms = {};  // empty: those that serve, where a view
-                                      // is given, else full
+  std::optional<TermSet> terms = {};  // empty: those that serve, if a view is
+                                      // given, else full
   std::optional<int> degree = {};     // 1 .. 4; empty: that of the terms
   Centring centring = Centring::kStandardised;  // or kAll, kNone
   std::vector<NamedTerm> exclude = {};
-  bool clip = true;  // whether the map is guarded (Guards)
-  /// What PenalizedBasis::between is where whole sessions are held out inside;
-  /// above 0, at most 1; empty: a quarter where a view is given and no column
-  /// only grows, else 1.
+  bool clip = true;  // true: the map is guarded (Guards)
+  /// PenalizedBasis::between if the inner hold-outs are of whole sessions;
+  /// above 0, at most 1. Empty: a quarter if a view is given and no column only
+  /// grows, else 1.
   std::optional<double> between = {};
 
   bool operator==(const BasisOptions&) const = default;
 
-  /// Whether more than one basis may be judged.
+  /// Returns true if more than one basis may be judged.
   bool chooses_basis() const { return view && (!view->view || !terms); }
 };
 
@@ -161,14 +161,14 @@ struct PenalizedOptions {
   bool operator==(const PenalizedOptions&) const = default;
 };
 
-/// poly:formula=...: the terms that are written down.
+/// poly:formula=...: the terms as written.
 struct FormulaOptions {
   std::string formula = {};                 // as ParseTerms reads them
   Centring centring = Centring::kHarmless;  // or kNone
   bool intercept = true;
-  /// Names one; its `intercept` is not read.
+  /// Names one penalty; its `intercept` is not used.
   std::optional<ViewOptions> view = {};
-  bool clip = true;  // whether the map is guarded (Guards)
+  bool clip = true;  // true: the map is guarded (Guards)
 
   std::string_view type() const { return "poly"; }
   void Validate() const;

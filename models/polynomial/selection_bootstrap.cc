@@ -1,18 +1,21 @@
 #include "models/polynomial/selection_bootstrap.h"
 
-#include <limits>
 #include <map>
 #include <mutex>
 
 #include "fitting/parallel_for.h"
 #include "models/regression_report.h"
+#include "stats/not_a_number.h"
 #include "stats/random.h"
 
 namespace errmap::models {
 
+namespace {
+
 using Eigen::Index;
 using Eigen::VectorXd;
 
+// The share of repetitions in which each candidate (m) is chosen.
 VectorXd BootstrapInclusion(const DictionaryRows& rows,
                             const std::vector<Index>& units,
                             int repetitions,
@@ -60,16 +63,25 @@ VectorXd BootstrapInclusion(const DictionaryRows& rows,
     for (const Index term : chosen) shares[term] += 1.0;
   });
   if (stopped) {
-    return VectorXd::Constant(shares.size(),
-                              std::numeric_limits<double>::quiet_NaN());
+    return VectorXd::Constant(shares.size(), stats::kNaN);
   }
   return shares / static_cast<double>(repetitions);
 }
 
+}  // namespace
+
 void ReportInclusion(const TermDictionary& dictionary,
+                     const DictionaryRows& rows,
+                     const std::vector<Index>& units,
                      const std::vector<Index>& chosen,
-                     const VectorXd& shares,
+                     const ChooseTerms& choose,
+                     const FitContext& context,
                      RegressionReport* report) {
+  const data::Dataset& training = dictionary.design.dataset();
+  report->bootstrap_unit =
+      training.has_groups() ? training.groups().column : "row";
+  const VectorXd shares =
+      BootstrapInclusion(rows, units, report->bootstrap, choose, context);
   report->terms.resize(chosen.size());
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     report->terms[i].inclusion = shares[chosen[i]];

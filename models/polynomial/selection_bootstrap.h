@@ -12,19 +12,16 @@ namespace errmap::models {
 using ChooseTerms = std::function<std::vector<Eigen::Index>(
     const fitting::SelectionProblem& problem)>;
 
-/// Share of `repetitions` in which each candidate (m) is chosen when rows, or
-/// whole parts of rows where `units` (r) has codes, are drawn with
-/// replacement; drawn ones count as weights. Interrupted: NaN.
-Eigen::VectorXd BootstrapInclusion(const DictionaryRows& rows,
-                                   const std::vector<Eigen::Index>& units,
-                                   int repetitions,
-                                   const ChooseTerms& choose,
-                                   const FitContext& context);
-
-/// Puts the shares into the lines of `report`: its terms are `chosen`.
+/// Reports the share of `report->bootstrap` repetitions in which each candidate
+/// is chosen, for `chosen` and for those that are not. Each repetition draws
+/// rows with replacement, or whole groups where there are groups: those of
+/// `units` (r); draws enter as weights. NaN if interrupted.
 void ReportInclusion(const TermDictionary& dictionary,
+                     const DictionaryRows& rows,
+                     const std::vector<Eigen::Index>& units,
                      const std::vector<Eigen::Index>& chosen,
-                     const Eigen::VectorXd& shares,
+                     const ChooseTerms& choose,
+                     const FitContext& context,
                      RegressionReport* report);
 
 }  // namespace errmap::models

@@ -12,16 +12,16 @@ struct TermRows {
   Eigen::VectorXd targets;  // (rows)
 };
 
-/// Least squares where the rows of a session share an offset: squares of what
-/// differs between sessions weigh `between` of what changes within one. Rows
-/// are fitted less 1 - sqrt(between) of their session's mean (Fuller and
-/// Battese 1973).
+/// Least squares in which the rows of a session share an offset: squares of
+/// differences between sessions have weight `between` relative to changes
+/// within one. Rows are fitted less 1 - sqrt(between) times their session's
+/// mean (Fuller and Battese 1973).
 class SessionOffsets {
  public:
-  /// Rows stay as they are.
+  /// Leaves rows as they are.
   SessionOffsets() = default;
-  /// `sessions`: a code for each row of all. Every row is to be included once
-  /// before any is fitted.
+  /// `sessions` has a code for each row. Every row must be included once before
+  /// any is fitted.
   SessionOffsets(std::vector<Eigen::Index> sessions,
                  Eigen::Index num_terms,
                  double between);
@@ -31,7 +31,7 @@ class SessionOffsets {
                const TermRows& design,
                const Eigen::VectorXd& weights);
   void TakeFrom(const std::vector<Eigen::Index>& rows, TermRows* design) const;
-  /// The share of a constant that is left in the rows.
+  /// Returns the share of a constant that remains in the rows.
   double kept() const { return kept_; }
 
  private:

@@ -21,7 +21,6 @@ namespace {
 
 using data::Dataset;
 using Eigen::Index;
-using Eigen::VectorXd;
 using fitting::Criterion;
 
 constexpr std::int64_t kDefaultBootstrap = 200;
@@ -47,7 +46,7 @@ const std::vector<std::string>& Heredities() {
   return words;
 }
 
-// What the engine is told.
+// Converts the options to those of the selection.
 fitting::StepwiseOptions RulesOf(const StepwiseOptions& options) {
   fitting::StepwiseOptions rules;
   rules.select = options.select.value_or(options.criterion);
@@ -96,15 +95,10 @@ class StepwiseRecipe final : public PolynomialRecipe {
     return InEffect(options_);
   }
 
-  std::optional<Index> NumCoefficients(const Dataset&) const override {
-    return std::nullopt;
-  }
-
   FittedModel Fit(const Dataset& training,
                   const FitContext& context) const override {
-    if (!options_.view) return FitRows(training, context);
     return FitInView(training,
-                     *options_.view,
+                     options_.view,
                      context,
                      [&](const Dataset& rows, const FitContext& inner) {
                        return FitRows(rows, inner);
@@ -112,7 +106,7 @@ class StepwiseRecipe final : public PolynomialRecipe {
   }
 
  private:
-  // How the rows are kept for the engine, and how often it runs again.
+  // Storage of the rows for the selection, and number of its repetitions.
   struct Plan {
     bool by_triangle = false;
     bool is_large = false;  // too large to bootstrap unasked
@@ -120,8 +114,8 @@ class StepwiseRecipe final : public PolynomialRecipe {
     bool group_parts = false;  // a triangle a group
   };
 
-  // At many rows a bootstrap is made only where it is asked for; by triangles
-  // it is one over whole groups, each of which is a triangle.
+  // With many rows a bootstrap runs only on request. By triangles it draws
+  // whole groups, each of which is a triangle.
   Plan PlanFor(const Dataset& training,
                Index num_terms,
                const FitContext& context) const {
@@ -292,19 +286,18 @@ class StepwiseRecipe final : public PolynomialRecipe {
                  const FitContext& context,
                  RegressionReport* report) const {
     const Dataset& training = dictionary.design.dataset();
-    const bool by_group = training.has_groups();
-    if (plan.repetitions > 0 && (by_group || !plan.by_triangle)) {
+    if (plan.repetitions > 0 && (training.has_groups() || !plan.by_triangle)) {
       report->bootstrap = static_cast<int>(plan.repetitions);
-      report->bootstrap_unit = by_group ? training.groups().column : "row";
-      const VectorXd shares = BootstrapInclusion(
+      ReportInclusion(
+          dictionary,
           rows,
           plan.by_triangle ? rows.parts : training.groups().codes,
-          report->bootstrap,
+          chosen,
           [&](const fitting::SelectionProblem& drawn) {
             return select(drawn).chosen;
           },
-          context);
-      ReportInclusion(dictionary, chosen, shares, report);
+          context,
+          report);
     } else if (plan.by_triangle || (plan.is_large && !options_.bootstrap)) {
       report->notes.push_back(
           "no bootstrap at this size; bootstrap=N draws whole groups, where "
@@ -312,7 +305,7 @@ class StepwiseRecipe final : public PolynomialRecipe {
     }
   }
 
-  // What a fold chose is part of its result, and what ended the choice.
+  // Records a fold's choice, part of its result, and why it ended.
   void Remark(const TermDictionary& dictionary,
               const fitting::SelectionResult& selection,
               const fitting::StepwiseOptions& how,

@@ -16,16 +16,16 @@
 
 namespace errmap::models {
 
-/// What a SPEC may say of the terms that are chosen from: terms, degree,
-/// centred, include and exclude.
+/// Options in a SPEC of the terms to choose from: terms, degree, centred,
+/// include and exclude.
 OptionList<TermOptions> TermOptionList();
-/// The degree and the terms left out, which penalised families have as well.
+/// Adds the degree and excluded terms, options of penalised families as well.
 Option<std::optional<int>> DegreeOption();
 Option<std::vector<NamedTerm>> TermsOption(const std::string& name,
                                            const std::string& about);
 
-/// The terms that may be chosen over the inputs of a data set, and which of
-/// them are forced in or out.
+/// The terms that may be chosen over the inputs of a data set, and those that
+/// are forced in or out.
 struct TermDictionary {
   TermDictionary(const data::Dataset& training, const TermOptions& options);
 
@@ -34,13 +34,13 @@ struct TermDictionary {
   std::vector<Eigen::Index> include;
   std::vector<bool> excluded;
 
-  /// The terms with one power less of each, for heredity.
+  /// Returns, for heredity, the terms with one power less of each.
   std::vector<std::vector<Eigen::Index>> Parents() const;
-  /// Candidates that may be chosen.
+  /// Returns the candidates that may be chosen.
   Eigen::Index NumOpen() const;
 };
 
-/// Rows of a dictionary as the engines take them.
+/// Rows of a dictionary in the form that selection uses.
 struct DictionaryRows {
   std::unique_ptr<fitting::CandidateColumns> candidates;
   Eigen::VectorXd response;
@@ -55,21 +55,21 @@ struct DictionaryRows {
   }
 };
 
-/// Throws std::invalid_argument where the dictionary is too large to be held
-/// or reduced.
+/// Throws std::invalid_argument if the dictionary is too large to store or
+/// reduce.
 DictionaryRows CollectDictionary(const TermDictionary& dictionary,
                                  const std::vector<Eigen::Index>& parts,
                                  const FitContext& context);
 
-/// Degree where none is given: 3 up to 8 inputs, else 2.
+/// Returns the default degree: 3 up to 8 inputs, else 2.
 int DefaultDegree(Eigen::Index num_inputs);
 
-/// What a fold chose is part of its result: "chosen: x, x*t".
+/// Returns a fold's choice, part of its result: "chosen: x, x*t".
 std::string ChosenTerms(const TermDictionary& dictionary,
                         const std::vector<Eigen::Index>& chosen);
 
-/// Why candidates that are not in a model add nothing to it, and what F the
-/// others would have: into `report`; as far as it came where context.stop does.
+/// Adds to `report` why candidates that are not in a model add nothing to it,
+/// and the F of the others. Stops where it is if context.stop becomes true.
 void ReportExcluded(const TermDictionary& dictionary,
                     const DictionaryRows& rows,
                     const std::vector<Eigen::Index>& chosen,

@@ -11,7 +11,7 @@
 
 namespace errmap::models {
 
-/// Which terms a basis has: the words of terms=.
+/// Terms of a basis: the values of terms=.
 enum class TermSet {
   kLinear,   // every input
   kSquares,  // powers of every input, no products
@@ -22,26 +22,26 @@ enum class TermSet {
 std::string_view ToString(TermSet set);
 const std::vector<std::string>& TermSetWords();
 
-/// Which inputs are moved to the middle of their range before products and
-/// powers are formed.
+/// Inputs that are centred on their range before products and powers are
+/// formed.
 enum class Centring {
-  kStandardised,  // each to its mean, and scaled to sd 1
+  kStandardised,  // each on its mean, and scaled to sd 1
   kAll,           // each
-  kNone,          // none: products of the inputs as they are
-  kHarmless,      // those where it does not change what the terms can express
+  kNone,          // none: products of the raw inputs
+  kHarmless,      // those for which it does not change the space of the terms
 };
 
-/// Highest power that a set takes where no degree is given: 1, 2, 3, and for
+/// Returns the highest power of a set if no degree is given: 1, 2, 3, and for
 /// full by the number of inputs (DefaultDegree).
 int DefaultDegreeOf(TermSet set, Eigen::Index num_inputs);
 
-/// Number of terms; empty where it overflows.
+/// Returns the number of terms; empty on overflow.
 std::optional<Eigen::Index> CountTerms(TermSet set,
                                        const std::vector<bool>& is_position,
                                        int degree);
 
-/// The terms over inputs of which these are positions. An axis set without
-/// positions is linear.
+/// Returns the terms over inputs, given which are positions. An axis set
+/// without positions is linear.
 std::vector<TermPowers> MakeTerms(TermSet set,
                                   const std::vector<bool>& is_position,
                                   int degree);

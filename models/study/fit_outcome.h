@@ -11,7 +11,7 @@
 
 namespace errmap::models {
 
-/// What one fit of a study leaves behind.
+/// The outcome of one fit of a study.
 struct FitOutcome {
   std::optional<FittedModel> fitted;  // empty: failed
   std::string why_failed;
@@ -19,7 +19,7 @@ struct FitOutcome {
   Eigen::VectorXd train_predictions;  // target's unit; empty if failed
   Eigen::VectorXd test_predictions;   // the same; empty for a fit to all rows
   std::optional<Memorisation> memorisation;  // of a net fitted to all rows
-  /// Failed for want of memory: another try may succeed, so it is not kept.
+  /// True if memory ran out: another try may succeed, so it is not kept.
   bool try_again = false;
 };
 
@@ -30,12 +30,12 @@ struct StudyTask {
   std::size_t fold = 0;
 };
 
-/// Keeps finished fits, so that a study that was broken off goes on where it
-/// was. Find and Record are called from several threads.
+/// Keeps finished fits, so that an interrupted study can be resumed. Find and
+/// Record are called from several threads.
 class FitJournal {
  public:
   virtual ~FitJournal() = default;
-  /// The outcome of this very fit from an earlier run, if there is one.
+  /// Returns the outcome of this same fit in an earlier run, if any.
   virtual std::optional<FitOutcome> Find(const StudyTask& task) = 0;
   /// Keeps an outcome for later runs. Interrupted fits, and those that may
   /// succeed next time, are not recorded.

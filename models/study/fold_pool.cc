@@ -1,9 +1,10 @@
 #include "models/study/fold_pool.h"
 
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
@@ -53,7 +54,6 @@ stats::ErrorMetrics JudgeTargets(const VectorXd& targets,
 stats::ErrorMetrics JudgeTraining(const VectorXd& targets,
                                   const VectorXd& predicted) {
   if (predicted.size() > 0) return JudgeTargets(targets, predicted);
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   stats::ErrorMetrics unknown;
   unknown.residuals.n = targets.size();
   for (double* figure : {&unknown.rmse,
@@ -64,7 +64,7 @@ stats::ErrorMetrics JudgeTraining(const VectorXd& targets,
                          &unknown.residuals.min,
                          &unknown.residuals.max,
                          &unknown.residuals.range}) {
-    *figure = kNaN;
+    *figure = stats::kNaN;
   }
   return unknown;
 }

@@ -7,8 +7,8 @@
 
 namespace errmap::models {
 
-/// Training and test rows of a fold: copies, to be had while it is fitted only.
-/// Of many folds they would be many times the data.
+/// Training and test rows of a fold: copies, kept only during its fit. Copies
+/// of many folds would be many times as large as the data.
 struct PreparedFold {
   data::Dataset training;
   std::shared_ptr<const data::Dataset> test;
@@ -18,36 +18,36 @@ PreparedFold PrepareFold(const data::Dataset& dataset,
                          const Holdout& holdout,
                          std::size_t fold);
 
-/// A fit of one fold, its predictions of the training rows judged and gone.
+/// A fit of one fold with its training metrics; the predictions are dropped.
 struct FoldOutcome {
   FitOutcome fit;
   stats::ErrorMetrics train;
 };
 
-/// NaN for training predictions that `outcome` lacks.
+/// The training metrics are NaN if `outcome` lacks training predictions.
 FoldOutcome JudgeFold(const data::Dataset& dataset,
                       const Holdout& holdout,
                       std::size_t fold,
                       FitOutcome outcome);
 
-/// Comparisons work with mean squares: those of larger errors, summed over any
-/// number of rows, are no number any more.
+/// Comparisons use mean squares. Those of larger errors overflow when summed
+/// over many rows.
 inline constexpr double kLargestRmse = 1e150;
 
-/// Pools the folds of one model under one hold-out; failed where one of its
-/// fits did.
+/// Pools the folds of one model under one hold-out. The result is failed if any
+/// fit failed.
 HoldoutResult PoolFolds(const data::Dataset& dataset,
                         const Holdout& holdout,
                         std::vector<FoldOutcome> outcomes);
 
-/// Figures of the held-out rows, of each fold and of all, from the folds'
-/// predictions of them.
+/// Computes the metrics of the held-out rows, for each fold and for all, from
+/// the folds' predictions.
 void PoolTest(const data::Dataset& dataset,
               const Holdout& holdout,
               HoldoutResult* result);
 
-/// Metrics of `predicted` (m) against the targets of `dataset`, R2 about its
-/// own mean.
+/// Returns metrics of `predicted` (m) against the targets of `dataset`; R2 is
+/// about their mean.
 stats::ErrorMetrics Judge(const data::Dataset& dataset,
                           const Eigen::VectorXd& predicted);
 

@@ -1,12 +1,12 @@
 #include "models/study/given_predictions.h"
 
-#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "models/study/fold_pool.h"
 #include "models/study/row_table.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
@@ -108,7 +108,7 @@ ModelResult JudgeGivenPredictions(const GivenPredictions& given,
   ModelResult model;
   model.name = given.name;
   model.kind = ModelKind::kFile;
-  model.predict_ns = std::numeric_limits<double>::quiet_NaN();
+  model.predict_ns = stats::kNaN;
   for (std::size_t h = 0; h < holdouts.size(); ++h) {
     std::vector<FoldOutcome> outcomes;
     for (std::size_t fold = 0; fold < holdouts[h].folds.size(); ++fold) {

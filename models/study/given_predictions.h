@@ -10,28 +10,28 @@
 
 namespace errmap::models {
 
-/// Predictions made elsewhere (MATLAB, Python, the 1995 program), in the
+/// Predictions by another program (MATLAB, Python, the 1995 program), in the
 /// target's unit, for the data rows of a file.
 struct GivenPredictions {
   std::string name;
   std::string file;
-  /// By 0-based data row: of a file with row,predicted. They serve every
+  /// By 0-based data row, from a file with row,predicted. They serve every
   /// hold-out of the data file itself.
   std::map<Eigen::Index, double> by_row;
-  /// By (hold-out, fold) and data row: of row,holdout,fold,predicted.
+  /// By (hold-out, fold) and data row, from row,holdout,fold,predicted.
   std::map<std::pair<std::string, Eigen::Index>, std::map<Eigen::Index, double>>
       by_fold;
 };
 
 /// Reads CSV row,predicted or row,holdout,fold,predicted. Throws
-/// data::InputError naming file, line and remedy: a missing column, no finite
-/// number, a row given twice.
+/// data::InputError naming file, line and remedy: a missing column, a number
+/// that is not finite, a duplicate row.
 GivenPredictions ReadGivenPredictions(const std::string& name,
                                       const data::CsvTable& file);
 
-/// They enter the comparison as a model without a map: judged on the test
-/// rows of every fold, and on the training rows where they have all of them.
-/// A hold-out whose test rows are not all there has failed, with the row.
+/// Judges predictions as a model without a map: on the test rows of every fold,
+/// and on the training rows if all are given. A hold-out with a missing test
+/// row has failed; the reason names the row.
 ModelResult JudgeGivenPredictions(const GivenPredictions& given,
                                   const data::Dataset& dataset,
                                   const std::vector<Holdout>& holdouts);

@@ -1,11 +1,11 @@
 #include "models/study/memorisation.h"
 
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "models/net/net_recipe.h"
 #include "models/study/fold_pool.h"
+#include "stats/indices.h"
 #include "stats/random.h"
 
 namespace errmap::models {
@@ -116,8 +116,7 @@ Memorisation AssessMemorisation(const ModelRecipe& recipe,
 }
 
 Dataset ShuffleTargets(const Dataset& dataset, std::uint64_t seed) {
-  std::vector<Index> order(static_cast<std::size_t>(dataset.num_rows()));
-  std::iota(order.begin(), order.end(), Index{0});
+  std::vector<Index> order = stats::AllIndices(dataset.num_rows());
   stats::Random(seed).Shuffle(order);
   return Dataset({.source = dataset.source(),
                   .inputs = dataset.inputs(),

@@ -9,21 +9,23 @@
 
 namespace errmap::models {
 
-/// A hash of each row of `inputs` and, unless null, its target; in single
-/// precision, as conversions of units change last digits.
+/// Returns a hash of each row of `inputs` and, unless null, its target. It uses
+/// single precision, since unit conversions change the last digits.
 std::vector<std::uint64_t> RowHashes(const Eigen::MatrixXd& inputs,
                                      const Eigen::VectorXd* targets);
 
-/// The share of rows whose hash stands in another session too, or in another
-/// group where there is one session: what new rows share by chance.
+/// Returns the share of rows expected to occur again by chance: those whose
+/// hash is also in another session, or in another group if there is one
+/// session.
 double ShareAlike(const data::Dataset& training,
                   const std::vector<std::uint64_t>& hashes);
 
-/// Whether so many of `looked` rows are more than rows share by chance.
+/// True if `found` of `looked` rows exceed the number expected by chance.
 bool AreMoreThanChance(double found, double looked, double share_by_chance);
 
-/// How many rows of `judged` stand in `training` too, inputs and target; 0
-/// where they are no more than chance would make. `judged` has its inputs.
+/// Returns how many rows of `judged` also occur in `training` (inputs and
+/// target); 0 if chance explains them. `judged` must have the inputs of
+/// `training`.
 Eigen::Index CountRowsOf(const data::Dataset& training,
                          const data::Dataset& judged);
 

@@ -9,12 +9,12 @@
 
 namespace errmap::models {
 
-/// Index into `dataset` of each data row that it holds.
+/// Returns the index into `dataset` of each data row that it holds.
 std::unordered_map<Eigen::Index, Eigen::Index> IndexByRow(
     const data::Dataset& dataset);
 
-/// Reads tables of people whose lines are about the rows of a data set; each
-/// accessor throws data::InputError naming file, line and column.
+/// Reads users' tables with one line for each row of a data set. Each accessor
+/// throws data::InputError naming file, line and column.
 class RowTable {
  public:
   /// `table` must outlive it.
@@ -22,7 +22,7 @@ class RowTable {
 
   std::size_t num_lines() const { return table_.num_rows; }
   bool Has(const std::string& column) const { return table_.Find(column) >= 0; }
-  /// A whole number from 0.
+  /// Returns a whole number, at least 0.
   Eigen::Index Whole(std::size_t line, const std::string& column) const;
   double Number(std::size_t line, const std::string& column) const;
   std::string Text(std::size_t line, const std::string& column) const;
@@ -30,7 +30,7 @@ class RowTable {
   [[noreturn]] void Refuse(std::size_t line,
                            const std::string& column,
                            const std::string& why) const;
-  /// Throws unless all of these columns are there.
+  /// Throws unless all of these columns exist.
   void Require(const std::vector<std::string>& columns) const;
 
  private:

@@ -5,8 +5,8 @@
 
 namespace errmap::models {
 
-/// Whether sessions of `dataset`, and nothing coarser, are held out whole: it
-/// counts as a hold-out of sessions then, whatever its SPEC.
+/// True if whole sessions of `dataset`, and nothing coarser, are held out. It
+/// then counts as a hold-out of sessions, whatever its SPEC.
 bool IsOfSessions(const Holdout& holdout, const data::Dataset& dataset);
 
 }  // namespace errmap::models

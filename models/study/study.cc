@@ -19,6 +19,7 @@
 #include "models/study/fold_pool.h"
 #include "models/study/repeated_rows.h"
 #include "models/study/session_cut.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
@@ -27,8 +28,6 @@ using data::Dataset;
 using Eigen::Index;
 using Eigen::VectorXd;
 using Clock = std::chrono::steady_clock;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 constexpr const char* kNotBegun = "interrupted before it began";
 constexpr const char* kNoMemory = "not enough memory";  // may be there later
@@ -104,12 +103,13 @@ double MeasurePrediction(const FittedModel& fitted, const Dataset& dataset) {
     sink += fitted.Predict(dataset)[0];
     shortest = std::min(shortest, SecondsSince(begin));
   }
-  if (std::isnan(sink)) return kNaN;  // keeps the loop from being removed
+  // Keeps the loop from being removed.
+  if (std::isnan(sink)) return stats::kNaN;
   return 1e9 * shortest / static_cast<double>(dataset.num_rows());
 }
 
-// Of rows where rows are held out, so that every fold tunes for what it is
-// judged by; a test file says nothing, so as what decides.
+// Rows if rows are held out, so that every fold tunes for what judges it. A
+// test file says nothing, so it uses the decisive kind.
 InnerHoldout InnerHoldoutLike(stats::HoldoutKind kind) {
   switch (kind) {
     case stats::HoldoutKind::kEvery:
@@ -137,8 +137,8 @@ class HeldOutSoFar {
   HeldOutSoFar(std::size_t models, const std::vector<Holdout>& holdouts)
       : sums_(models, std::vector<Sum>(holdouts.size())) {}
 
-  // The RMSE of the task's model where this was the last fold of `num_folds`,
-  // else NaN.
+  // Returns the RMSE of the task's model if this was the last fold of
+  // `num_folds`, else NaN.
   double Add(const StudyTask& task,
              std::size_t num_folds,
              const VectorXd& target,
@@ -147,9 +147,9 @@ class HeldOutSoFar {
     Sum& sum = sums_[task.model][static_cast<std::size_t>(task.holdout)];
     sum.squares += predicted.size() == target.size()
                        ? (target - predicted).squaredNorm()
-                       : kNaN;
+                       : stats::kNaN;
     sum.rows += target.size();
-    if (++sum.folds < num_folds) return kNaN;
+    if (++sum.folds < num_folds) return stats::kNaN;
     return std::sqrt(sum.squares / static_cast<double>(sum.rows));
   }
 
@@ -208,8 +208,9 @@ ModelResult PoolModel(const ModelRecipe& recipe,
   judged.final_why_failed = std::move(final_outcome.why_failed);
   judged.memorisation = final_outcome.memorisation;
   judged.final_fit_seconds = final_outcome.seconds;
-  judged.predict_ns =
-      judged.final_fit ? MeasurePrediction(*judged.final_fit, dataset) : kNaN;
+  judged.predict_ns = judged.final_fit
+                          ? MeasurePrediction(*judged.final_fit, dataset)
+                          : stats::kNaN;
   return judged;
 }
 

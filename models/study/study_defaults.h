@@ -8,25 +8,26 @@
 
 namespace errmap::models {
 
-// What a study does where nobody says otherwise.
+// Defaults of a study.
 
-/// SPECs of the hold-outs: rows, and whatever can be held out whole. Groups
-/// that are cut as sessions are (IsOfSessions) are held out as sessions. Two or
-/// three of these are too few to decide, so without groups blocks stand beside
-/// them; more are also foreseen from those before them.
+/// Returns SPECs of the default hold-outs: rows, and each unit that can be held
+/// out whole. Groups equal to sessions (IsOfSessions) are held out as sessions.
+/// Fewer than four sessions cannot decide: blocks are added if there are no
+/// groups. From four sessions on, later ones are also predicted from earlier
+/// ones.
 std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset);
 
-/// The same where each of `holdouts`, which somebody chose, judges by a file
-/// that holds rows of training, and so tells nothing; else none.
+/// Returns DefaultHoldouts if every one of the chosen `holdouts` uses a test
+/// file that contains training rows, and so tells nothing; else nothing.
 std::vector<std::string> HoldoutsBeside(const std::vector<Holdout>& holdouts,
                                         const data::Dataset& dataset);
 
-/// That of them which a map may promise by: whole sessions where there are two
-/// or more, else whole groups, else blocks.
+/// Returns the default hold-out for predicted errors: whole sessions if there
+/// are at least two, else whole groups, else blocks.
 std::string StrictestDefaultHoldout(const data::Dataset& dataset);
 
-/// Difference in RMSE that never matters, in `unit`: of lengths 0.02 um, of all
-/// else 0.
+/// Returns the difference in RMSE that does not matter, in `unit`: 0.02 um for
+/// lengths, 0 otherwise.
 double DefaultIndifference(const data::Unit& unit);
 
 }  // namespace errmap::models

@@ -58,6 +58,31 @@ double EffectiveUnits(Index units, double memory) {
                   static_cast<double>(units) * (1.0 - memory) / (1.0 + memory));
 }
 
+MeanWithMemory OfMean(Index units, double memory) {
+  // Of R, the correlations memory^|i - j|, and A, which takes the mean from
+  // each value: s^2 is x' A x / (n - 1).
+  const auto n = static_cast<double>(units);
+  double all = n;             // 1'R1
+  double squares = n;         // tr(R R)
+  double squared_sums = 0.0;  // 1'R R 1
+  for (Index i = 0; i < units; ++i) {
+    const auto lag = static_cast<double>(i);
+    if (i > 0) {
+      all += 2.0 * (n - lag) * std::pow(memory, lag);
+      squares += 2.0 * (n - lag) * std::pow(memory, 2.0 * lag);
+    }
+    const double row = (1.0 + memory - std::pow(memory, lag + 1.0) -
+                        std::pow(memory, n - lag)) /
+                       (1.0 - memory);
+    squared_sums += row * row;
+  }
+  const double trace = n - all / n;  // of A R
+  const double of_square =           // of A R A R
+      squares - 2.0 * squared_sums / n + all * all / (n * n);
+  return {.inflation = std::sqrt(all / n * (n - 1.0) / trace),
+          .degrees_of_freedom = trace * trace / of_square};
+}
+
 MemoryBounds::MemoryBounds(const UnitLosses& losses) : means_(losses.means) {
   losses.Validate();
   if (losses.num_units() == 0) return;
@@ -104,17 +129,16 @@ MemoryTest MemoryBounds::OfDifference(Index a, Index b, double memory) const {
   const double scale = x.cwiseAbs().maxCoeff();
   const VectorXd of_size_1 = scale > 0.0 ? VectorXd(x / scale) : x;
   result.memory = memory;
-  const double m = EffectiveUnits(x.size(), memory);
-  result.effective_units = m;
-  // The mean of m independent values is off by 1 / m of their variance, which
-  // the spread about it lacks.
-  const double variance = of_size_1.squaredNorm() / n / (1.0 - 1.0 / m);
-  const double error = scale * std::sqrt(variance / m);
+  const MeanWithMemory mean = OfMean(x.size(), memory);
+  const double freedom = mean.degrees_of_freedom;
+  result.degrees_of_freedom = freedom;
+  const double error = scale * mean.inflation *
+                       std::sqrt(of_size_1.squaredNorm() / (n - 1.0) / n);
   const double t = difference == 0.0 ? 0.0 : difference / error;
   result.test = {.statistic = t,
-                 .p = std::isfinite(t) ? StudentTwoSided(t, m - 1.0) : 0.0};
+                 .p = std::isfinite(t) ? StudentTwoSided(t, freedom) : 0.0};
   const auto off = [&](double tail) {
-    return difference + StudentQuantile(tail, m - 1.0) * error;
+    return difference + StudentQuantile(tail, freedom) * error;
   };
   result.bounds = {.lower = off(0.025),
                    .upper = 2.0 * difference - off(0.025),

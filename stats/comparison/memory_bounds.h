@@ -1,77 +1,86 @@
 #pragma once
 
-#include <limits>
-
 #include <Eigen/Core>
 
 #include "stats/comparison/unit_bootstrap.h"
 #include "stats/comparison/unit_losses.h"
+#include "stats/not_a_number.h"
 #include "stats/test_result.h"
 
 namespace errmap::stats {
 
-/// By how many of its standard errors the memory from unit to unit is taken
-/// above its estimate.
+/// Margins for MemoryOf: the number of standard errors added to the estimated
+/// memory (lag-1 correlation) from unit to unit.
 inline constexpr double kLikelyMemory = 0.4;
 inline constexpr double kMostMemory = 1.6448536269514722;  // a 95 % bound
 
-/// Correlation of neighbours in `series` (n >= 4, in order): the lag-1
-/// correlation r, freed of its bias (Marriott & Pope 1954: E r = rho - (1 + 3
-/// rho) / n), and `margin` standard errors more; 0 to 0.98. 0 where the series
-/// does not vary.
+/// Returns the correlation of neighbours in `series` (n >= 4, in order), from 0
+/// to 0.98. It is the lag-1 correlation r, corrected for bias (Marriott & Pope
+/// 1954: E r = rho - (1 + 3 rho) / n), plus `margin` standard errors. 0 if the
+/// series does not vary.
 double MemoryOf(const Eigen::Ref<const Eigen::VectorXd>& series, double margin);
 
-/// What neighbouring sessions may share that are known to be separate: they
-/// count for half. So few cannot tell, and an upper bound of what they show
-/// would prove nothing of ten sessions.
-inline constexpr double kSessionMemory = 1.0 / 3.0;
+/// Memory assumed between sessions that are known to be separate. So few
+/// sessions cannot show their memory, and with its upper bound ten sessions
+/// would never prove anything.
+inline constexpr double kSessionMemory = 0.5;
 
-/// MemoryOf with kLikelyMemory where the estimate alone is above so many
-/// standard errors of no memory, else 0: what a series shows. By the first a
-/// fifth of series without memory seem to have some, of 40 and 20 values with
-/// memory 0.3 one in six and three seem to have none
-/// (tests/stats/comparison/paired_comparison_null_test.cc: what that leaves of
-/// a test). The second misses strong memory in fewer cases.
+/// ShownMemory returns MemoryOf with kLikelyMemory if the estimate is more than
+/// `above` standard errors above 0, else 0. With kShows, a fifth of series
+/// without memory seem to have some. Of series with memory 0.3, one in six of
+/// 40 values and one in three of 20 seem to have none. kSuspected misses strong
+/// memory less often. Effect on a test:
+/// tests/stats/comparison/paired_comparison_null_test.cc.
 inline constexpr double kShows = 0.9;
 inline constexpr double kSuspected = 0.6;
 double ShownMemory(const Eigen::Ref<const Eigen::VectorXd>& series,
                    double above = kShows);
 
-/// So many independent units are worth as much for a mean: n (1 - memory) / (1
-/// + memory), at least 2.
+/// Returns the number of independent units that would determine a mean as well:
+/// n (1 - memory) / (1 + memory), at least 2.
 double EffectiveUnits(Eigen::Index units, double memory);
 
-/// A difference of pooled RMSE, judged with some memory from unit to unit.
+/// How the mean of n normal values, a first-order autoregression of coefficient
+/// `memory`, is distributed: over s / sqrt(n) it is Student's t times
+/// `inflation`. s^2 lacks what neighbours share, and varies like a chi-squared
+/// of fewer degrees of freedom (by its first two moments: Box 1954;
+/// Satterthwaite 1946).
+struct MeanWithMemory {
+  double inflation = 1.0;
+  double degrees_of_freedom = 0.0;
+};
+/// Returns that of at least 2 units, memory 0 to 0.98.
+MeanWithMemory OfMean(Eigen::Index units, double memory);
+
+/// Test of a difference of pooled RMSE, for a given memory from unit to unit.
 struct MemoryTest {
   TestResult test;  // statistic = t, two-sided
   Bounds95 bounds;  // of the difference
-  double memory = std::numeric_limits<double>::quiet_NaN();
-  double effective_units = std::numeric_limits<double>::quiet_NaN();
+  double memory = kNaN;
+  double degrees_of_freedom = kNaN;
 };
 
-/// Tests of all pairs of models on the same units, which stand in order.
+/// Tests all pairs of models on the same units, which are in order.
 ///
-/// To first order the difference is the mean of what each unit adds to it. A
-/// first-order autoregression of these n values gives the standard error of the
-/// mean; t with one degree of freedom less than there are effective units. The
-/// estimate of the memory alone would miss half of all memory in a dozen units,
-/// its upper bound does not. What that is worth stands in
+/// To first order the difference is the mean of the units' contributions, which
+/// OfMean judges. Their estimated memory alone would miss half of all memory in
+/// a dozen units; its upper bound does not. Simulated error rates are in
 /// tests/models/study/confidence_null_test.cc.
 class MemoryBounds {
  public:
-  /// Throws std::invalid_argument for invalid losses.
+  /// Throws std::invalid_argument if `losses` are invalid.
   explicit MemoryBounds(const UnitLosses& losses);
 
-  /// RMSE of model `a` less that of `b` with so much `memory` (0 to 0.98); does
-  /// not apply below 4 units.
+  /// Tests the RMSE of model `a` less that of `b`, given `memory` (0 to 0.98).
+  /// Not applicable below 4 units.
   MemoryTest OfDifference(Eigen::Index a, Eigen::Index b, double memory) const;
-  /// MemoryOf what the units add to that difference, and ShownMemory; 0 below 4
-  /// units.
+  /// Return MemoryOf and ShownMemory of the units' contributions to that
+  /// difference; 0 below 4 units.
   double InDifference(Eigen::Index a, Eigen::Index b, double margin) const;
   double ShownInDifference(Eigen::Index a, Eigen::Index b) const;
-  /// What the mean errors of a model show, where they are known; else, and from
-  /// 20 units on if it is more, what its losses show, by kSuspected. 0 below 4
-  /// units.
+  /// Returns ShownMemory, by kSuspected, of the model's mean errors if they are
+  /// known. Returns that of its losses if they are not, or if it is larger and
+  /// there are at least 20 units. 0 below 4 units.
   double ShownInLosses(Eigen::Index model) const;
 
  private:

@@ -1,13 +1,12 @@
 #include "stats/comparison/paired_comparison.h"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "stats/comparison/holm.h"
+#include "stats/not_a_number.h"
 #include "stats/randomness.h"
 
 namespace errmap::stats {
@@ -34,7 +33,7 @@ std::vector<PairComparison> AllPairs(Index models) {
   return pairs;
 }
 
-// What each unit adds to the difference of each pair (units x pairs).
+// Contribution of each unit to the difference of each pair (units x pairs).
 MatrixXd Differences(const UnitLosses& losses,
                      const std::vector<PairComparison>& pairs) {
   std::vector<Index> first;
@@ -83,10 +82,10 @@ void TestFolds(const FoldLosses& folds, std::vector<PairComparison>* pairs) {
   }
 }
 
-// Where noise hides a memory of 0.9 from 35 units, 1/4, as of five folds, would
-// leave 5.4 and 6.0 % of false differences (normal units, t3; 1000 studies);
-// this leaves 4.5 and 5.3 %. It finds a difference of one standard deviation in
-// 82 and 84 % of the cases for 85 and 87 %
+// If noise hides a memory of 0.9 in 35 units, 1/4, as for five folds, would
+// give 5.4 and 6.0 % of false differences (normal units, t3; 1000 studies);
+// this gives 4.5 and 5.3 %. It finds a difference of one standard deviation in
+// 82 and 84 % of the cases, 1/4 in 85 and 87 %
 // (tests/benchmarks/confidence_study.cc).
 constexpr double kBlocksTestToTrain = 0.3;
 
@@ -148,12 +147,20 @@ struct Gates {
   double p_memory = 0.0;
 };
 
-void AdjustInTurn(PairComparison* pair, Gates* gates) {
-  gates->p = std::max(pair->p, gates->p);
-  gates->p_memory = std::max(pair->memory.test.p, gates->p_memory);
+// Of a test whose direction was fixed before: that `first` is better.
+double OneSided(double two_sided, const PairComparison& pair, Index first) {
+  const bool better = (pair.a == first) == (pair.difference < 0.0);
+  return better ? 0.5 * two_sided : 1.0 - 0.5 * two_sided;
+}
+
+void AdjustInTurn(Index first, PairComparison* pair, Gates* gates) {
+  gates->p = std::max(OneSided(pair->p, *pair, first), gates->p);
+  gates->p_memory =
+      std::max(OneSided(pair->memory.test.p, *pair, first), gates->p_memory);
   pair->p_holm = gates->p;
   pair->p_memory_holm = gates->p_memory;
   pair->num_adjusted = 1;
+  pair->one_sided = true;
 }
 
 void AdjustTogether(const std::vector<PairComparison*>& pairs,
@@ -183,7 +190,7 @@ void AdjustInOrder(const ComparisonOptions& options, Comparison* comparison) {
     PairComparison& pair = comparison->pairs[static_cast<std::size_t>(
         PairIndex(a, b, comparison->rmse.size()))];
     std::erase(rest, &pair);
-    if (!pair.tied) AdjustInTurn(&pair, &gates);
+    if (!pair.tied) AdjustInTurn(*options.first, &pair, &gates);
   }
   const auto is_yardstick = [&](Index model) {
     return std::ranges::find(options.yardsticks, model) !=
@@ -201,7 +208,6 @@ void AdjustInOrder(const ComparisonOptions& options, Comparison* comparison) {
 }
 
 void ForgetTests(PairComparison* pair) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   for (double* p : {&pair->sign_flip.test.p,
                     &pair->p,
                     &pair->p_holm,
@@ -209,10 +215,10 @@ void ForgetTests(PairComparison* pair) {
                     &pair->p_memory_holm,
                     &pair->block_t.test.p,
                     &pair->wilcoxon.test.p}) {
-    *p = kNone;
+    *p = kNaN;
   }
   for (auto* test : {&pair->corrected_t, &pair->diebold_mariano}) {
-    if (*test) (*test)->test.p = kNone;
+    if (*test) (*test)->test.p = kNaN;
   }
 }
 
@@ -220,8 +226,8 @@ MatrixXd ExcessBounds(const Comparison& comparison) {
   const Index models = comparison.rmse.size();
   MatrixXd bounds = MatrixXd::Zero(models, models);
   for (const PairComparison& pair : comparison.pairs) {
-    bounds(pair.a, pair.b) = pair.bounds.at_most;
-    bounds(pair.b, pair.a) = -pair.bounds.at_least;
+    bounds(pair.a, pair.b) = pair.bounds.ExcessAtMost(true);
+    bounds(pair.b, pair.a) = pair.bounds.ExcessAtMost(false);
   }
   return bounds;
 }
@@ -236,7 +242,7 @@ Bounds95 Wider(const Bounds95& one, const Bounds95& other) {
 void BoundErrors(const UnitLosses& losses,
                  const ComparisonOptions& options,
                  Comparison* comparison) {
-  // Not the draws of the sign flips again.
+  // Different from the draws of the sign flips.
   constexpr std::uint64_t kOwnSequence = 0x9e3779b97f4a7c15U;
   const UnitBootstrap bootstrap(
       losses, options.resamples, options.seed ^ kOwnSequence);
@@ -298,11 +304,6 @@ const PairComparison& Comparison::Pair(Index one, Index other) const {
   return pairs[static_cast<std::size_t>(PairIndex(a, b, models))];
 }
 
-double Comparison::ExcessAtMost(Index model, Index than) const {
-  const Bounds95& bounds = Pair(model, than).bounds;
-  return model < than ? bounds.at_most : -bounds.at_least;
-}
-
 Comparison CompareModels(const UnitLosses& losses,
                          const FoldLosses* folds,
                          const ComparisonOptions& options) {
@@ -313,8 +314,7 @@ Comparison CompareModels(const UnitLosses& losses,
   comparison.num_units = losses.num_units();
   comparison.pairs = AllPairs(losses.num_models());
   if (losses.num_units() == 0) {
-    comparison.rmse = VectorXd::Constant(
-        losses.num_models(), std::numeric_limits<double>::quiet_NaN());
+    comparison.rmse = VectorXd::Constant(losses.num_models(), kNaN);
   } else {
     comparison.rmse = PooledRmse(losses);
   }

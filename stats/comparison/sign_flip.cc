@@ -90,7 +90,7 @@ void DrawSigns(Random* random, MatrixXd* signs) {
   }
 }
 
-// How many of `draws` patterns are at least as extreme, for each column.
+// Number of `draws` patterns at least as extreme, for each column.
 std::vector<Index> CountDrawn(const MatrixXd& differences,
                               Index draws,
                               std::uint64_t seed) {

@@ -9,24 +9,24 @@
 
 namespace errmap::stats {
 
-/// Is the mean of paired differences 0? Under the null hypothesis each
-/// difference is as likely with the other sign, whatever its size: the units
-/// may vary unequally, but must be independent.
+/// Tests whether the mean of paired differences is 0. Under the null hypothesis
+/// each difference is equally likely with either sign. Units may have unequal
+/// variances but must be independent.
 struct SignFlipTest {
-  /// statistic = the mean difference; p two-sided, the share of sign patterns
-  /// whose |mean| is at least as large. 1 where all differences are 0.
+  /// statistic = the mean difference. p is two-sided: the share of sign
+  /// patterns whose |mean| is at least as large; 1 if all differences are 0.
   TestResult test;
-  bool exact = false;  // all patterns counted, else drawn
-  /// What p cannot fall below: 2 / 2^m exactly, m differences other than 0;
-  /// 1 / (draws + 1) where drawn.
+  bool exact = false;  // true: all patterns counted; false: drawn
+  /// Smallest p possible: 2 / 2^m if exact, with m nonzero differences; 1 /
+  /// (draws + 1) if drawn.
   double smallest_p = 1.0;
 };
 
-/// Tests each column of `differences` (units x pairs), all by the same sign
-/// patterns. Exact for at most kMostForExactFlips differences other than 0,
-/// by a merge of the sums of two halves (Horowitz & Sahni 1974); otherwise
-/// p = (1 + #{as extreme}) / (draws + 1) of seeded draws. Throws
-/// std::invalid_argument for draws < 1 or a difference that is not finite.
+/// Tests each column of `differences` (units x pairs) with the same sign
+/// patterns. Exact for at most kMostForExactFlips nonzero differences, by
+/// merging the sums of two halves (Horowitz & Sahni 1974). Otherwise p = (1 +
+/// #{as extreme}) / (draws + 1) from seeded draws. Throws std::invalid_argument
+/// if draws < 1 or a difference is not finite.
 std::vector<SignFlipTest> TestBySignFlips(const Eigen::MatrixXd& differences,
                                           Eigen::Index draws,
                                           std::uint64_t seed);

@@ -6,14 +6,14 @@
 
 namespace errmap::stats {
 
-/// Wilcoxon's (1945) signed-rank test: are paired differences symmetric about
-/// 0? As R's wilcox.test with its defaults.
+/// Wilcoxon's (1945) signed-rank test of whether paired differences are
+/// symmetric about 0, with the defaults of R's wilcox.test.
 struct SignedRankTest {
-  /// statistic = V, the sum of the ranks of the positive differences; p
-  /// two-sided. Differences of 0 are dropped; 1 where nothing is left.
+  /// statistic = V, the sum of the ranks of the positive differences. p is
+  /// two-sided. Differences of 0 are dropped; p = 1 if none remain.
   TestResult test;
-  /// From the distribution of V itself: below 50 differences without ties and
-  /// zeros. Else normal, with corrections for continuity and ties.
+  /// True if p is from the distribution of V itself: below 50 differences, no
+  /// ties, no zeros. Else p is normal, with continuity and tie corrections.
   bool exact = false;
 };
 

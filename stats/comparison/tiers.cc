@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <string>
+
+#include "stats/indices.h"
 
 namespace errmap::stats {
 namespace {
@@ -50,8 +51,7 @@ std::vector<std::vector<Index>> FormTiers(const Eigen::VectorXd& rmse,
                                           const Margin& margin) {
   Check(rmse, excess_at_most);
   margin.Validate();
-  std::vector<Index> left(static_cast<std::size_t>(rmse.size()));
-  std::iota(left.begin(), left.end(), Index{0});
+  std::vector<Index> left = AllIndices(rmse.size());
   std::stable_sort(left.begin(), left.end(), [&rmse](Index a, Index b) {
     return rmse[a] < rmse[b];
   });

@@ -6,25 +6,25 @@
 
 namespace errmap::stats {
 
-/// What does not matter to the user.
+/// Differences in RMSE that the user regards as negligible.
 struct Margin {
   double share = 0.05;        // of the best RMSE; at least 0
   double indifference = 0.0;  // in the target's unit; at least 0
 
-  /// The larger of the two.
+  /// Returns the larger of the two, in the target's unit.
   double Of(double best_rmse) const;
   /// Throws std::invalid_argument unless both are finite and at least 0.
   void Validate() const;
 };
 
-/// Models that do not differ in practice, best tier first, each tier in order
-/// of RMSE: the model with the lowest RMSE and all for which
-/// `excess_at_most(model, best)`, the one-sided 95 % upper bound of (RMSE -
-/// best RMSE), is within the margin; then the same among the rest. Lack of
-/// significance admits nobody: where no bound exists (NaN), only a model with
-/// the best's RMSE itself (to a relative 1e-12) shares its tier.
+/// Returns tiers of models that do not differ in practice: best tier first,
+/// each in order of RMSE. A tier holds the model with the lowest RMSE and all
+/// whose `excess_at_most(model, best)`, the one-sided 95 % upper bound of (RMSE
+/// - best RMSE), is within the margin. The next tier is formed from the rest. A
+/// difference that is merely not significant does not suffice: without a bound
+/// (NaN), only a model of equal RMSE (to a relative 1e-12) shares the tier.
 ///
-/// `rmse` (models), `excess_at_most` (models x models); throws
+/// `rmse` (models), `excess_at_most` (models x models). Throws
 /// std::invalid_argument for other shapes or an RMSE that is not finite.
 std::vector<std::vector<Eigen::Index>> FormTiers(
     const Eigen::VectorXd& rmse,

@@ -19,9 +19,9 @@ using Eigen::VectorXd;
 
 constexpr Index kFewestForBootstrap = 2;
 
-// How often each unit is drawn in each resample (resamples x units). Not by
-// Random::Below: its divisions take most of the time, and 53 bits are fair to
-// 1 in 10^12 for a thousand units.
+// Number of times each unit is drawn per resample (resamples x units). Avoids
+// Random::Below: its divisions take most of the time, and 53 bits are fair to 1
+// in 10^12 for a thousand units.
 MatrixXd DrawCounts(Index resamples, Index units, Random* random) {
   MatrixXd counts = MatrixXd::Zero(resamples, units);
   for (Index i = 0; i < resamples; ++i) {
@@ -70,7 +70,7 @@ MatrixXd Resample(const UnitLosses& losses,
   return rmse;
 }
 
-// What is `t` standard errors off the estimate.
+// The value `t` standard errors from the estimate.
 using ByT = std::function<double(double t)>;
 
 Bounds95 Bound(Index units, VectorXd resampled, const ByT& by_t) {
@@ -91,8 +91,8 @@ Bounds95 Bound(Index units, VectorXd resampled, const ByT& by_t) {
           .at_most = high(0.05)};
 }
 
-// The bounds of the square root of a mean square with so many degrees of
-// freedom, where they are wider than `bounds`.
+// Widens `bounds` to those of the square root of a mean square with so many
+// degrees of freedom.
 void WidenByChiSquared(double rmse, double freedom, Bounds95* bounds) {
   // Beyond these the quantiles no longer move.
   constexpr double kFewest = 1.0;
@@ -141,7 +141,7 @@ Bounds95 UnitBootstrap::OfRmse(Index model, double worth) const {
   Bounds95 bounds = Bound(units_, resampled_.col(model), [=](double t) {
     return rmse * std::exp(t * relative_error);
   });
-  // What a unit adds to the mean square, in shares of it: twice that to the
+  // Contribution of a unit to the mean square, as a share: twice that to the
   // RMSE.
   constexpr double kNoLeast = 0.0;
   const VectorXd squares = 1.0 + 2.0 * influence_.col(model).array() / rmse;

@@ -7,48 +7,48 @@
 namespace errmap::stats {
 
 /// Held-out losses of several models on the same rows, gathered by unit of
-/// analysis: the cycle, day, segment or block of rows that is met as a whole.
-/// Neighbouring rows resemble each other, so tests count units, never rows.
+/// analysis: a cycle, day, segment or block of rows. Neighbouring rows resemble
+/// each other, so tests count units, never rows.
 struct UnitLosses {
   Eigen::MatrixXd mean_squares;  // (units x models), squared target units
   Eigen::VectorXd rows;          // (units) rows, or sums of weights, above 0
   Eigen::MatrixXd means = {};    // (units x models) residual, or empty
   std::vector<Eigen::Index> codes = {};  // (units) group code, or empty
-  bool time_ordered = false;             // units stand in the order of time
+  bool time_ordered = false;             // true: units are in time order
 
   Eigen::Index num_units() const { return mean_squares.rows(); }
   Eigen::Index num_models() const { return mean_squares.cols(); }
 
-  /// (units x pairs) what each unit adds to the difference of pooled mean
-  /// squares of models first[i] and second[i]: its loss difference times its
-  /// share of the rows, of mean 1.
+  /// Returns (units x pairs) each unit's contribution to the difference of
+  /// pooled mean squares of models first[i] and second[i]. This is its loss
+  /// difference times its share of the rows, scaled to mean 1.
   Eigen::MatrixXd Differences(const std::vector<Eigen::Index>& first,
                               const std::vector<Eigen::Index>& second) const;
 
-  /// Throws std::invalid_argument unless the shapes agree, every mean square
-  /// is finite and at least 0 and every unit has rows.
+  /// Throws std::invalid_argument unless the shapes agree, every mean square is
+  /// finite and at least 0, and every unit has rows.
   void Validate() const;
 };
 
-/// Gathers `residuals` (rows x models) by the code of each row's unit; units
-/// ascend by code, and codes that no row has are passed over. Throws
-/// std::invalid_argument for a number of codes other than that of rows, a
-/// negative code or a residual that is not finite.
+/// Gathers `residuals` (rows x models) by the unit code of each row. Units are
+/// in ascending order of code; codes without rows are skipped. Throws
+/// std::invalid_argument if the number of codes differs from that of rows, a
+/// code is negative or a residual is not finite.
 UnitLosses GatherByUnit(const Eigen::MatrixXd& residuals,
                         const std::vector<Eigen::Index>& unit_codes);
 
-/// A code per row, 0, 0, ..., 1, 1, ...: where there are no groups, rows in
-/// order are cut into min(20, num_rows / 5) blocks, at least one, as equal as
-/// can be, longer ones first.
+/// Returns a code per row, 0, 0, ..., 1, 1, ..., for data without groups. The
+/// rows, in order, are cut into min(20, num_rows / 5) blocks (at least one) of
+/// equal length or one row longer, the longer ones first.
 std::vector<Eigen::Index> BlocksInOrder(Eigen::Index num_rows);
 
-/// RMSE of each model (models) over all rows pooled:
-/// sqrt(sum(rows * mean_square) / sum(rows)). NaN without units.
+/// Returns the RMSE of each model (models), pooled over all rows: sqrt(sum(rows
+/// * mean_square) / sum(rows)). NaN if there are no units.
 Eigen::VectorXd PooledRmse(const UnitLosses& losses);
 
-/// What each unit adds to the pooled `rmse` (models), to first order (units x
-/// models): w (L - M) / (2 sqrt(M) mean(w)) for rows w, loss L and pooled mean
-/// square M. Each column's mean is 0.
+/// Returns each unit's contribution to the pooled `rmse` (models), to first
+/// order (units x models): w (L - M) / (2 sqrt(M) mean(w)) for rows w, loss L
+/// and pooled mean square M. Each column has mean 0.
 Eigen::MatrixXd InfluenceOnRmse(const UnitLosses& losses,
                                 const Eigen::VectorXd& rmse);
 

@@ -39,7 +39,7 @@ Vertices Hull(const VectorXd& x, Index low, Index high, bool below) {
   return hull;
 }
 
-// Where majorant and minorant are farthest apart.
+// The place where majorant and minorant are farthest apart.
 struct WidestGap {
   double width = 0.0;        // in steps of 1/n
   std::size_t minorant = 0;  // last vertex of the minorant before it
@@ -119,7 +119,7 @@ double DipStatistic(const Eigen::Ref<const VectorXd>& ascending) {
                   LargestDeparture(x, minorant, 0, gap.minorant, true),
                   LargestDeparture(
                       x, majorant, gap.majorant, majorant.size() - 1, false)});
-    // The modal interval shrinks to where the gap is.
+    // The modal interval shrinks to the gap.
     const Index new_low = minorant[gap.minorant];
     const Index new_high = majorant[gap.majorant];
     if (new_low == low && new_high == high) break;

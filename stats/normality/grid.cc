@@ -9,7 +9,7 @@ std::optional<double> FindStep(
   using Eigen::Index;
   const double least =
       kFinestStep / std::sqrt(static_cast<double>(ascending.size()));
-  // Standardising leaves 1e-10 where the mean is a million standard deviations.
+  // Standardising leaves 1e-10 if the mean is a million standard deviations.
   constexpr double kRounding = 1e-6;
   const double nothing = kRounding * least;
   double step = 0.0;

@@ -4,13 +4,13 @@
 
 namespace errmap::stats {
 
-/// Largest n for which KsProbabilityExact follows the finite distribution in
-/// its body; beyond it takes Pelz and Good's expansion there.
+/// Largest n for which KsProbabilityExact uses the finite distribution in the
+/// body. Above it, it uses Pelz and Good's expansion.
 inline constexpr Eigen::Index kMostForExactKs = 20000;
 
-/// Probability of a one-sample K-S distance of at least `d` in n >= 1 values,
-/// exact for finite n, under the null hypothesis with the distribution GIVEN
-/// (mean and sd not estimated from the same values).
+/// Returns the probability of a one-sample K-S distance of at least `d` in n >=
+/// 1 values, exact for finite n, under the null hypothesis with the
+/// distribution GIVEN (mean and sd not estimated from the same values).
 ///
 /// - Tail, n d^2 >= 5 or d >= 1/2: twice the one-sided probability, a sum of
 ///   positive terms (Smirnov 1944; the overlap of both sides is below 1e-17).
@@ -21,7 +21,7 @@ inline constexpr Eigen::Index kMostForExactKs = 20000;
 /// - Body, larger n: Pelz and Good's expansion in 1/sqrt(n) (J. R. Stat. Soc.
 ///   B 38, 1976); absolute error below 2e-10.
 ///
-/// NaN where d is NaN. Throws std::invalid_argument for n < 1.
+/// Returns NaN if d is NaN. Throws std::invalid_argument if n < 1.
 double KsProbabilityExact(double d, Eigen::Index n);
 
 }  // namespace errmap::stats

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "stats/kolmogorov_smirnov.h"
 #include "stats/normality/simulated_quantiles.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::stats {
 namespace {
@@ -35,7 +35,7 @@ double LillieforsProbability(double d, Index n) {
 double DallalWilkinsonProbability(double d, Index n) {
   constexpr Index kFewest = 5;
   if (n < kFewest || std::isnan(d)) {
-    return std::numeric_limits<double>::quiet_NaN();
+    return kNaN;
   }
   // Eq. 2 of the paper, n above 100 brought back to 100.
   constexpr double kLargestSize = 100.0;

@@ -6,8 +6,8 @@
 
 namespace errmap::stats {
 
-/// n independent standard normal values: quantiles of uniform ones, so the
-/// same with every standard library.
+/// Returns n independent standard normal values, the same with every standard
+/// library: the normal quantiles of uniform values.
 Eigen::VectorXd NormalSample(Eigen::Index n, Random* random);
 
 }  // namespace errmap::stats

@@ -1,7 +1,6 @@
 #include "stats/normality/normality.h"
 
 #include <cmath>
-#include <limits>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -14,14 +13,13 @@
 #include "stats/normality/lilliefors.h"
 #include "stats/normality/monte_carlo.h"
 #include "stats/normality/simulated_quantiles.h"
+#include "stats/not_a_number.h"
 #include "stats/random.h"
 
 namespace errmap::stats {
 namespace {
 
 using Eigen::Index;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // A test whose p can be simulated, and which of its ends is extreme.
 struct SimulatedTest {

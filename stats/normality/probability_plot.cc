@@ -26,8 +26,8 @@ VectorXd GridLambdas() {
   return VectorXd::LinSpaced(kGridSize, kLowestLambda, kHighestLambda);
 }
 
-// What a plot against quantiles that are odd about the middle sees of a
-// sample: they meet x_(n+1-i) - x_(i) only, and their mean is zero.
+// A sample as seen by a plot against quantiles that are odd about the middle:
+// they meet only x_(n+1-i) - x_(i), and their mean is zero.
 class MirroredSample {
  public:
   MirroredSample(const Eigen::Ref<const VectorXd>& ascending, Index n) {
@@ -99,7 +99,7 @@ TukeyPlot::TukeyPlot(Index n) : n_(n) {
     throw std::invalid_argument("TukeyPlot: needs at least 2 values, found " +
                                 std::to_string(n));
   }
-  // Of the upper half: the lower is its mirror image. 1 - p is the mirrored
+  // Upper half only: the lower is its mirror image. 1 - p is the mirrored
   // median itself, which keeps the digits of the last ones.
   const VectorXd medians = UniformMedians(n);
   const Index half = n / 2;

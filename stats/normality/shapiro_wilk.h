@@ -9,21 +9,21 @@ namespace errmap::stats {
 
 /// Shapiro-Wilk test of normality by Royston's approximation (Applied
 /// Statistics 44, 1995, algorithm AS R94), mean and sd estimated. The weights
-/// are made once for all samples of one size.
+/// are computed once for all samples of one size.
 class ShapiroWilkTest {
  public:
   static constexpr Eigen::Index kFewest = 3;
-  static constexpr Eigen::Index kMost = 5000;  // beyond it p is not calibrated
+  static constexpr Eigen::Index kMost = 5000;  // above it p is not calibrated
 
   explicit ShapiroWilkTest(Eigen::Index n);
 
-  /// W and p of a sample of n values; not applicable unless 3 <= n <= 5000.
-  /// Throws std::invalid_argument for a sample of another size.
+  /// Returns W and p of a sample of n values; not applicable unless 3 <= n <=
+  /// 5000. Throws std::invalid_argument if `sample` has another size.
   TestResult operator()(const OrderedSample& sample) const;
 
  private:
   Eigen::Index n_;
-  Eigen::VectorXd upper_weights_;  // (n/2) of x_(n), x_(n-1), ...
+  Eigen::VectorXd upper_weights_;  // (n/2) weights of x_(n), x_(n-1), ...
 };
 
 }  // namespace errmap::stats

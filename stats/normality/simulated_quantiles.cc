@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Index;
 
-// What varies slowly with n and smoothly with the probability.
+// Returns a value that varies slowly with n and smoothly with p.
 double Scaled(SimulatedStatistic statistic, double value, double n) {
   switch (statistic) {
     case SimulatedStatistic::kNormalPpcc:

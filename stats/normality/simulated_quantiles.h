@@ -4,7 +4,7 @@
 
 namespace errmap::stats {
 
-/// Statistics whose null distribution is known by simulation only.
+/// Statistics whose null distribution is known only from simulation.
 enum class SimulatedStatistic {
   kLilliefors,    // D of normal samples, mean and sd estimated
   kNormalPpcc,    // 1 - r of the normal probability plot, normal samples
@@ -14,28 +14,28 @@ enum class SimulatedStatistic {
 
 /// Smallest n that was simulated.
 inline constexpr Eigen::Index kFewestSimulated = 4;
-/// The largest and the smallest probability that was simulated.
+/// The largest and the smallest probability simulated.
 inline constexpr double kLargestSimulated = 0.999;
 inline constexpr double kSmallestSimulated = 0.001;
 
-/// Probability that the statistic is at least `value` in n >= kFewestSimulated
-/// values: from quantiles simulated for 25 sizes from 4 to 5000 (60 000 to
-/// 500 000 samples each; kTukeyMaxPpcc 10 000 to 200 000), interpolated
-/// linearly in the normal score of the probability and in log n. Cut off at
-/// kSmallestSimulated and kLargestSimulated, which then stand for "at most" and
-/// "at least". Simulation and interpolation leave an error of up to 0.004.
+/// Returns the probability that the statistic is at least `value` in n >=
+/// kFewestSimulated values. It is from quantiles simulated for 25 sizes from 4
+/// to 5000 (60 000 to 500 000 samples each; kTukeyMaxPpcc 10 000 to 200 000),
+/// interpolated linearly in the normal score of the probability and in log n.
+/// It is clamped to kSmallestSimulated and kLargestSimulated, which then mean
+/// "at most" and "at least". Simulation and interpolation err by up to 0.004.
 ///
-/// Beyond n = 5000 D and the dip keep their sqrt(n) scale and the correlations
-/// follow the last sizes' trend; measured at n = 20000 a nominal 5 %
-/// is 5.3, 5.1, 5.1 and 6.0 % (in the order of SimulatedStatistic), a nominal
-/// 10 % of kTukeyMaxPpcc 14 %. How the tables are made:
+/// Above n = 5000, D and the dip keep their sqrt(n) scale, and the correlations
+/// follow the trend of the last sizes. Measured at n = 20000, a nominal 5 % is
+/// 5.3, 5.1, 5.1 and 6.0 % (in the order of SimulatedStatistic), and a nominal
+/// 10 % of kTukeyMaxPpcc is 14 %. The tables are made by
 /// tests/stats/normality/simulate_null_tables.cc.
 double SimulatedProbability(SimulatedStatistic statistic,
                             double value,
                             Eigen::Index n);
 
-/// The value that is reached with this `probability`, within the cut-offs.
-/// Throws std::invalid_argument for n or a probability outside the tables.
+/// Returns the value that is reached with this `probability`, clamped as above.
+/// Throws std::invalid_argument if n or the probability is outside the tables.
 double SimulatedCriticalValue(SimulatedStatistic statistic,
                               double probability,
                               Eigen::Index n);

@@ -2,7 +2,7 @@
 // the 95 % interval of an RMSE covers: a study of the statistics, run by hand.
 // Prints Markdown tables; some minutes with the default repetitions.
 //
-//   confidence_study [REPETITIONS [differences|baselines|intervals]]
+//   confidence_study [REPETITIONS [differences|baselines|intervals|turns]]
 
 #include <cstdio>
 #include <cstdlib>
@@ -19,7 +19,7 @@ using testing::Simulation;
 using testing::Tails;
 using testing::World;
 
-constexpr double kMemories[] = {0.0, 0.5, 0.9};
+constexpr double kMemories[] = {0.0, 0.3, 0.5, 0.9};
 
 const char* Name(Tails tails) {
   switch (tails) {
@@ -64,8 +64,8 @@ void PrintRows(World world, const Share& share) {
 void PrintHead(const char* title) {
   std::printf(
       "\n%s, %%\n\n"
-      "| drawn | tails | units | models | memory 0 | 0.5 | 0.9 |\n"
-      "|---|---|---|---|---|---|---|\n",
+      "| drawn | tails | units | models | memory 0 | 0.3 | 0.5 | 0.9 |\n"
+      "|---|---|---|---|---|---|---|---|\n",
       title);
 }
 
@@ -96,6 +96,30 @@ void StudyDifferences(int repetitions) {
                 [&](const World& world) {
                   return EstablishedDifferent(world, repetitions);
                 });
+    }
+  }
+}
+
+// A map against a baseline before all else, units that are sessions.
+void StudyTurns(int repetitions) {
+  for (const double worse : {0.0, 0.5, 0.67, 1.0, 2.0}) {
+    char title[100];
+    std::snprintf(title,
+                  sizeof(title),
+                  "A gain of %.2f standard deviations called one",
+                  worse);
+    PrintHead(title);
+    for (const Tails tails : {Tails::kNormal, Tails::kT3}) {
+      for (const Eigen::Index units : {6, 8, 10, 12}) {
+        PrintRows({.units = units,
+                   .tails = tails,
+                   .separate_sessions = true,
+                   .worse = worse,
+                   .in_turn = true},
+                  [&](const World& world) {
+                    return EstablishedDifferent(world, repetitions);
+                  });
+      }
     }
   }
 }
@@ -160,6 +184,7 @@ int main(int count, char** words) {
     return part == "all" || part == name;
   };
   if (wanted("differences")) errmap::StudyDifferences(repetitions);
+  if (wanted("turns")) errmap::StudyTurns(repetitions);
   if (wanted("baselines")) errmap::StudyBaselines(repetitions);
   if (wanted("intervals")) errmap::StudyIntervals(repetitions);
 }

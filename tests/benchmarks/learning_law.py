@@ -11,7 +11,7 @@ and ends with status 1 where fewer than 85 % hold the first of these.
 
 Seen 2026-11-22. Laws that took each size's error for independent, and the floor as
 anywhere below the curve, held 71 % on the later days (seeds 101-148 and 201-240, 8
-cycles a day). The constants of models/promise/power_law.cc were chosen on these
+cycles a day). The constants of models/learning/power_law.cc were chosen on these
 and on seeds 401-430 (16 cycles); those hold 87 % and 92 %, four days 85 and 81 %,
 the last point 90 and 94 %. Judged on fresh seeds: 501-520 56 of 60, 53 of 60, 56 of
 60; 601-620 --days 6 56, 53, 57 of 60; 7101-7120 --days 4 50, 51, 55; 7121-7140 --days

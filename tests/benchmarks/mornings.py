@@ -12,9 +12,10 @@ An order is wrong where acting on it leaves 10 % more than leaving all as it is
 (re-zero, gain and sign on the rows after the last probe, on all rows where none
 are left), or where "holds" is said of a session that errs more than 1.5 times
 the promise. Printed: orders that are wrong and answers "not known", of all and
-of each cell; of sensors at fault that move the map by more than the promise, how
-many are named; of sessions that hold, how many are said not to; of sound sensors
-how many are accused.
+of each cell, those of cut logs apart, which are not known until the map's memory
+is full; of sensors at fault that move the map by more than the promise, how many
+are named; of sessions that hold, how many are said not to; of sound sensors how
+many are accused.
 """
 
 import collections
@@ -260,8 +261,10 @@ def report(found):
         print(f"  {kind:10} {window:7} {number:3} {text}")
     many = [c for c in found if c["probes"] >= 5 and
             c["window"] in ("1 h", "whole")]
-    print("not known with five probes or more over an hour or more: "
-          f"{share([c for c in many if not c['known']], many)}")
+    for text, of_cut in (("", False), (", of cut logs", True)):
+        some = [c for c in many if c["kind"].startswith("cut") == of_cut]
+        print(f"not known with five probes or more over an hour or more{text}: "
+              f"{share([c for c in some if not c['known']], some)}")
     for kind in SENSOR_KINDS:
         moved = [c for c in of(kind=kind) if c["moved"] > 1.0]
         print(f"{kind}: named where it moves the map by more than the promise "

@@ -10,13 +10,17 @@
 
 #include <benchmark/benchmark.h>
 
+#include "cli/turning_centre/simulation.h"
+#include "cli/turning_centre/simulation_files.h"
 #include "data/csv.h"
-#include "data/turning_centre/simulation.h"
-#include "data/turning_centre/simulation_files.h"
 #include "tests/places.h"
 
-namespace errmap::data::turning_centre {
+namespace errmap::turning_centre {
 namespace {
+
+using data::ColumnValues;
+using data::CsvTable;
+using data::ReadCsv;
 
 double RmseOfReportDay(const Simulation& simulation) {
   const CsvTable table =
@@ -68,4 +72,4 @@ void BM_SimulateAllFiles(benchmark::State& state) {
 BENCHMARK(BM_SimulateAllFiles)->Arg(18)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace errmap::data::turning_centre
+}  // namespace errmap::turning_centre

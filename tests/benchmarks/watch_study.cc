@@ -26,16 +26,16 @@
 #include <string>
 #include <vector>
 
+#include "cli/turning_centre/simulation.h"
+#include "cli/turning_centre/simulation_files.h"
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
-#include "data/turning_centre/simulation.h"
-#include "data/turning_centre/simulation_files.h"
 #include "models/fleet/sensor_relations.h"
 #include "models/fleet/session_measures.h"
 #include "models/fleet/watch.h"
-#include "models/promise/map_rows.h"
-#include "models/promise/promise.h"
 #include "models/recipe_catalog.h"
+#include "models/session/map_rows.h"
+#include "models/uncertainty/promise.h"
 
 namespace errmap {
 namespace {
@@ -79,13 +79,13 @@ std::vector<Part> Parts() {
 class Machine {
  public:
   Machine(std::uint64_t seed, int cycles, double shift_um, int from_day)
-      : text_(data::turning_centre::SimulationFile(
-            data::turning_centre::Simulate({.seed = seed,
-                                            .days = kMostTrained + 2,
-                                            .cycles = cycles,
-                                            .from_day = from_day,
-                                            .shift_um = shift_um,
-                                            .points_per_day = 0}),
+      : text_(turning_centre::SimulationFile(
+            turning_centre::Simulate({.seed = seed,
+                                      .days = kMostTrained + 2,
+                                      .cycles = cycles,
+                                      .from_day = from_day,
+                                      .shift_um = shift_um,
+                                      .points_per_day = 0}),
             {},
             kFile)),
         day_(data::ParseCsv(text_, kFile)) {

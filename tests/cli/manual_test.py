@@ -147,6 +147,7 @@ def browse(browser, scratch, *flags):
 
 def check_in_browser(browser, folder, root, scratch, problems):
     pages = sorted((folder / "cli/manual").glob("*.html"))
+    pages += sorted((folder / "cli/fleet").glob("machines.html"))
     pages.append(folder / "data/sets/examples.html")
     harness = scratch / "harness.html"
     harness.write_text(HARNESS % (json.dumps([p.as_uri() for p in pages]),

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What the program writes is as its schemas say, and they can refuse.
 
-    schemas_test.py ERRMAP SCHEMA_FOLDER
+    schemas_test.py ERRMAP FOLDER_OF_SCHEMA_FOLDERS
 
 Real outputs are validated (JSON Schema draft-07); every key in them is
 described; and documents spoilt in one place are refused. Exits with 77, which
@@ -56,7 +56,7 @@ def redirected(node, old, new):
 class Schemas:
     def __init__(self, folder):
         self.files = {}
-        for path in sorted(pathlib.Path(folder).glob("*" + SUFFIX)):
+        for path in sorted(pathlib.Path(folder).glob("*/*" + SUFFIX)):
             self.files[path.name] = parse(path.read_text(encoding="utf-8"))
             jsonschema.Draft7Validator.check_schema(self.files[path.name])
         if len(self.files) < 4:
@@ -64,10 +64,16 @@ class Schemas:
 
     @functools.lru_cache(maxsize=None)
     def validator(self, name):
-        """With the shared blocks taken in: no resolver, no look at the disk."""
-        schema = redirected(self.files[name + SUFFIX], BLOCKS + SUFFIX + "#", "#/shared")
-        blocks = redirected(self.files[BLOCKS + SUFFIX], "#", "#/shared")
-        return jsonschema.Draft7Validator({**schema, "shared": blocks})
+        """With all schemas taken in: no resolver, no look at the disk."""
+        shared = {}
+        for file, schema in self.files.items():
+            place = "#/shared/" + file.removesuffix(SUFFIX)
+            schema = redirected(schema, "#", place)
+            for other in self.files:
+                there = "#/shared/" + other.removesuffix(SUFFIX)
+                schema = redirected(schema, other + "#", there)
+            shared[file.removesuffix(SUFFIX)] = schema
+        return jsonschema.Draft7Validator({"$ref": "#/shared/" + name, "shared": shared})
 
     def errors(self, document):
         validator = self.validator(document["schema"])
@@ -431,7 +437,7 @@ def check_teeth(schemas, label, document):
 
 def main():
     if len(sys.argv) != 3:
-        print("usage: schemas_test.py ERRMAP SCHEMA_FOLDER", file=sys.stderr)
+        print("usage: schemas_test.py ERRMAP FOLDER_OF_SCHEMA_FOLDERS", file=sys.stderr)
         return 2
     schemas = Schemas(sys.argv[2])
     used = {BLOCKS}

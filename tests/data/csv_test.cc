@@ -11,12 +11,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "data/formula_text.h"
-
 namespace errmap::data {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -94,7 +93,7 @@ TEST(ParseCsv, TakesNoOtherSpellingForANumber) {
   for (const std::string cell :
        {"0x10",   "e",      "e5",       "1e",     "1e+", ".",     "-",
         "+",      "+-1",    "-+1",      "1.2.3",  "1 2", "1_000", "1e999",
-        "-1e999", "1e-999", "infinity", "nan(1)", "1d3", "12mm",  "\xC2\xB5"}) {
+        "-1e999", "1e-999", "infinity", "nan(1)", "1d3", "12xy",  "\xC2\xB5"}) {
     const CsvTable table = ParseCsv("x,y\n" + cell + ",1\n", "f.csv");
     EXPECT_THAT(table.columns[0].texts, ElementsAre(cell)) << cell;
     EXPECT_TRUE(table.columns[0].is_text()) << cell;
@@ -145,16 +144,84 @@ TEST(ParseCsv, ReadsDecimalCommasBetweenSemicolonsAndTabs) {
               ElementsAre(1.5));
 }
 
-TEST(ParseCsv, TakesNoDecimalCommaInACommaSeparatedFile) {
-  const CsvTable table = ParseCsv("a,b\n\"1,5\",2\n", "f.csv");
+TEST(ParseCsv, TakesDecimalCommasInQuotesWhereNoNumberHasAPoint) {
+  EXPECT_THAT(ParseCsv("a,b\n\"1,5\",2\n", "f.csv").columns[0].values,
+              ElementsAre(1.5));
+  const CsvTable table = ParseCsv("a,b\n\"1,5\",2.5\n", "f.csv");
   EXPECT_THAT(table.columns[0].texts, ElementsAre("1,5"));
 }
 
-TEST(ParseCsv, TakesNoNumberWithThousandsSeparators) {
-  const CsvTable table =
-      ParseCsv("a;b\n1.234,5;1,234.5\n1,234,5;1.234.5\n", "f.csv");
-  EXPECT_TRUE(table.columns[0].is_text());
+TEST(ParseCsv, TakesNumbersAsPeopleWriteThem) {
+  const CsvTable table = ParseCsv(
+      "a;b;c;d;e\n1.234,5;25 000;25'000,5;\xE2\x88\x92"
+      "2,5;3,5 # a door\n"
+      "1.234.567;1 000;0;2,5-;-4\n",
+      "f.csv");
+  EXPECT_THAT(table.columns[0].values, ElementsAre(1234.5, 1234567.0));
+  EXPECT_THAT(table.columns[1].values, ElementsAre(25000.0, 1000.0));
+  EXPECT_THAT(table.columns[2].values, ElementsAre(25000.5, 0.0));
+  EXPECT_THAT(table.columns[3].values, ElementsAre(-2.5, -2.5));
+  EXPECT_THAT(table.columns[4].values, ElementsAre(3.5, -4.0));
+  EXPECT_THAT(table.remarks,
+              Contains(HasSubstr("5 cells are read as numbers less marks")));
+  // With points in other numbers a comma is none.
+  EXPECT_THAT(ParseCsv("a,b\n\"25,000\",2.5\n", "f.csv").columns[0].values,
+              ElementsAre(25000.0));
+}
+
+TEST(ParseCsv, TakesNoNumberWithMarksInOtherPlaces) {
+  const CsvTable table = ParseCsv(
+      "a;b;c;d;e;f;g\n1;1;1;1;1;1;1\n1,234,5;1.234.5;1 2;2;2;2;2\n", "f.csv");
+  EXPECT_THAT(table.columns[0].texts, ElementsAre("1,234,5"));
+  EXPECT_THAT(table.columns[1].texts, ElementsAre("1.234.5"));
+  EXPECT_THAT(table.columns[2].texts, ElementsAre("1 2"));
+}
+
+TEST(ParseCsv, TakesTheUnitOfAllCellsForTheColumns) {
+  const CsvTable table = ParseCsv(
+      "Error;x\n1,5 \xC2\xB5m;12mm\nNaN;13mm\n-2 \xC2\xB5m;4 in\n", "f");
+  EXPECT_EQ(table.columns[0].name, "Error [\xC2\xB5m]");
+  EXPECT_EQ(table.columns[0].values[2], -2.0);
+  EXPECT_THAT(table.columns[0].texts[table.columns[0].exceptions[0].second],
+              "NaN");
   EXPECT_TRUE(table.columns[1].is_text());
+}
+
+TEST(ParseCsv, ReadsCellsInSingleQuotesAndColumnsSetApartByBlanks) {
+  EXPECT_THAT(Names(ParseCsv("'a';'b'\n'1';'2,5'\n", "f")),
+              ElementsAre("a", "b"));
+  const CsvTable table = ParseCsv(
+      "  Time [s]   Error [um]\n       1.0         -2.5\n      12.0          3"
+      ".5\n",
+      "f");
+  EXPECT_THAT(Names(table), ElementsAre("Time [s]", "Error [um]"));
+  EXPECT_THAT(table.columns[1].values, ElementsAre(-2.5, 3.5));
+}
+
+TEST(ParseCsv, FoldsAColumnForEachRunAndForEachPosition) {
+  const CsvTable runs = ParseCsv(
+      "X [mm],Run 1 up [um],Run 1 down [um],Run 2 up [um],Run 2 down [um]\n"
+      "0,1,2,3,4\n50,5,6,7,8\n",
+      "f");
+  EXPECT_THAT(Names(runs),
+              ElementsAre("X [mm]", "cycle", "direction", "error [um]"));
+  EXPECT_THAT(runs.columns[0].values, ElementsAre(0, 50, 50, 0, 0, 50, 50, 0));
+  EXPECT_THAT(runs.columns[1].values, ElementsAre(1, 1, 1, 1, 2, 2, 2, 2));
+  EXPECT_THAT(runs.columns[3].values, ElementsAre(1, 5, 6, 2, 3, 7, 8, 4));
+  const CsvTable places =
+      ParseCsv("cycle,X=0 mm,X=50 mm,X=100 mm\n1,1,2,3\n2,4,5,6\n", "f");
+  EXPECT_THAT(Names(places), ElementsAre("cycle", "position_mm", "error"));
+  EXPECT_THAT(places.columns[2].values, ElementsAre(1, 2, 3, 4, 5, 6));
+}
+
+TEST(ParseCsv, PassesOverLinesOfWordsAmongTheRows) {
+  const CsvTable table = ParseCsv(
+      "a,b,c\n1,2,3\n\nDay 2: cold start\na,b,c\nmm,um,\n4,5,6\n\nEnd of "
+      "test\n",
+      "f");
+  EXPECT_THAT(table.columns[2].values, ElementsAre(3, 6));
+  EXPECT_THAT(table.remarks,
+              Contains(HasSubstr("2 lines of words among the rows: 'Day 2")));
 }
 
 TEST(ParseCsv, NotesFirstDecimalPointAndComma) {
@@ -466,77 +533,6 @@ TEST(ParseCsv, TakesCommasInNamesForNoDelimiter) {
   const CsvTable table = ParseCsv("t1, bed, front;error_mm\n20;0.001\n", "a");
   ASSERT_EQ(table.columns.size(), 2U);
   EXPECT_EQ(table.columns[0].name, "t1, bed, front");
-}
-
-TEST(CsvField, TurnsFormulasOfSpreadsheetsIntoText) {
-  EXPECT_EQ(CsvField("=1+1"), "'=1+1");
-  EXPECT_EQ(CsvField("@SUM(A1,B1)"), "\"'@SUM(A1,B1)\"");
-  EXPECT_EQ(CsvField("+cmd"), "'+cmd");
-  EXPECT_EQ(CsvField("-down"), "'-down");
-  // Numbers are what they are.
-  EXPECT_EQ(CsvField("-1.5"), "-1.5");
-  EXPECT_EQ(CsvField("+2e3"), "+2e3");
-  EXPECT_EQ(CsvField("-"), "-");
-  // Else it would be taken for ours.
-  EXPECT_EQ(CsvField("'=1+1"), "''=1+1");
-  EXPECT_EQ(CsvField("'down'"), "'down'");
-}
-
-std::string CsvOf(const std::vector<std::string>& texts) {
-  std::string csv = "row,label\n";
-  for (const std::string& text : texts) csv += "1," + CsvField(text) + "\n";
-  return MarkedCsv(csv);
-}
-
-TEST(FormulaText, ComesBackFromFilesThatCarryTheMark) {
-  const std::vector<std::string> texts = {
-      "=1+1", "'=1+1", "@a,b", "-down", "'quoted'", "plain", "+x \"y\""};
-  const CsvTable table = ParseCsv(CsvOf(texts), "a.csv");
-  for (std::size_t row = 0; row < texts.size(); ++row) {
-    EXPECT_EQ(table.CellText(table.columns[1], row), texts[row]);
-  }
-  EXPECT_EQ(ParseCsv(MarkedCsv(CsvField("=a") + ",b\n1,2\n"), "a.csv")
-                .columns[0]
-                .name,
-            "=a");
-}
-
-TEST(FormulaText, LeavesOtherFilesAsTheyAre) {
-  EXPECT_EQ(CsvOf({"plain", "'quoted'", "-1.5"}),
-            "row,label\n1,plain\n1,'quoted'\n1,-1.5\n");
-  const CsvTable table = ParseCsv("row,label\n1,'=1+1\n", "a.csv");
-  EXPECT_EQ(table.CellText(table.columns[1], 0), "'=1+1");
-}
-
-TEST(CsvField, QuotesOnlyWhatNeedsQuotes) {
-  EXPECT_EQ(CsvField("plain text_1"), "plain text_1");
-  EXPECT_EQ(CsvField(""), "");
-  EXPECT_EQ(CsvField("a,b"), "\"a,b\"");
-  EXPECT_EQ(CsvField("a;b"), "\"a;b\"");
-  EXPECT_EQ(CsvField("a\tb"), "\"a\tb\"");
-  EXPECT_EQ(CsvField("a\nb"), "\"a\nb\"");
-  EXPECT_EQ(CsvField("a\rb"), "\"a\rb\"");
-  EXPECT_EQ(CsvField("say \"x\""), "\"say \"\"x\"\"\"");
-  EXPECT_EQ(CsvField(" a"), "\" a\"");
-  EXPECT_EQ(CsvField("a "), "\"a \"");
-  EXPECT_EQ(CsvField("#1"), "\"#1\"");
-  EXPECT_EQ(CsvField("n#1"), "n#1");
-}
-
-TEST(CsvField, ReadsBackTheSame) {
-  for (const std::string name : {"a,b", "x\"y", "p\r\nq", "#1", "m;n"}) {
-    const CsvTable table = ParseCsv(CsvField(name) + "," + "z\n1,2\n", "f.csv");
-    EXPECT_EQ(table.columns[0].name, name);
-  }
-}
-
-TEST(CsvNumber, WritesTheShortestTextThatReadsBack) {
-  EXPECT_EQ(CsvNumber(0.1), "0.1");
-  EXPECT_EQ(CsvNumber(3.0), "3");
-  EXPECT_EQ(CsvNumber(-1.5e-7), "-1.5e-07");
-  EXPECT_EQ(CsvNumber(std::numeric_limits<double>::quiet_NaN()), "");
-  EXPECT_EQ(CsvNumber(-std::numeric_limits<double>::min()),
-            "-2.2250738585072014e-308");
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ TEST(ReadHeader, ReadsUnitsHoweverPeopleWriteThem) {
     const Header header = ReadHeader(name);
     EXPECT_EQ(header.unit, UnitOfSymbol("um")) << name;
     EXPECT_EQ(header.source, UnitSource::kStated) << name;
-    EXPECT_THAT(header.base, testing::StartsWith("error")) << name;
+    EXPECT_THAT(header.base, ::testing::StartsWith("error")) << name;
   }
   EXPECT_EQ(ReadHeader("disp_ch1 [um]").base, "disp_ch1");
 }

@@ -13,7 +13,6 @@ TEST(FoldCodes, PredictEachFoldFromAllOthers) {
   const FoldCodes folds{{0, 1, 2, 1, 0}, false};
   EXPECT_EQ(folds.count(), 3);
   EXPECT_EQ(folds.first_judged(), 0);
-  EXPECT_EQ(folds.NumJudged(), 5);
   EXPECT_THAT(folds.Split(1).train, ElementsAre(0, 2, 4));
   EXPECT_THAT(folds.Split(1).test, ElementsAre(1, 3));
 }
@@ -21,7 +20,6 @@ TEST(FoldCodes, PredictEachFoldFromAllOthers) {
 TEST(FoldCodes, PredictEachFoldFromEarlierOnesWhereForward) {
   const FoldCodes folds{{0, 1, 2, 1, 0}, true};
   EXPECT_EQ(folds.first_judged(), 1);
-  EXPECT_EQ(folds.NumJudged(), 3);
   EXPECT_THAT(folds.Split(1).train, ElementsAre(0, 4));
   EXPECT_THAT(folds.Split(1).test, ElementsAre(1, 3));
   EXPECT_THAT(folds.Split(2).train, ElementsAre(0, 1, 3, 4));
@@ -33,7 +31,6 @@ TEST(FoldCodes, PredictEachFoldFromEarlierOnesWhereForward) {
 TEST(FoldCodes, AreNoFoldsWithoutRows) {
   const FoldCodes none;
   EXPECT_EQ(none.count(), 0);
-  EXPECT_EQ(none.NumJudged(), 0);
   EXPECT_THAT(none.Split(0).test, IsEmpty());
 }
 

@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "cli/command.h"
-#include "cli/desk/machine/machine_file.h"
 #include "cli/desk/toml/study_file.h"
+#include "cli/machine/machine_file.h"
+#include "cli/netcg/run_file.h"
+#include "cli/netcg/weights_file.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/report.h"
 #include "data/csv.h"
@@ -21,8 +23,6 @@
 #include "data/sha256.h"
 #include "data/units.h"
 #include "models/model_file.h"
-#include "models/netcg/run_file.h"
-#include "models/netcg/weights_file.h"
 #include "models/recipe_catalog.h"
 #include "models/study/given_predictions.h"
 #include "models/study/journal/fit_record.h"
@@ -97,7 +97,7 @@ void ReadPredictions(std::string_view bytes) {
 
 void ReadMachine(std::string_view bytes) {
   static const ScratchFolder folder;
-  desk::ReadMachineOutline(folder.Write("machine.toml", bytes));
+  machine::ReadMachineOutline(folder.Write("machine.toml", bytes));
 }
 
 void ReadFileList(std::string_view bytes) {
@@ -162,11 +162,11 @@ void ReadStudy(std::string_view bytes) {
 }
 
 void ReadNetcg(std::string_view bytes) {
-  models::ParseRunFile(bytes, "netcg.in");
+  netcg::ParseRunFile(bytes, "netcg.in");
 }
 
 void ReadWeights(std::string_view bytes) {
-  models::ParseWeights(bytes, "weights");
+  netcg::ParseWeights(bytes, "weights");
 }
 
 // What a reader may refuse a text by.

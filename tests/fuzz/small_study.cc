@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "cli/command.h"
-#include "cli/desk/plan/run_record.h"
 #include "cli/desk/plan/study_plan.h"
 #include "cli/desk/plan/study_run.h"
 #include "cli/report/documents/study_table.h"

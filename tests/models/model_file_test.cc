@@ -10,6 +10,7 @@
 #include "models/history/history.h"
 #include "models/history/with_history.h"
 #include "models/recipe_catalog.h"
+#include "models/uncertainty/promise.h"
 #include "tests/models/history/history_data.h"
 #include "tests/models/model_test_data.h"
 
@@ -190,6 +191,43 @@ TEST(ModelFile, KeepsWhatAMapPromises) {
   std::string spoilt = WithoutChecksum(ModelToJson(fitted, {})).dump();
   spoilt.replace(spoilt.find("0.00125"), 7, "-1.0000");
   EXPECT_THROW(ModelFromJson(spoilt, "memory.json"), data::InputError);
+}
+
+// A map with sensors and held-out errors, as `fit` writes it.
+Json MapWithExperience() {
+  const data::Dataset days = errmap::testing::WanderingDays();
+  FittedModel fitted = MakeRecipe("poly:full:degree=1")->Fit(days, {});
+  AddExperience(days, &fitted);
+  AddPromise(days, MakeRecipe("poly:full:degree=1"), {}, &fitted);
+  return WithoutChecksum(ModelToJson(fitted, {}));
+}
+
+std::string RefusalOf(const Json& document) {
+  try {
+    ModelFromJson(document.dump(), "map.json");
+  } catch (const data::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ModelFile, RefusesReadingsWhosePrecisionIsIndefinite) {
+  Json map = MapWithExperience();
+  ASSERT_EQ(RefusalOf(map), "");
+  Json& precision = map["applicability"]["sessions"]["precision"];
+  ASSERT_GE(precision.size(), 2U);
+  const double beyond =
+      2.0 * (precision[0][0].get<double>() + precision[1][1].get<double>());
+  precision[0][1] = precision[1][0] = beyond;
+  EXPECT_THAT(RefusalOf(map), HasSubstr("must be positive definite"));
+}
+
+TEST(ModelFile, RefusesHeldOutErrorsThatGoBackInTime) {
+  Json map = MapWithExperience();
+  Json& elapsed = map["held_out"]["units"][0]["elapsed"];
+  ASSERT_GE(elapsed.size(), 2U);
+  elapsed[0] = elapsed[1].get<double>() + 1.0;
+  EXPECT_THAT(RefusalOf(map), HasSubstr("elapsed': must not fall"));
 }
 
 TEST(ModelFile, ReadsFilesFromBeforeThereWereMemories) {

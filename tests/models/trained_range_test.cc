@@ -1,5 +1,8 @@
 #include "models/trained_range.h"
 
+#include <cmath>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,6 +48,27 @@ TEST(InputsOutside, RecognisesTheUnitThatWasMeant) {
   EXPECT_EQ(looks_like(Trained("t1 [K]", 293.0, 298.0), 21.0), "degC");
   EXPECT_EQ(looks_like(Trained("t1_degC", 20.0, 25.0), 5000.0), "");
   EXPECT_EQ(looks_like(Trained("speed_rpm", 0.0, 10.0), 70.0), "");
+}
+
+TEST(InputsOutside, TakesAnEmptyCellForNoReading) {
+  const double empty = std::nan("");
+  const std::vector<TrainedInput> trained = {Trained("t1_degC", 20.0, 25.0)};
+  EXPECT_THAT(InputsOutside(trained, Eigen::MatrixXd{{empty}, {empty}, {22.0}}),
+              ::testing::IsEmpty());
+  EXPECT_THAT(InputsOutside(trained, Eigen::MatrixXd{{empty}}),
+              ::testing::IsEmpty());
+  const auto outside = InputsOutside(
+      trained, Eigen::MatrixXd{{empty}, {empty}, {71.0}, {72.0}, {22.0}});
+  ASSERT_EQ(outside.size(), 1U);
+  EXPECT_EQ(outside[0].num_rows, 2);
+  EXPECT_EQ(outside[0].min, 22.0);
+  EXPECT_EQ(outside[0].max, 72.0);
+  // Most readings, not most rows.
+  EXPECT_EQ(
+      InputsOutside(trained, Eigen::MatrixXd{{empty}, {71.0}, {72.0}, {70.0}})
+          .front()
+          .looks_like,
+      "degF");
 }
 
 }  // namespace

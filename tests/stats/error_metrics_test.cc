@@ -168,5 +168,12 @@ TEST(RootMeanSquare, IsTheRootOfTheMeanSquare) {
   EXPECT_TRUE(std::isnan(RootMeanSquare(VectorXd())));
 }
 
+TEST(GeometricMean, TakesZeroForTheSmallestNumber) {
+  EXPECT_NEAR(GeometricMean(Eigen::VectorXd{{1.0, 4.0}}), 2.0, 1e-15);
+  EXPECT_LT(GeometricMean(Eigen::VectorXd{{0.0, 1.0}}), 1e-100);
+  EXPECT_EQ(GeometricMean(Eigen::VectorXd{{0.0, 1.0}}),
+            GeometricMean(Eigen::VectorXd{{1.0, 0.0}}));
+}
+
 }  // namespace
 }  // namespace errmap::stats

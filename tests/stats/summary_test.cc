@@ -278,5 +278,16 @@ TEST(MakeHistogram, OfEqualAndOfHeapedValues) {
   EXPECT_THROW(MakeHistogram(heaped, -1), std::invalid_argument);
 }
 
+TEST(Correlation, IsOneOfWhatGoesTogetherAndZeroOfAConstant) {
+  const Eigen::VectorXd rising{{1.0, 2.0, 4.0}};
+  EXPECT_NEAR(Correlation(rising, 3.0 * rising), 1.0, 1e-15);
+  EXPECT_NEAR(Correlation(rising, -rising), -1.0, 1e-15);
+  EXPECT_EQ(Correlation(rising, Eigen::VectorXd::Ones(3)), 0.0);
+  // By hand: deviations (-1, 0, 1) and (1, -2, 1).
+  EXPECT_EQ(Correlation(Eigen::VectorXd{{1.0, 2.0, 3.0}},
+                        Eigen::VectorXd{{3.0, 0.0, 3.0}}),
+            0.0);
+}
+
 }  // namespace
 }  // namespace errmap::stats

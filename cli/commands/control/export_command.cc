@@ -222,9 +222,10 @@ void SayWhatFailuresDo(const models::MapProgram& program) {
       models::WorstOfFailing(program);
   for (std::size_t i = 0; i < std::min(kMost, sensors.size()); ++i) {
     Say(
-        fmt::format("{} failing to 0 would move it by {}; with checks and "
-                    "limits any failure by at most {}",
+        fmt::format("{} failing to 0 would move it by up to {}, any failure of "
+                    "it by up to {}; with checks and limits by at most {}",
                     data::NameInRemark(sensors[i].name),
+                    text.WithUnit(sensors[i].zero),
                     text.WithUnit(sensors[i].without),
                     text.WithUnit(sensors[i].with)));
   }

@@ -8,12 +8,12 @@
 
 namespace errmap::cli {
 
-/// What `export` is told about tables.
+/// Arguments of `export` about tables.
 struct TableArguments {
   std::string increasing;  // model files
   std::string decreasing;
   std::string at;   // NAME=VALUE,...
-  std::string log;  // CSV file of the session that leads to the thermal state
+  std::string log;  // CSV file of the session that led to the thermal state
   int row = -1;     // of the log, from 0; -1: the last
   double resolution = 0.0;
   std::string units = "mm";
@@ -22,18 +22,18 @@ struct TableArguments {
   std::string grid = "33x9";
 };
 
-/// The limits that the user sets, in a target's unit.
+/// Returns the limits that the user set, in the unit of a target.
 using LimitsFor = std::function<models::LimitOptions(const data::Unit&)>;
 
-/// `--linuxcnc`: writes a COMP_FILE and says what it holds. `model` stands for
-/// both directions where neither is named.
+/// `--linuxcnc`: writes a COMP_FILE and says what it holds. If neither
+/// direction is named, `model` is used for both.
 void ExportLinuxcnc(const std::string& model,
                     const TableArguments& arguments,
                     const LimitsFor& limits,
                     const std::string& out,
                     bool quiet);
 
-/// `--table`: the grid of a map, and what is to be said of it in `said`.
+/// `--table`: returns the grid of a map. `said` gets a description of it.
 models::ExportedFile ExportTable(const models::FittedModel& fitted,
                                  const models::MapExport& map,
                                  const TableArguments& arguments,

@@ -10,13 +10,12 @@ class App;
 
 namespace errmap::cli {
 
-/// --every: how often a row came of those that a map's memory counts.
+/// Adds --every: the time between the rows that a map's memory counts.
 void AddEveryOption(CLI::App* command, std::string* every);
 
-/// The map of a file; one that counts rows in seconds, where `every` is given,
-/// which its name then says.
-/// Throws UsageError where it is no interval or the map counts no rows, else
-/// as LoadMap.
+/// Loads the map of a file. If `every` is given, a map that counts rows becomes
+/// one that counts seconds, and its name says so. Throws UsageError if `every`
+/// is not an interval or the map counts no rows; otherwise throws as LoadMap.
 models::FittedModel LoadForControl(const std::string& file,
                                    const std::string& every,
                                    bool quiet);

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
+#include "cli/commands/maps/map_command.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
@@ -19,20 +22,22 @@
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
+#include "data/columns.h"
 #include "data/input_error.h"
+#include "data/measurements/column_checks.h"
 #include "data/measurements/measured_files.h"
 #include "data/text.h"
 #include "models/history/map_log.h"
 #include "models/model_file.h"
-#include "models/promise/map_rows.h"
-#include "models/promise/sensor_check.h"
-#include "models/promise/session_check.h"
-#include "models/promise/zero_schedule.h"
+#include "models/sensors/sensor_check.h"
+#include "models/session/map_rows.h"
+#include "models/session/session_check.h"
+#include "models/session/zero_schedule.h"
 
 namespace errmap::cli {
 namespace {
 
-struct CheckArguments {
+struct ProbeArguments {
   std::string model;
   std::vector<std::string> files;
   std::optional<std::string> goal;
@@ -106,58 +111,113 @@ Json CheckJson(const models::SessionCheck& check) {
           {"session_rmse_80", {check.session.low, check.session.high}}};
 }
 
-// Probes since the map's memory is full, where the log began inside a session;
-// all where there are none.
-std::vector<Eigen::Index> ProbesWithMemory(const models::MapRows& rows) {
-  std::vector<Eigen::Index> kept;
-  std::vector<Eigen::Index> all;
-  for (const models::Missing missing : rows.missing_before) {
-    const auto row = std::ssize(all);
-    all.push_back(row);
-    if (missing != models::Missing::kStart) kept.push_back(row);
+// The session that is judged: that of the last probe. Probes of days that are
+// over tell nothing of how this one goes on.
+struct LastSession {
+  std::string column;  // that names it; "" where none does
+  std::string label;
+  std::size_t others = 0;                       // sessions with probes
+  std::vector<Eigen::Index> probes = {};        // rows of the data set
+  std::vector<Eigen::Index> rows_of_file = {};  // all of it, 0-based
+};
+
+LastSession LastSessionOf(const models::FittedModel& fitted,
+                          const models::MapRows& rows,
+                          const models::MapLogArguments& log) {
+  const std::vector<Eigen::Index> all = data::AllRows(rows.table.num_rows);
+  const models::MomentsOfRows moments =
+      models::MomentsOf(fitted, rows.table, all, log);
+  const auto session_of = [&](Eigen::Index row) -> const std::string& {
+    return moments.at[static_cast<std::size_t>(row)].session;
+  };
+  LastSession last{.column = moments.session_column,
+                   .label = session_of(rows.dataset.rows().back())};
+  std::set<std::string> others;
+  for (std::size_t i = 0; i < rows.dataset.rows().size(); ++i) {
+    const std::string& session = session_of(rows.dataset.rows()[i]);
+    if (session == last.label) {
+      last.probes.push_back(static_cast<Eigen::Index>(i));
+    } else {
+      others.insert(session);
+    }
   }
-  return kept.empty() ? all : kept;
+  last.others = others.size();
+  std::ranges::copy_if(
+      all, std::back_inserter(last.rows_of_file), [&](Eigen::Index row) {
+        return session_of(row) == last.label;
+      });
+  return last;
+}
+
+std::string LastSessionText(const LastSession& last) {
+  if (last.others == 0) return "";
+  return fmt::format(
+      "Judged is the last of {} sessions, {} {}; errmap evaluate judges the "
+      "others.\n",
+      last.others + 1,
+      last.column.empty() ? "session" : data::NameInRemark(last.column),
+      data::QuotedName(last.label));
+}
+
+models::Missing MissingBeforeProbe(const models::MapRows& rows,
+                                   Eigen::Index probe) {
+  return rows.missing_before[static_cast<std::size_t>(probe)];
+}
+
+// Probes since the map's memory is full, where the log began inside the
+// session; all where there are none.
+std::vector<Eigen::Index> ProbesWithMemory(
+    const models::MapRows& rows, const std::vector<Eigen::Index>& probes) {
+  std::vector<Eigen::Index> kept;
+  for (const Eigen::Index probe : probes) {
+    if (MissingBeforeProbe(rows, probe) != models::Missing::kStart) {
+      kept.push_back(probe);
+    }
+  }
+  return kept.empty() ? probes : kept;
 }
 
 // What is missing before the probes that are judged.
-models::Missing MissingBefore(const models::MapRows& rows) {
-  if (std::ranges::all_of(rows.missing_before, [](models::Missing missing) {
-        return missing == models::Missing::kStart;
-      })) {
+models::Missing MissingBefore(const models::MapRows& rows,
+                              const std::vector<Eigen::Index>& probes) {
+  const auto lacks = [&](models::Missing missing) {
+    return [&rows, missing](Eigen::Index probe) {
+      return MissingBeforeProbe(rows, probe) == missing;
+    };
+  };
+  if (std::ranges::all_of(probes, lacks(models::Missing::kStart))) {
     return models::Missing::kStart;
   }
-  return std::ranges::count(rows.missing_before, models::Missing::kReadings) > 0
+  return std::ranges::any_of(probes, lacks(models::Missing::kReadings))
              ? models::Missing::kReadings
              : models::Missing::kNothing;
 }
 
 models::SessionProbes ProbesOf(const models::FittedModel& fitted,
                                const models::MapRows& rows,
-                               const CheckArguments& arguments,
+                               const ProbeArguments& arguments,
+                               const std::vector<Eigen::Index>& probes_given,
                                const Eigen::VectorXd& predicted) {
-  const std::vector<Eigen::Index> kept = ProbesWithMemory(rows);
+  const std::vector<Eigen::Index> kept = ProbesWithMemory(rows, probes_given);
   models::SessionProbes probes{
       .elapsed =
           models::ElapsedSinceStart(fitted, rows, arguments.rows.log)(kept),
       .position = {},
       .predicted = predicted(kept),
       .residuals = (rows.dataset.target_values() - predicted)(kept)};
-  const Eigen::Index position =
-      rows.dataset.FindInput(fitted.held_out->position);
-  if (position >= 0) {
-    probes.position = rows.dataset.input_values().col(position)(kept);
-  }
-  if (std::ssize(kept) < rows.dataset.num_rows()) {
+  const Eigen::VectorXd positions = models::PositionsOf(fitted, rows);
+  if (positions.size() > 0) probes.position = positions(kept);
+  if (kept.size() < probes_given.size()) {
     SayUnless(arguments.quiet,
               {fmt::format("{} of {} probes are judged: before the others the "
                            "map's memory is not full",
                            kept.size(),
-                           rows.dataset.num_rows())});
+                           probes_given.size())});
   }
   return probes;
 }
 
-int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
+int RunCheck(const ProbeArguments& arguments, const std::string& command_line) {
   const models::FittedModel fitted = LoadMap(arguments.model, arguments.quiet);
   if (fitted.held_out == nullptr) {
     throw data::InputError(fmt::format(
@@ -183,31 +243,27 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
                    data::NamesOfFiles(arguments.files))) {
     return kEveryFitFailed;
   }
+  const LastSession last = LastSessionOf(fitted, rows, arguments.rows.log);
   const models::SessionProbes probes =
-      ProbesOf(fitted, rows, arguments, predicted);
-  const models::Missing missing = MissingBefore(rows);
+      ProbesOf(fitted, rows, arguments, last.probes, predicted);
   const Eigen::MatrixXd readings = models::ReadingsOf(fitted, rows.table);
-  auto sensor = models::FindSensorFault(
-      fitted, readings, arguments.rows.log.after.empty());
-  if (!sensor && missing == models::Missing::kNothing) {
-    sensor = models::SwapThatExplains(fitted, rows.dataset, readings);
-  }
-  models::SessionCheck check =
-      models::CheckSession(errors, probes, missing, std::move(sensor));
+  models::SessionCheck check = models::CheckSession(
+      errors,
+      probes,
+      MissingBefore(rows, last.probes),
+      models::FindSensorFault(fitted, readings(last.rows_of_file, Eigen::all)));
   // Of a session whose first rows are not known nothing is said as a whole.
   if (check.status == models::SessionStatus::kHolds &&
-      probes.residuals.size() < rows.dataset.num_rows()) {
+      probes.residuals.size() < std::ssize(last.probes)) {
     check.status = models::SessionStatus::kHoldsSoFar;
   }
   const RowsLearnt learnt =
       FindRowsLearnt(fitted, arguments.model, arguments.files, rows);
   const std::vector<models::ProbeSite> sites = models::RankProbeSites(errors);
   if (arguments.format == "json") {
-    Json document = {{"schema", "errmap-check-1"},
-                     {"model", fitted.name},
-                     {"file", desk::ShownNames(arguments.files)},
-                     {"target", fitted.target.name},
-                     {"unit", fitted.target.unit.symbol}};
+    Json document = MapAnswerJson("errmap-check-1", fitted, arguments.files);
+    document["session"] = last.label;
+    document["other_sessions"] = last.others;
     document["learnt_from"] = LearntJson(learnt);
     document.update(CheckJson(check));
     document["sites"] = SitesJson(sites);
@@ -220,8 +276,9 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
     PrintResult(DumpJson(document));
   } else {
     PrintFitted(fmt::format(
-        "{}{} ({}) on {} of {}{}{}",
+        "{}{}{} ({}) on {} of {}{}{}",
         LearntText(learnt),
+        LastSessionText(last),
         arguments.model,
         fitted.name,
         report::Count(check.probes, "probe"),
@@ -236,7 +293,6 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
     case models::SessionStatus::kHolds:
       return kDone;
     case models::SessionStatus::kOff:
-      return kEveryFitFailed;
     case models::SessionStatus::kSensor:
       return kEveryFitFailed;
     case models::SessionStatus::kHoldsSoFar:
@@ -249,18 +305,17 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
 }  // namespace
 
 void AddCheckCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<CheckArguments>();
-  CLI::App* command =
-      AddCommand(app,
-                 "check",
-                 "Tell from a few probes whether a map holds in this session");
-  AddOption(command, "MODEL FILE.json", arguments->model, "Model file")
-      .Required();
+  auto arguments = std::make_shared<ProbeArguments>();
+  CLI::App* command = AddMapCommand(
+      app,
+      "check",
+      "Tell from a few probes whether a map holds in this session",
+      &arguments->model);
   AddOption(command,
             "PROBES PROBES.csv",
             arguments->files,
-            "CSV file of a few measurements of one session, inputs and "
-            "target; or several")
+            "CSV file of a few measurements, inputs and target, or several: "
+            "the last session is judged")
       .Required();
   AddOption(command,
             "--goal X",
@@ -274,16 +329,23 @@ void AddCheckCommand(CLI::App* app, Run* run) {
   AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
   SetFooter(
       command,
-      "First the readings: a sensor that is dead, frozen, swapped, off "
-      "or in another unit is\nnamed. Then the start of the session, which a "
-      "map with a memory must know. Then the\nprobes: the map holds where "
-      "its RMSE is at most 1.5 times the promised one, so far and\nfor the "
-      "rest of the session, as far as the map's held-out days tell "
-      "that.\nExit status: 0 the map holds, 4 it does not hold or a sensor "
-      "is at fault, 5 it is not\nknown, or not of the rest of the "
-      "session.\nRows without a target are readings between the probes, "
-      "through which a map's memory\nruns; readings before the first row "
-      "come by --after, which needs\nno positions.");
+      "Answers three questions and stops at the first that has an answer.\n"
+      "- The readings: is a sensor dead, frozen, swapped, off or in another "
+      "unit?\n"
+      "- The start: are the first rows of the session there, for a map with a "
+      "memory?\n"
+      "- The probes: is the RMSE at most 1.5 times the promised one, so far "
+      "and for\n"
+      "the rest of the session, as the held-out days went on?\n"
+      "Rows without a target are readings between the probes; the memory of a "
+      "map\n"
+      "runs through them. Readings before the first row come by --after, which "
+      "needs\n"
+      "no positions.\n"
+      "Exit status: 0 the map holds; 4 it does not hold, or a sensor is at "
+      "fault; 5\n"
+      "not known, or not for the rest of the session.\n"
+      "Example: errmap check map.json probes.csv --after today.csv");
   OnRun(command, [arguments, run] {
     run->status = RunCheck(*arguments, run->command_line);
   });

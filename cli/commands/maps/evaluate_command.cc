@@ -7,6 +7,7 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
+#include "cli/commands/maps/map_command.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
@@ -21,9 +22,9 @@
 #include "data/measurements/measured_files.h"
 #include "data/text.h"
 #include "models/model_file.h"
-#include "models/promise/kept_promise.h"
-#include "models/promise/map_rows.h"
-#include "models/promise/sensor_check.h"
+#include "models/sensors/sensor_check.h"
+#include "models/session/kept_promise.h"
+#include "models/session/map_rows.h"
 #include "models/study/fold_pool.h"
 #include "models/study/record/make_study_record.h"
 #include "models/study/record/making/fit_blocks.h"
@@ -145,12 +146,8 @@ Json EvaluationJson(const Evaluation& found,
                     const std::string& command_line) {
   const models::FittedModel& fitted = found.fitted;
   const data::Dataset& dataset = found.rows.dataset;
-  return {
-      {"schema", "errmap-evaluate-1"},
-      {"model", fitted.name},
-      {"file", desk::ShownNames(arguments.files)},
-      {"target", fitted.target.name},
-      {"unit", fitted.target.unit.symbol},
+  Json json = MapAnswerJson("errmap-evaluate-1", fitted, arguments.files);
+  json.update(Json{
       {"align", data::ToString(fitted.align)},
       {"clipped", found.clipped},
       {"learnt_from", LearntJson(found.learnt)},
@@ -168,7 +165,8 @@ Json EvaluationJson(const Evaluation& found,
        ProvenanceJson(command_line,
                       {{"missing", ToString(arguments.rows.missing)},
                        {"faults", ToString(arguments.rows.faults)}},
-                      desk::HashInputs(arguments.files, {arguments.model}))}};
+                      desk::HashInputs(arguments.files, {arguments.model}))}});
+  return json;
 }
 
 std::string EvaluationText(const Evaluation& found,
@@ -177,20 +175,21 @@ std::string EvaluationText(const Evaluation& found,
   const double ks_d = stats::KsDistanceFromNormal(found.residuals,
                                                   found.metrics.residuals.mean,
                                                   found.metrics.residuals.sd);
-  return fmt::format("{} ({}) on {}: target - predicted of {}\n{}{}{}{}{}",
-                     arguments.model,
-                     found.fitted.name,
-                     data::NamesOfFiles(arguments.files),
-                     report::TargetWords(found.rows.dataset),
-                     LearntText(found.learnt),
-                     report::SummaryText(found.metrics,
-                                         unit,
-                                         ks_d,
-                                         stats::KsProbabilityMeanSdGiven(
-                                             ks_d, found.residuals.size())),
-                     report::KeptPromiseText(found.kept, unit),
-                     found.change ? report::RelationText(*found.change) : "",
-                     found.sensor ? report::SensorText(*found.sensor) : "");
+  return fmt::format(
+      "{} ({}) on {}: target - predicted of {}\n{}{}{}{}{}",
+      arguments.model,
+      found.fitted.name,
+      data::NamesOfFiles(arguments.files),
+      report::TargetWords(found.rows.dataset),
+      LearntText(found.learnt),
+      report::SummaryText(
+          found.metrics,
+          unit,
+          ks_d,
+          stats::KsProbabilityMeanSdGiven(ks_d, found.residuals.size())),
+      report::KeptPromiseText(found.kept, found.residuals.size(), unit),
+      found.change ? report::RelationText(*found.change) : "",
+      found.sensor ? report::SensorText(*found.sensor) : "");
 }
 
 int RunEvaluate(const EvaluateArguments& arguments,
@@ -212,8 +211,7 @@ int RunEvaluate(const EvaluateArguments& arguments,
       .judged = judged,
       .clipped = prediction.clipped.count(),
       .change = models::ChangedRelation(fitted, dataset.input_values()),
-      .sensor = models::FindSensorFault(
-          fitted, dataset.input_values(), arguments.rows.log.after.empty()),
+      .sensor = models::FindSensorFault(fitted, dataset.input_values()),
       .kept = models::HoldToPromise(
           fitted, dataset.target_values(), predicted, judged.flags),
       .learnt = FindRowsLearnt(fitted, arguments.model, arguments.files, rows),
@@ -243,10 +241,11 @@ int RunEvaluate(const EvaluateArguments& arguments,
 
 void AddEvaluateCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<EvaluateArguments>();
-  CLI::App* command = AddCommand(
-      app, "evaluate", "Judge a fitted map on measurements it may not know");
-  AddOption(command, "MODEL FILE.json", arguments->model, "Model file")
-      .Required();
+  CLI::App* command =
+      AddMapCommand(app,
+                    "evaluate",
+                    "Judge a fitted map on measurements it may not know",
+                    &arguments->model);
   AddOption(command,
             "DATA FILE.csv",
             arguments->files,
@@ -258,6 +257,7 @@ void AddEvaluateCommand(CLI::App* app, Run* run) {
   AddMapLogArguments(command, &arguments->rows.log);
   AddFromRest(command, &arguments->rows.log);
   AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  SetFooter(command, "Example: errmap evaluate map.json tuesday.csv");
   OnRun(command, [arguments, run] {
     run->status = RunEvaluate(*arguments, run->command_line);
   });

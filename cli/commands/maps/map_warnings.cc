@@ -16,8 +16,8 @@
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
-#include "models/promise/learnt_rows.h"
-#include "models/promise/zero_schedule.h"
+#include "models/session/zero_schedule.h"
+#include "models/uncertainty/learnt_rows.h"
 
 namespace errmap::cli {
 

@@ -9,23 +9,24 @@
 #include "data/csv.h"
 #include "models/error_model.h"
 #include "models/model_file.h"
-#include "models/promise/applicability.h"
-#include "models/promise/map_rows.h"
+#include "models/sensors/applicability.h"
+#include "models/session/map_rows.h"
 
 namespace errmap::cli {
 
-/// models::LoadModel; says what is to be known of the file, unless quiet.
+/// Calls models::LoadModel and, unless quiet, says what users should know about
+/// the file.
 models::FittedModel LoadMap(const std::string& file, bool quiet);
 
-/// models::ReadForMap; says what was converted, unless quiet.
+/// Calls models::ReadForMap and, unless quiet, says what was converted.
 data::CsvTable ReadForMap(const models::FittedModel& fitted,
                           const std::vector<std::string>& files,
                           models::MapColumns columns,
                           bool quiet);
 
-/// The measured rows of a table that ReadForMap gave, or of files; remarks and
-/// warnings go to stderr unless quiet. Throws data::InputError as MakeMapRows
-/// does.
+/// Returns the measured rows of a table from ReadForMap, or of files. Remarks
+/// and warnings go to stderr unless quiet. Throws data::InputError as
+/// MakeMapRows does.
 models::MapRows RowsForMap(const models::FittedModel& fitted,
                            data::CsvTable table,
                            const models::MapRowsOptions& options,
@@ -38,24 +39,25 @@ models::MapRows ReadMapRows(const models::FittedModel& fitted,
 /// Throws data::InputError, naming the file, unless models::KnowsAges.
 void RequireAges(const models::FittedModel& fitted, const std::string& model);
 
-/// What a model file says of where it comes from.
+/// Returns the provenance that a model file states.
 models::Provenance ProvenanceOf(const std::string& model);
 
-/// Of the rows of files that a map is judged on, what it learnt from.
+/// How much of the data that a map is judged on it has learnt from.
 struct RowsLearnt {
-  bool file = false;      // each file is one that the map names
-  Eigen::Index rows = 0;  // known again by their values
-  Eigen::Index of = 0;    // all of them
+  bool file = false;      // the map names each of the files as its own
+  Eigen::Index rows = 0;  // rows recognised by their values
+  Eigen::Index of = 0;    // all rows
 };
 
-/// By the hashes of files in the model file `model`, and of rows in the map.
+/// Compares with the hashes of files in the model file `model`, and of rows in
+/// the map.
 RowsLearnt FindRowsLearnt(const models::FittedModel& fitted,
                           const std::string& model,
                           const std::vector<std::string>& files,
                           const models::MapRows& rows);
 
 Json LearntJson(const RowsLearnt& learnt);
-/// A line for people; "" where nothing was learnt from these rows.
+/// Returns a line for people; "" if the map learnt from none of these rows.
 std::string LearntText(const RowsLearnt& learnt);
 
 struct RowsJudged {
@@ -63,22 +65,24 @@ struct RowsJudged {
   std::vector<models::RowFlag> flags;
 };
 
-/// Says where `rows` are unlike training, unless quiet.
+/// Returns flags of rows that are unlike training and, unless quiet, names
+/// them.
 RowsJudged JudgeMapRows(const models::FittedModel& fitted,
                         const models::MapRows& rows,
                         bool quiet);
 
-/// Says on stderr, unless quiet, which inputs (m x p) leave their trained range
-/// and which rows are unlike training; `rows` (m) are the data rows of the
-/// file.
+/// Says on stderr, unless quiet, which inputs (m x p) leave their trained
+/// range, and which rows are unlike training. `rows` (m) are the numbers of the
+/// data rows in the file.
 void SayOutside(const std::vector<models::TrainedInput>& trained,
                 const Eigen::MatrixXd& inputs,
                 const std::vector<models::RowFlag>& flags,
                 const std::vector<Eigen::Index>& rows,
                 bool quiet);
 
-/// Says how many of `predicted` (m) are not finite and where, `rows` (m) being
-/// the data rows of `file`; false, and nothing said, where all are finite.
+/// Says how many of `predicted` (m) are not finite, and where. `rows` (m) are
+/// the numbers of the data rows in `file`. Returns false and says nothing if
+/// all are finite.
 bool SayNotFinite(const Eigen::VectorXd& predicted,
                   const std::vector<Eigen::Index>& rows,
                   const std::string& file);

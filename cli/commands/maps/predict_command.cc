@@ -9,6 +9,7 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
+#include "cli/commands/maps/map_command.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
@@ -16,19 +17,20 @@
 #include "cli/report/words/commands/kept_promise_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
+#include "data/columns.h"
 #include "data/csv.h"
 #include "data/files/atomic_file.h"
 #include "data/formula_text.h"
 #include "data/input_error.h"
+#include "data/measurements/column_roles.h"
 #include "data/measurements/dataset.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/measured_files.h"
-#include "data/measurements/sessions.h"
 #include "models/history/map_log.h"
 #include "models/history/view.h"
 #include "models/model_file.h"
-#include "models/promise/learnt_rows.h"
-#include "models/promise/probe_correction.h"
+#include "models/session/probe_correction.h"
+#include "models/uncertainty/learnt_rows.h"
 
 namespace errmap::cli {
 namespace {
@@ -163,13 +165,7 @@ std::ptrdiff_t TimeColumn(const Predicted& found, const std::string& named) {
   if (found.fitted.history != nullptr && !found.fitted.history->time.empty()) {
     return found.table.Find(found.fitted.history->time);
   }
-  std::ptrdiff_t only = -1;
-  for (std::size_t i = 0; i < found.table.columns.size(); ++i) {
-    if (!data::NamesTime(found.table.columns[i].name)) continue;
-    if (only >= 0) return -1;
-    only = static_cast<std::ptrdiff_t>(i);
-  }
-  return only;
+  return data::TimeColumn(found.table);
 }
 
 // The columns that tell a row apart, where the file has them: its number and
@@ -177,7 +173,7 @@ std::ptrdiff_t TimeColumn(const Predicted& found, const std::string& named) {
 std::vector<const data::CsvColumn*> IdColumns(const Predicted& found,
                                               const std::string& time) {
   std::vector<std::ptrdiff_t> places = {found.table.Find("record"),
-                                        found.table.Find("cycle"),
+                                        data::CycleColumn(found.table),
                                         TimeColumn(found, time)};
   for (const models::TrainedInput& input : found.fitted.inputs) {
     if (!data::IsPosition(input.column)) continue;
@@ -280,8 +276,7 @@ int RunPredict(const PredictArguments& arguments) {
   } else {
     data::WriteFileAtomically(arguments.out, text);
   }
-  std::vector<Eigen::Index> all_rows(table.num_rows);
-  std::iota(all_rows.begin(), all_rows.end(), Eigen::Index{0});
+  const std::vector<Eigen::Index> all_rows = data::AllRows(table.num_rows);
   if (!arguments.quiet) {
     SayWhatIsPredicted(found);
     SayOutside(fitted.inputs, inputs, found.flags, all_rows, false);
@@ -312,10 +307,11 @@ int RunPredict(const PredictArguments& arguments) {
 
 void AddPredictCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<PredictArguments>();
-  CLI::App* command = AddCommand(
-      app, "predict", "Predict the error of every row with a fitted map");
-  AddOption(command, "MODEL FILE.json", arguments->model, "Model file")
-      .Required();
+  CLI::App* command =
+      AddMapCommand(app,
+                    "predict",
+                    "Predict the error of every row with a fitted map",
+                    &arguments->model);
   AddOption(command,
             "DATA FILE.csv",
             arguments->files,
@@ -336,16 +332,20 @@ void AddPredictCommand(CLI::App* app, Run* run) {
   AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
   SetFooter(
       command,
-      "Columns: record, cycle, time and position where the data have them, "
-      "predicted,\nlower_90 ... upper_95 (empty without an interval), inside "
-      "(1 as in training, 0 not),\nwhy not (range: a column leaves its trained "
-      "range; relation: it does not go with the\nothers as it did there; "
-      "distance, leverage: an unlike thermal state; start: a session's\nfirst "
-      "rows are missing; gap: readings are missing before, which the map's "
-      "memory\nneeds; where: the map is not made for such rows), offender "
-      "(that column) and unit (of\nthe prediction). Columns in another unit "
-      "are converted. Exit status 4 where a\nprediction is not finite: its "
-      "cell stays empty.");
+      "Columns: record, cycle, time and position if the data have them, "
+      "predicted,\n"
+      "lower_90 to upper_95 (empty without an interval), inside, why, offender "
+      "and\n"
+      "unit. inside is 1 as in training and 0 elsewhere; why says what is not "
+      "as\n"
+      "there.\n"
+      "- range: a column (offender) leaves its trained range\n"
+      "- relation: it does not go with the other columns\n"
+      "- distance, leverage: the thermal state is far from all trained ones\n"
+      "- start, gap: rows are missing that the memory of the map needs\n"
+      "- where: the map is not made for such rows\n"
+      "Exit status 4 if a prediction is not finite: its cell stays empty.\n"
+      "Example: errmap predict map.json today.csv -o predicted.csv");
   OnRun(command, [arguments, run] { run->status = RunPredict(*arguments); });
 }
 

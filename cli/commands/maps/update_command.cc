@@ -1,6 +1,8 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -8,6 +10,7 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
+#include "cli/commands/maps/map_command.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
@@ -21,12 +24,13 @@
 #include "data/files/atomic_file.h"
 #include "data/files/shown_path.h"
 #include "data/measurements/column_checks.h"
+#include "data/measurements/reading/reading.h"
 #include "data/text.h"
 #include "models/model_file.h"
-#include "models/promise/learnt_rows.h"
-#include "models/promise/map_update.h"
-#include "models/promise/promise.h"
 #include "models/study/study_defaults.h"
+#include "models/uncertainty/learnt_rows.h"
+#include "models/uncertainty/map_update.h"
+#include "models/uncertainty/promise.h"
 
 namespace errmap::cli {
 namespace {
@@ -64,35 +68,72 @@ data::Dataset ReadRows(const models::FittedModel& map,
       map, {file}, models::MapColumns::kInputsAndTarget, arguments.quiet);
   selection.where = models::FiltersFor(map, table);
   data::PreparedDataset prepared = data::MakeDataset(table, selection);
+  SayUnless(arguments.quiet, data::ReadingLines(prepared.reading));
   SayUnless(arguments.quiet, prepared.remarks);
   return std::move(prepared.dataset);
 }
 
-// The files that the map learnt from, where they are still there as they were.
-std::vector<desk::InputFile> KnownFiles(const UpdateArguments& arguments) {
-  std::vector<desk::InputFile> known;
-  for (const std::string& file : arguments.known) {
-    known.push_back(desk::HashInput(file));
-  }
-  if (!known.empty()) return known;
-  std::vector<std::string> lost;
-  for (const desk::InputFile& named :
-       desk::DataOf(ProvenanceOf(arguments.model))) {
-    if (std::filesystem::exists(named.file) &&
-        desk::HashInput(named.file) == named) {
-      known.push_back(named);
-    } else {
-      lost.push_back(named.file);
+// What the map learnt from.
+struct KnownFiles {
+  std::vector<desk::InputFile> files;  // beside the one of new sessions
+  std::vector<std::string> lost;       // those that are not found as they were
+  bool any = false;                    // whether any is known
+};
+
+// A file that the map names, where it is still as it was: by that name from
+// here, beside the new sessions or beside the map. A map knows of most files
+// their name alone (data::ShownPath), so where update is run from must not
+// decide what is found.
+std::optional<desk::InputFile> FindNamed(const desk::InputFile& named,
+                                         const UpdateArguments& arguments) {
+  namespace fs = std::filesystem;
+  for (const fs::path& folder : {fs::path(),
+                                 fs::path(arguments.file).parent_path(),
+                                 fs::path(arguments.model).parent_path()}) {
+    for (const fs::path& name :
+         {fs::path(named.file), fs::path(named.file).filename()}) {
+      const std::string path = (folder / name).string();
+      std::error_code ignored;
+      if (!fs::is_regular_file(path, ignored)) continue;
+      desk::InputFile found = desk::HashInput(path);
+      if (found.sha256 == named.sha256) return found;
     }
   }
-  if (!lost.empty() || known.empty()) {
-    Say(fmt::format(
-        "warning: {} not at hand as it was, so the new map would not learn "
-        "from it; name all that it was fitted to with --known",
-        lost.empty() ? "what the map was fitted to is"
-                     : data::ListOfNames(lost) + " is"));
+  return std::nullopt;
+}
+
+// What --known names, else what the map does. The file of new sessions may be
+// one of these under whatever name; it is not read a second time.
+KnownFiles FindKnown(const UpdateArguments& arguments) {
+  KnownFiles known;
+  for (const std::string& file : arguments.known) {
+    known.files.push_back(desk::HashInput(file));
+  }
+  known.any = !known.files.empty();
+  if (known.any) return known;
+  const std::string fresh = desk::HashInput(arguments.file).sha256;
+  for (const desk::InputFile& named :
+       desk::DataOf(ProvenanceOf(arguments.model))) {
+    if (named.sha256 == fresh) {
+      known.any = true;
+    } else if (auto found = FindNamed(named, arguments)) {
+      known.any = true;
+      known.files.push_back(std::move(*found));
+    } else {
+      known.lost.push_back(named.file);
+    }
   }
   return known;
+}
+
+// What the new map cannot learn from; "" where all is at hand.
+std::string LostText(const KnownFiles& known) {
+  if (known.lost.empty() && known.any) return "";
+  return fmt::format(
+      "{} not at hand as it was, so the new map would not learn from it; name "
+      "all that it was fitted to with --known\n",
+      known.lost.empty() ? "what the map was fitted to is"
+                         : data::ListOfNames(known.lost) + " is");
 }
 
 // The rows of some files, one after the other; none: none.
@@ -123,6 +164,7 @@ Json UpdateJson(const UpdateArguments& arguments,
                 const models::UpdateTrial& trial,
                 bool better,
                 Eigen::Index learnt,
+                const KnownFiles& known,
                 const Json& provenance) {
   return {{"schema", "errmap-update-1"},
           {"model", old_map.name},
@@ -131,6 +173,7 @@ Json UpdateJson(const UpdateArguments& arguments,
           {"unit", old_map.target.unit.symbol},
           {"updated", better},
           {"known_rows", learnt},
+          {"not_at_hand", known.lost},
           {"old_rmse", trial.old_rmse},
           {"new_rmse", trial.new_rmse},
           {"sessions", TrialJson(trial)},
@@ -175,7 +218,8 @@ int RunUpdate(const UpdateArguments& arguments,
   RequirePlaceFor(arguments.out);
   const models::FittedModel old_map = LoadMap(arguments.model, arguments.quiet);
   const data::Dataset fresh = ReadRows(old_map, arguments.file, arguments);
-  std::vector<desk::InputFile> learnt_from = KnownFiles(arguments);
+  const KnownFiles known_files = FindKnown(arguments);
+  std::vector<desk::InputFile> learnt_from = known_files.files;
   const double indifference = models::DefaultIndifference(old_map.target.unit);
   const std::atomic<bool>& stop = InstallInterruptFlag();
   const models::FitContext context{.seed = arguments.seed,
@@ -225,11 +269,12 @@ int RunUpdate(const UpdateArguments& arguments,
                         {"faults", ToString(arguments.faults)},
                         {"seed", arguments.seed}},
                        learnt_from);
-    PrintResult(DumpJson(
-        UpdateJson(arguments, old_map, trial, better, learnt, provenance)));
+    PrintResult(DumpJson(UpdateJson(
+        arguments, old_map, trial, better, learnt, known_files, provenance)));
   } else {
     PrintFitted(fmt::format(
-        "{}{}{}\n",
+        "{}{}{}{}\n",
+        LostText(known_files),
         KnownRowsText(learnt, fresh.num_rows()),
         report::TrialText(trial, old_map.target.unit, learnt == 0),
         better ? "the new map is better and stands in " + arguments.out
@@ -243,12 +288,11 @@ int RunUpdate(const UpdateArguments& arguments,
 
 void AddUpdateCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<UpdateArguments>();
-  CLI::App* command =
-      AddCommand(app,
-                 "update",
-                 "Fit a map again with new sessions, if that makes it better");
-  AddOption(command, "MODEL FILE.json", arguments->model, "Model file")
-      .Required();
+  CLI::App* command = AddMapCommand(
+      app,
+      "update",
+      "Fit a map again with new sessions, if that makes it better",
+      &arguments->model);
   AddOption(command,
             "NEW NEW.csv",
             arguments->file,
@@ -261,7 +305,8 @@ void AddUpdateCommand(CLI::App* app, Run* run) {
             "--known DATA.csv",
             arguments->known,
             "Rows that the map was fitted to, may be repeated (default: "
-            "the files that it names, if unchanged)")
+            "the files that it names, if unchanged: here, beside NEW or beside "
+            "the map)")
       .OneAtATime();
   AddOption(command,
             "--time COL",
@@ -275,13 +320,17 @@ void AddUpdateCommand(CLI::App* app, Run* run) {
   AddSeedOption(command, &arguments->seed);
   AddFormatOption(command, &arguments->format);
   AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
-  SetFooter(
-      command,
-      "The same type of model is fitted to old and new sessions, with the "
-      "map's own inputs. Each new session is\npredicted by the old map and by "
-      "one that has not seen it; the new one is taken where its RMSE is lower "
-      "by\nmore than makes a difference, and lower in the geometric mean over "
-      "the sessions. Else FILE.json is the old map.");
+  SetFooter(command,
+            "Fits the same type of model, with the same inputs, to old and new "
+            "sessions.\n"
+            "Each new session is predicted by the old map, and by one that has "
+            "not seen\n"
+            "it. The new map is taken if it errs less by more than makes a "
+            "difference, in\n"
+            "RMSE and in the geometric mean over the sessions. Else FILE.json "
+            "is the old\n"
+            "map.\n"
+            "Example: errmap update map.json tuesday.csv -o new.json");
   OnRun(command, [arguments, run] {
     run->status = RunUpdate(*arguments, run->command_line);
   });

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -9,6 +8,7 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
+#include "cli/commands/maps/map_command.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
@@ -17,12 +17,13 @@
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
+#include "data/columns.h"
 #include "data/files/shown_path.h"
 #include "data/input_error.h"
 #include "data/text.h"
 #include "models/model_file.h"
-#include "models/promise/map_rows.h"
-#include "models/promise/zero_schedule.h"
+#include "models/session/map_rows.h"
+#include "models/session/zero_schedule.h"
 
 namespace errmap::cli {
 namespace {
@@ -47,8 +48,7 @@ SinceProbe ReadSinceProbe(const models::FittedModel& fitted,
       models::ReadForMap(
           fitted, {arguments.log.after}, models::MapColumns::kInputs)
           .table;
-  std::vector<Eigen::Index> rows(table.num_rows);
-  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
+  const std::vector<Eigen::Index> rows = data::AllRows(table.num_rows);
   if (rows.empty()) {
     throw data::InputError(fmt::format(
         "{}: holds no rows; give the readings from the last probe to now",
@@ -175,10 +175,8 @@ int RunWhen(const WhenArguments& arguments, const std::string& command_line) {
 
 void AddWhenCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<WhenArguments>();
-  CLI::App* command =
-      AddCommand(app, "when", "Tell when a map wants its next probe");
-  AddOption(command, "MODEL FILE.json", arguments->model, "Model file")
-      .Required();
+  CLI::App* command = AddMapCommand(
+      app, "when", "Tell when a map wants its next probe", &arguments->model);
   AddOption(command,
             "--goal X",
             arguments->goal,
@@ -187,16 +185,18 @@ void AddWhenCommand(CLI::App* app, Run* run) {
   AddMapLogArguments(command, &arguments->log);
   FindOption(command, "--after").About("Readings from the last probe to now");
   AddFormatOption(command, &arguments->format);
-  SetFooter(
-      command,
-      "Probes are played through on the map's held-out sessions, as compare "
-      "--rezero does:\na session's first row is a probe, a later one is judged "
-      "by the last probe before it.\nA rule with a temperature is advised "
-      "where "
-      "it errs at least 5 % less than the best\nclock with no more probes, in "
-      "two thirds of the sessions, none of which chose it.\nExit status: 0; 4 "
-      "where --after says that a probe is due now, or\nwhere no interval "
-      "keeps to the goal.");
+  SetFooter(command,
+            "Plays probes through on the held-out sessions of the map. A "
+            "session's first\n"
+            "row is a probe, and each later row is judged by the last probe "
+            "before it. A\n"
+            "rule with a temperature is advised if it errs at least 5 % less "
+            "than the best\n"
+            "clock with no more probes, in two sessions of three.\n"
+            "Exit status: 0; 4 if a probe is due now (--after), or if no "
+            "interval keeps to\n"
+            "the goal.\n"
+            "Example: errmap when map.json --goal 2um");
   OnRun(command, [arguments, run] {
     run->status = RunWhen(*arguments, run->command_line);
   });

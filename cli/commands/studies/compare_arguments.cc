@@ -6,6 +6,7 @@
 #include "cli/command.h"
 #include "cli/commands/format_option.h"
 #include "cli/shell/command_options.h"
+#include "cli/slice.h"
 #include "data/text.h"
 #include "models/recipe_catalog.h"
 #include "stats/holdout.h"
@@ -51,6 +52,12 @@ void AddJudgingOptions(CLI::App* command, CompareArguments* arguments) {
 }  // namespace
 
 void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
+  for (const Slice& slice : Slices()) {
+    if (slice.compare != nullptr) arguments->modes.push_back(slice.compare());
+  }
+  const auto add_of_modes_after = [&](std::string_view flag) {
+    for (const auto& mode : arguments->modes) mode->AddOptions(flag, command);
+  };
   AddDataArguments(command, &arguments->data);
   FindOption(command, "DATA").Required(false);
   AddOption(command,
@@ -109,12 +116,7 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
             arguments->out,
             "Folder for report.html, results.json, residuals.csv and "
             "models/");
-  AddOption(command,
-            "--shard I/N|env",
-            arguments->shard,
-            "Of a study of many components do share I of 0 to N-1 only, "
-            "or the one that mpirun or Slurm gave this task (env); "
-            "errmap merge STORE puts the shares together");
+  add_of_modes_after("--out");
   AddOption(command,
             "-o,--output PAGE.html",
             arguments->page,
@@ -132,19 +134,7 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
                        "hold-out and model",
                        &arguments->format);
   AddJudgingOptions(command, arguments);
-  AddOption(command,
-            "--machine machine.toml",
-            arguments->machine,
-            "Compare the maps STEM.json of this machine on the data "
-            "STEM.csv of the folder DATA, and judge them together at "
-            "the poses of tool_tip.csv there");
-  AddOption(command,
-            "--later N",
-            arguments->later,
-            "With --machine: last sessions that no fit sees and that "
-            "judge it")
-      .Range(1, 1000)
-      .ShowDefault();
+  add_of_modes_after("--predictions");
   AddFlag(command,
           "--resume",
           arguments->resume,
@@ -154,14 +144,7 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
   AddKeepPathsFlag(command);
   AddForceFlag(command, &arguments->force);
   MarkSeldom(command,
-             {"--set",
-              "--seed",
-              "--shard",
-              "--split",
-              "--save-split",
-              "--predictions",
-              "--machine",
-              "--later"});
+             {"--set", "--seed", "--split", "--save-split", "--predictions"});
 }
 
 CompareArguments ReadCompareArguments(std::vector<std::string> words) {

@@ -1,13 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/commands/data_arguments.h"
-#include "cli/desk/study_config.h"
+#include "cli/desk/plan/study_run.h"
 
 namespace CLI {
 class App;
@@ -15,7 +17,38 @@ class App;
 
 namespace errmap::cli {
 
-/// What `errmap compare` is told.
+struct CompareArguments;
+
+/// A slice's way to run `errmap compare`. Options of the slice or the study
+/// file choose it. It lives as long as the command's arguments.
+class CompareMode {
+ public:
+  virtual ~CompareMode() = default;
+
+  /// Adds those of its options that follow the option `flag` in the help.
+  virtual void AddOptions(std::string_view flag, CLI::App* command) = 0;
+
+  /// Reads its options. If the mode does the whole work, does it and returns
+  /// the exit status. Throws UsageError if the options are wrong.
+  virtual std::optional<int> Begin(const CompareArguments& /*arguments*/) {
+    return std::nullopt;
+  }
+
+  /// Returns the plan, if this mode makes it.
+  virtual std::optional<desk::StudyPlan> Plan(
+      const CompareArguments& /*arguments*/,
+      const desk::MakeOwnRecipes& /*own*/) {
+    return std::nullopt;
+  }
+
+  /// True if the mode adds something to the record of a run. It then needs the
+  /// maps of all folds.
+  virtual bool Judges() const { return false; }
+  virtual void Judge(const desk::StudyRun& /*run*/,
+                     models::StudyRecord* /*record*/) const {}
+};
+
+/// Arguments of `errmap compare`.
 struct CompareArguments {
   DataArguments data;
   std::vector<std::string> holdouts;
@@ -34,20 +67,22 @@ struct CompareArguments {
   bool all = false;
   bool details = false;
   std::string page;
-  std::set<std::string> given;  // flags that stand on the command line
+  std::set<std::string> given;  // flags present on the command line
   int jobs = 0;
   std::string out;
-  std::optional<std::string> shard;
   std::string format = "table";
   std::string command_line;
-  std::string machine;
-  int later = 1;  // sessions that judge the machine
+  std::vector<std::unique_ptr<CompareMode>> modes = {};  // of the slices
+
+  bool ChoosesModels() const {
+    return !model_list.empty() || !models.empty() || !config.empty();
+  }
 };
 
-/// Adds all options of the command and DATA.
+/// Adds DATA and all options of the command.
 void AddCompareOptions(CLI::App* command, CompareArguments* arguments);
 
-/// What words after "compare" say. Throws UsageError.
+/// Parses the words after "compare". Throws UsageError.
 CompareArguments ReadCompareArguments(std::vector<std::string> words);
 
 }  // namespace errmap::cli

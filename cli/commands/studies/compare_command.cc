@@ -8,15 +8,11 @@
 #include "cli/command.h"
 #include "cli/commands/progress.h"
 #include "cli/commands/studies/compare_arguments.h"
-#include "cli/commands/studies/compare_fleet.h"
 #include "cli/commands/studies/compare_plan.h"
 #include "cli/commands/studies/study_plan_text.h"
-#include "cli/desk/machine/machine_judge.h"
 #include "cli/desk/plan/run_files.h"
-#include "cli/desk/plan/run_record.h"
 #include "cli/desk/plan/study_forecast.h"
 #include "cli/desk/plan/study_run.h"
-#include "cli/fleet/store/store_folder.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/output/output_folder.h"
 #include "cli/report/documents/study_table.h"
@@ -100,39 +96,6 @@ std::unique_ptr<models::KeptFits> OpenJournal(
   return journal;
 }
 
-// Of a study of many components, each by itself: components from patterns, a
-// share of a study, or what goes on with one. Nothing for any other.
-std::optional<int> RunIfFleet(const CompareArguments& arguments) {
-  if (arguments.config.empty()) {
-    if (arguments.shard) {
-      throw UsageError(
-          "--shard deals the components of a study file; name it "
-          "with --config");
-    }
-    return std::nullopt;
-  }
-  desk::StudyFile study = ConfigOfFile(arguments);
-  if (!study.has_patterns() && !arguments.shard &&
-      (arguments.out.empty() || !fleet::IsStore(arguments.out))) {
-    return std::nullopt;
-  }
-  if (!arguments.page.empty()) {
-    throw UsageError(
-        "-o writes the page of one study, and this is one of many components; "
-        "leave it out: each has its page in --out, and report.html there is "
-        "of all");
-  }
-  return RunCompareFleet({.study = std::move(study),
-                          .out = arguments.out,
-                          .shard = arguments.shard,
-                          .command_line = arguments.command_line,
-                          .format = arguments.format,
-                          .jobs = JobsOf(arguments.jobs),
-                          .dry_run = arguments.dry_run,
-                          .force = arguments.force,
-                          .quiet = arguments.data.quiet});
-}
-
 // The files, where fit can read the same rows of them.
 std::vector<std::string> DataForFit(const desk::StudyRun& run) {
   const desk::ComponentConfig& component = run.config.components.front();
@@ -185,6 +148,8 @@ desk::StudyRun RunShowingProgress(desk::StudyPlan plan,
                                   models::KeptFits* journal) {
   desk::StudyRun run;
   {
+    SayUnless(arguments.data.quiet,
+              LongRunLines(plan, jobs, arguments.ChoosesModels()));
     Progress progress(!arguments.data.quiet);
     desk::StudyForecast forecast(plan, jobs);
     run = desk::RunPlan(
@@ -217,9 +182,15 @@ int RunCompare(const CompareArguments& arguments) {
   if (arguments.resume && arguments.out.empty()) {
     throw UsageError("--resume needs the folder of the earlier run: --out DIR");
   }
-  const std::optional<desk::MachineStudy> machine = MachineOf(arguments);
-  if (const std::optional<int> status = RunIfFleet(arguments)) return *status;
-  desk::StudyPlan plan = PlanOf(arguments, machine);
+  for (const auto& mode : arguments.modes) {
+    if (const auto status = mode->Begin(arguments)) return *status;
+  }
+  desk::StudyPlan plan = PlanOf(arguments);
+  const auto judge = std::ranges::find_if(
+      arguments.modes,
+      &CompareMode::Judges,
+      [](const auto& mode) -> const CompareMode& { return *mode; });
+  const bool is_judged = judge != arguments.modes.end();
   const int jobs = JobsOf(arguments.jobs);
   if (arguments.dry_run) {
     PrintFitted(PlanText(plan, jobs, arguments.out));
@@ -238,12 +209,10 @@ int RunCompare(const CompareArguments& arguments) {
   // Open, and so the folder taken, until all is written.
   const std::unique_ptr<models::KeptFits> journal = OpenJournal(arguments);
   const desk::StudyRun run = RunShowingProgress(
-      std::move(plan), arguments, jobs, machine.has_value(), journal.get());
+      std::move(plan), arguments, jobs, is_judged, journal.get());
   SayShortOfMemory(run);
   models::StudyRecord record = desk::RecordOf(run, jobs);
-  if (machine && !run.interrupted) {
-    record.machine = desk::JudgeMachine(*machine, run);
-  }
+  if (is_judged && !run.interrupted) (*judge)->Judge(run, &record);
   if (folder) desk::NameMaps(run, &record);
   // Before the files: a full disk must not cost the answer.
   PrintScreen(Formatted(run, record, arguments));

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/desk/study_options.h"
 #include "data/input_error.h"
 #include "data/text.h"
 #include "models/model_spec.h"
@@ -70,36 +69,6 @@ std::vector<std::string> ModelSpecs(const CompareArguments& arguments) {
   return specs;
 }
 
-// Without a study file the command line asks for one component.
-desk::StudyConfig ConfigOf(const CompareArguments& arguments) {
-  CheckHoldouts(arguments.holdouts);
-  const DataArguments& data = arguments.data;
-  desk::ComponentConfig component;
-  if (!data.files.empty()) {
-    component.data = data.files.front();
-    component.more_data.assign(data.files.begin() + 1, data.files.end());
-  }
-  component.selection = data.selection;
-  component.split = arguments.split;
-  component.save_split = arguments.save_split;
-  component.predictions = arguments.predictions;
-  std::vector<std::string> specs = ModelSpecs(arguments);
-  for (const desk::PredictionsFile& predictions : component.predictions) {
-    if (std::ranges::find(specs, predictions.name) != specs.end() ||
-        std::ranges::count(component.predictions,
-                           predictions.name,
-                           &desk::PredictionsFile::name) > 1) {
-      throw UsageError("two models are named " + predictions.name +
-                       "; give the --predictions another name");
-    }
-  }
-  desk::StudyConfig config = arguments.study;
-  config.holdouts = arguments.holdouts;
-  config.models = std::move(specs);
-  config.components = {std::move(component)};
-  return config;
-}
-
 desk::StudyFile ReadChanged(const CompareArguments& arguments) {
   try {
     return desk::ReadStudyFile(arguments.config, arguments.changes);
@@ -135,7 +104,37 @@ void Override(const std::set<std::string>& given,
               });
 }
 
-// The flags that were given and are not true of more components than `reach`.
+}  // namespace
+
+desk::StudyConfig ConfigOf(const CompareArguments& arguments) {
+  CheckHoldouts(arguments.holdouts);
+  const DataArguments& data = arguments.data;
+  desk::ComponentConfig component;
+  if (!data.files.empty()) {
+    component.data = data.files.front();
+    component.more_data.assign(data.files.begin() + 1, data.files.end());
+  }
+  component.selection = data.selection;
+  component.split = arguments.split;
+  component.save_split = arguments.save_split;
+  component.predictions = arguments.predictions;
+  std::vector<std::string> specs = ModelSpecs(arguments);
+  for (const desk::PredictionsFile& predictions : component.predictions) {
+    if (std::ranges::find(specs, predictions.name) != specs.end() ||
+        std::ranges::count(component.predictions,
+                           predictions.name,
+                           &desk::PredictionsFile::name) > 1) {
+      throw UsageError("two models are named " + predictions.name +
+                       "; give the --predictions another name");
+    }
+  }
+  desk::StudyConfig config = arguments.study;
+  config.holdouts = arguments.holdouts;
+  config.models = std::move(specs);
+  config.components = {std::move(component)};
+  return config;
+}
+
 std::vector<std::string> GivenOfFewer(const CompareArguments& arguments,
                                       desk::Reach reach) {
   std::vector<std::string> flags;
@@ -150,8 +149,6 @@ std::vector<std::string> GivenOfFewer(const CompareArguments& arguments,
   for (const char* flag : kFilesOfOne) add(flag);
   return flags;
 }
-
-}  // namespace
 
 desk::StudyFile ConfigOfFile(const CompareArguments& arguments) {
   const auto given = [&](const char* flag) {
@@ -196,43 +193,12 @@ desk::StudyFile ConfigOfFile(const CompareArguments& arguments) {
   return file;
 }
 
-std::optional<desk::MachineStudy> MachineOf(const CompareArguments& arguments) {
-  if (arguments.machine.empty()) {
-    if (arguments.given.contains("--later")) {
-      throw UsageError("--later goes with --machine");
-    }
-    return std::nullopt;
-  }
-  std::vector<std::string> of_one =
-      GivenOfFewer(arguments, desk::Reach::kMachine);
-  for (const char* flag : {"--rezero", "--config"}) {
-    if (arguments.given.contains(flag)) of_one.insert(of_one.begin(), flag);
-  }
-  for (const std::string& flag : of_one) {
-    throw UsageError(fmt::format(
-        "{} is for one component, and --machine has several", flag));
-  }
-  if (!arguments.given.contains("DATA")) {
-    throw UsageError(
-        "--machine needs the folder of its components' data: errmap compare "
-        "--machine machine.toml DIR");
-  }
-  if (arguments.data.files.size() != 1) {
-    throw UsageError("--machine needs one folder as DATA");
-  }
-  return desk::ReadMachineStudy(arguments.machine,
-                                arguments.data.files.front(),
-                                arguments.later,
-                                arguments.data.selection.session);
-}
-
 desk::StudyPlan PlanOf(const CompareArguments& arguments,
-                       const std::optional<desk::MachineStudy>& machine,
                        const desk::MakeOwnRecipes& own) {
-  const desk::Remark remark = Sayer(arguments.data.quiet);
-  if (machine) {
-    return desk::PlanOfMachine(*machine, ConfigOf(arguments), remark);
+  for (const auto& mode : arguments.modes) {
+    if (auto plan = mode->Plan(arguments, own)) return *std::move(plan);
   }
+  const desk::Remark remark = Sayer(arguments.data.quiet);
   if (arguments.config.empty()) {
     if (!arguments.given.contains("DATA")) {
       throw UsageError("DATA is required; see errmap compare --help");

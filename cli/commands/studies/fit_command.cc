@@ -1,7 +1,11 @@
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -9,34 +13,36 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
+#include "cli/desk/plan/component_names.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
+#include "cli/report/documents/regression_text.h"
 #include "cli/report/documents/start_report.h"
 #include "cli/report/number_text.h"
 #include "cli/report/words/answers/interval_text.h"
 #include "cli/report/words/commands/fit_summary.h"
 #include "cli/report/words/commands/kept_promise_text.h"
-#include "cli/report/words/commands/regression_text.h"
 #include "cli/report/wrap_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/files/shown_path.h"
+#include "data/measurements/joined_tables.h"
 #include "data/measurements/reading/directions.h"
 #include "data/measurements/reading/read_table.h"
 #include "data/text.h"
 #include "fitting/interruption.h"
 #include "models/file_recipe.h"
 #include "models/model_file.h"
-#include "models/promise/promise.h"
-#include "models/promise/sensitivity.h"
+#include "models/sensors/sensitivity.h"
 #include "models/study/fold_pool.h"
 #include "models/study/record/making/fit_blocks.h"
 #include "models/study/record/making/make_figure_record.h"
 #include "models/study/record/record_json.h"
 #include "models/study/study_defaults.h"
+#include "models/uncertainty/promise.h"
 
 namespace errmap::cli {
 namespace {
@@ -229,12 +235,13 @@ void RefuseBothWays(const data::Reading& reading,
   if (data::DirectionsOf(reading, selection).empty()) return;
   throw UsageError(fmt::format(
       "rows go both ways along {}, which err differently; fit each way by "
-      "itself with --direction up and --direction down",
+      "itself with --direction up and --direction down, or both into a folder: "
+      "-o FOLDER/",
       data::QuotedName(
           reading.position.column.value_or(*reading.direction.column))));
 }
 
-int RunFit(const FitArguments& arguments, const std::string& command_line) {
+int FitOne(const FitArguments& arguments, const std::string& command_line) {
   CheckOutputName(
       "-o",
       arguments.out,
@@ -302,6 +309,66 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
   return kDone;
 }
 
+bool NamesFolder(const std::string& out) {
+  return out.ends_with('/') || std::filesystem::is_directory(out);
+}
+
+// The ways along the axis, and what their maps are called: by the file of each
+// way where there is one, else by the first file and the way.
+std::vector<std::pair<std::string, std::string>> MapsOfWays(
+    const DataArguments& arguments,
+    const std::vector<std::string>& ways,
+    const std::string& name) {
+  std::vector<data::DatasetSelection> selections;
+  for (const std::string& way : ways) {
+    selections.emplace_back(arguments.selection).direction = way;
+  }
+  const std::vector<std::string> names = desk::NamesByFile(
+      data::ReadTables(arguments.files, arguments.selection).table, selections);
+  std::vector<std::pair<std::string, std::string>> maps;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    maps.emplace_back(ways[i], names.empty() ? name + "_" + ways[i] : names[i]);
+  }
+  return maps;
+}
+
+// -o FOLDER/: a map for each way (MapsOfWays) where rows go both ways, else
+// NAME.json, by the name of the first file.
+int FitIntoFolder(const FitArguments& arguments,
+                  const std::string& command_line) {
+  const std::filesystem::path folder(arguments.out);
+  const std::string name =
+      std::filesystem::path(arguments.data.files.front()).stem().string();
+  FitArguments one = arguments;
+  one.data.quiet = true;
+  const data::Reading reading = ReadData(one.data).reading;
+  one.data.quiet = arguments.data.quiet;
+  std::filesystem::create_directories(folder);
+  if (data::DirectionsOf(reading, arguments.data.selection).empty()) {
+    one.out = (folder / (name + ".json")).string();
+    return FitOne(one, command_line);
+  }
+  if (arguments.format == "json") {
+    throw UsageError(
+        "--format json tells of one map; name the way with --direction up or "
+        "--direction down");
+  }
+  for (const auto& [way, map] :
+       MapsOfWays(arguments.data, reading.direction.values, name)) {
+    one.data.selection.direction = way;
+    one.out = (folder / (map + ".json")).string();
+    if (const int status = FitOne(one, command_line); status != kDone) {
+      return status;
+    }
+  }
+  return kDone;
+}
+
+int RunFit(const FitArguments& arguments, const std::string& command_line) {
+  return NamesFolder(arguments.out) ? FitIntoFolder(arguments, command_line)
+                                    : FitOne(arguments, command_line);
+}
+
 }  // namespace
 
 void AddFitCommand(CLI::App* app, Run* run) {
@@ -313,7 +380,10 @@ void AddFitCommand(CLI::App* app, Run* run) {
       command, "--model SPEC", arguments->model, "The model, e.g. poly:eq8")
       .Required();
   AddOption(
-      command, "-o,--output FILE.json", arguments->out, "Model file to write")
+      command,
+      "-o,--output FILE.json",
+      arguments->out,
+      "Model file to write, or a folder: a map for each way along the axis")
       .Required();
   AddSeedOption(command, &arguments->seed);
   AddOption(command,

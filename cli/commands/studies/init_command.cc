@@ -7,13 +7,12 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/desk/plan/study_plan.h"
-#include "cli/desk/toml/fleet_proposal.h"
 #include "cli/desk/toml/study_file_text.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/report/number_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
+#include "cli/slice.h"
 #include "data/files/atomic_file.h"
 #include "data/measurements/column_checks.h"
 #include "data/text.h"
@@ -38,29 +37,6 @@ std::string PathFrom(const std::string& study_file, const std::string& data) {
              : std::filesystem::proximate(data, folder).string();
 }
 
-// For a folder: patterns of the files below it.
-int RunInitFleet(const InitArguments& arguments) {
-  const desk::FleetProposal proposal =
-      desk::ProposeFleet(arguments.data,
-                         PathFrom(arguments.out, arguments.data),
-                         arguments.target,
-                         "errmap compare --config THIS_FILE --out STORE");
-  data::WriteFileAtomically(arguments.out, proposal.text);
-  const std::string path = data::PrintablePath(arguments.out);
-  PrintFitted(fmt::format(
-      "{}: {}{}; look it over, then\n"
-      "errmap compare --config {} --out STORE\n",
-      path,
-      report::Count(proposal.files, "file"),
-      proposal.left_out.empty()
-          ? std::string()
-          : fmt::format("; left out, since they cannot be mapped: {}",
-                        data::ListOfNames({proposal.left_out.begin(),
-                                           proposal.left_out.end()})),
-      path));
-  return kDone;
-}
-
 int RunInit(const InitArguments& arguments) {
   CheckOutputName("-o", arguments.out, {arguments.data});
   if (!arguments.force && std::filesystem::exists(arguments.out)) {
@@ -70,7 +46,14 @@ int RunInit(const InitArguments& arguments) {
         data::PrintablePath(arguments.out)));
   }
   if (std::filesystem::is_directory(arguments.data)) {
-    return RunInitFleet(arguments);
+    for (const Slice& slice : Slices()) {
+      if (slice.init == nullptr) continue;
+      slice.init({.folder = arguments.data,
+                  .beside = PathFrom(arguments.out, arguments.data),
+                  .target = arguments.target,
+                  .out = arguments.out});
+      return kDone;
+    }
   }
   desk::StudyConfig config = desk::ProposeStudy(data::ReadCsv(arguments.data));
   for (desk::ComponentConfig& component : config.components) {

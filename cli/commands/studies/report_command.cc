@@ -6,8 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/fleet/store/merge.h"
-#include "cli/fleet/store/store_folder.h"
+#include "cli/desk/plan/component_names.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/output/report_files.h"
 #include "cli/report/documents/report_html.h"
@@ -16,6 +15,7 @@
 #include "cli/report/words/answers/data_words.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/slice.h"
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
@@ -23,14 +23,6 @@
 
 namespace errmap::cli {
 namespace {
-
-struct ReportArguments {
-  std::string folder;
-  std::string figures;
-  std::string format;
-  std::string component;  // of a store
-  bool force = false;
-};
 
 std::string ResultsPath(const std::string& folder) {
   return (std::filesystem::path(folder) / "results.json").string();
@@ -46,47 +38,12 @@ models::StudyRecord ReadResults(const std::string& folder) {
   }
   const std::string text = data::ReadFile(path, data::kMostTextOfPrograms);
   try {
-    return models::FromJsonText(text);
+    models::StudyRecord record = models::FromJsonText(text);
+    report::PartsOf(record);  // refuses what a slice did not write
+    return record;
   } catch (const data::InputError& error) {
     throw data::InputError(data::PrintablePath(path) + ": " + error.what());
   }
-}
-
-// The page of one component of a store, or of all of them together.
-int RunStoreReport(const ReportArguments& arguments) {
-  const fleet::StorePaths store{arguments.folder};
-  if (arguments.component.empty()) {
-    if (!arguments.figures.empty() || !arguments.format.empty()) {
-      throw UsageError(
-          "the report of a store is report.html; --format and --figures go "
-          "with --component");
-    }
-    fleet::DrawFleetReport(store, fleet::ReadSummaries(store));
-    return kDone;
-  }
-  const fleet::FleetRecord fleet = fleet::ReadFleet(store);
-  if (std::ranges::find(fleet.components,
-                        arguments.component,
-                        &fleet::FleetComponentRecord::name) ==
-      fleet.components.end()) {
-    throw UsageError(
-        fmt::format("no component {} in {}; errmap merge STORE lists them",
-                    data::QuotedName(arguments.component),
-                    data::PrintablePath(arguments.folder)));
-  }
-  const models::StudyRecord results =
-      fleet::ReadResultsOf(store, arguments.component);
-  if (arguments.format == "md") {
-    PrintResult(report::ReportMarkdown(results));
-  } else if (arguments.format == "html") {
-    PrintResult(report::ReportHtml(results));
-  } else {
-    const std::string page =
-        store.InFolder(arguments.component, fleet::kPageFile);
-    data::WriteFileAtomically(page, report::ReportHtml(results));
-    PrintResult(page + "\n");
-  }
-  return kDone;
 }
 
 // The study of that component alone.
@@ -113,15 +70,19 @@ models::StudyRecord OfComponent(models::StudyRecord record,
   std::iter_swap(record.components.begin(), found);
   record.components.erase(std::next(record.components.begin()),
                           record.components.end());
-  record.machine.reset();
+  record.others.clear();
   return record;
 }
 
 int RunReport(const ReportArguments& arguments) {
-  if (fleet::IsStore(arguments.folder)) return RunStoreReport(arguments);
+  for (const Slice& slice : Slices()) {
+    if (slice.report == nullptr) continue;
+    if (const auto status = slice.report(arguments)) return *status;
+  }
   models::StudyRecord results = ReadResults(arguments.folder);
   if (results.doubt) Say("warning: " + report::DoubtText(results));
   const std::string& component = arguments.component;
+  std::string written;  // told once all is
   if (!component.empty()) results = OfComponent(std::move(results), component);
   if (arguments.format == "md") {
     PrintResult(report::ReportMarkdown(results));
@@ -130,7 +91,7 @@ int RunReport(const ReportArguments& arguments) {
                                    FiguresInFolder(results, arguments.folder)));
   } else if (!component.empty()) {
     const std::string page =
-        fleet::StorePaths::FlatFolderOf(component) + ".html";
+        "components/" + desk::PlainOrHashedName(component) + ".html";
     ClaimedFolder folder(arguments.folder,
                          {page},
                          {ResultsPath(arguments.folder)},
@@ -139,7 +100,7 @@ int RunReport(const ReportArguments& arguments) {
                  report::ReportHtml(
                      results, FiguresInFolder(results, arguments.folder)));
     folder.Finish();
-    PrintResult(folder.PathOf(page) + "\n");
+    written = folder.PathOf(page) + "\n";
   } else {
     ClaimedFolder folder(arguments.folder,
                          {kReportPage, kReportText},
@@ -147,8 +108,13 @@ int RunReport(const ReportArguments& arguments) {
                          arguments.force);
     WriteReport(results, &folder);
     folder.Finish();
+    written = fmt::format(
+        "{}\n{}\n", folder.PathOf(kReportPage), folder.PathOf(kReportText));
   }
-  if (arguments.figures.empty()) return kDone;
+  if (arguments.figures.empty()) {
+    PrintResult(written);
+    return kDone;
+  }
   const std::vector<report::ReportFile> figures =
       report::FigureFiles(FiguresInFolder(results, arguments.folder));
   std::vector<std::string> names;
@@ -161,6 +127,7 @@ int RunReport(const ReportArguments& arguments) {
     folder.Write(file.name, file.text);
   }
   folder.Finish();
+  PrintResult(written);
   Say(fmt::format("{} figures as svg in {}",
                   figures.size(),
                   data::PrintablePath(arguments.figures)));

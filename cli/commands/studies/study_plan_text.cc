@@ -79,21 +79,27 @@ std::string ComponentText(const models::ComponentPlan& component,
   return text;
 }
 
+double SecondsOf(const desk::StudyPlan& plan, int jobs) {
+  double seconds = 0.0;
+  for (const models::ComponentPlan& component : plan.components) {
+    seconds += desk::RoughSeconds(component, jobs);
+  }
+  return seconds;
+}
+
 }  // namespace
 
 std::string PlanText(const desk::StudyPlan& plan,
                      int jobs,
                      const std::string& out) {
   std::string text;
-  double seconds = 0.0;
   for (std::size_t i = 0; i < plan.components.size(); ++i) {
     text += ComponentText(plan.components[i], plan.config.components[i]) + "\n";
-    seconds += desk::RoughSeconds(plan.components[i], jobs);
   }
   text += fmt::format("{} in all, seed {}; roughly {} on {}\n",
                       report::Count(plan.num_fits(), "fit"),
                       plan.config.seed,
-                      desk::RoughTimeText(seconds),
+                      desk::RoughTimeText(SecondsOf(plan, jobs)),
                       report::Count(jobs, "job"));
   if (out.empty()) {
     text += "no files (give --out DIR for them)\n";
@@ -106,6 +112,24 @@ std::string PlanText(const desk::StudyPlan& plan,
                             : "results.json, residuals.csv, models/MODEL.json");
   }
   return text + "Nothing was fitted or written (--dry-run).\n";
+}
+
+std::vector<std::string> LongRunLines(const desk::StudyPlan& plan,
+                                      int jobs,
+                                      bool chosen) {
+  constexpr double kLong = 30.0;
+  const double seconds = SecondsOf(plan, jobs);
+  if (seconds < kLong) return {};
+  std::vector<std::string> lines = {fmt::format("this takes about {} on {}",
+                                                desk::RoughTimeText(seconds),
+                                                report::Count(jobs, "job"))};
+  const desk::FasterModels faster = desk::FasterModelsOf(plan);
+  if (!chosen && !faster.names.empty()) {
+    lines.push_back(fmt::format("about {} without the slowest: --models {}",
+                                desk::RoughTimeText(faster.seconds / jobs),
+                                Shown(data::JoinWords(faster.names, ","))));
+  }
+  return lines;
 }
 
 }  // namespace errmap::cli

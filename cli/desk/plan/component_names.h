@@ -1,11 +1,34 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "cli/desk/study_config.h"
+#include "data/csv.h"
+#include "data/measurements/dataset.h"
 
 namespace errmap::desk {
 
-/// Gives components without a name their file's. Throws data::InputError where
-/// two have one name: files are called by it.
+/// Each part of a table of several files by the one file that its rows come
+/// from, without the ending: the ways along an axis where each was measured
+/// into a file of its own. Empty where the table is of one file, a part is of
+/// several, or two parts would have one name.
+std::vector<std::string> NamesByFile(
+    const data::CsvTable& table,
+    const std::vector<data::DatasetSelection>& parts);
+
+/// Names components without a name after their file. Throws data::InputError if
+/// two have the same name, since output files are named after components.
 void NameComponents(StudyConfig* config);
+
+/// Returns at most 100 characters; those that are unsafe in a file's name
+/// become '_'.
+std::string SafeName(const std::string& name);
+
+/// Returns SafeName of a part of a name, and a hash of the name.
+std::string HashedName(const std::string& part, const std::string& name);
+
+/// Returns the name itself if a file can have it, else its HashedName.
+std::string PlainOrHashedName(const std::string& name);
 
 }  // namespace errmap::desk

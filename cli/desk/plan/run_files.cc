@@ -1,11 +1,11 @@
 #include "cli/desk/plan/run_files.h"
 
-#include <cctype>
 #include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "cli/desk/plan/component_names.h"
 #include "cli/desk/provenance.h"
 #include "cli/report/documents/residuals_csv.h"
 #include "models/model_file.h"
@@ -15,16 +15,9 @@ namespace {
 
 constexpr const char* kResults = "results.json";
 
-// A file name of a SPEC or component less its ending: what is safe stays, the
-// rest becomes '_'.
+// A file name of a SPEC or component less its ending.
 std::string FileNameOf(const std::string& text, std::set<std::string>* taken) {
-  constexpr std::size_t kMostLength = 100;
-  std::string stem;
-  for (const char c : text.substr(0, kMostLength)) {
-    const bool safe = std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-                      c == '.' || c == '=' || c == '+' || c == '-' || c == '_';
-    stem += safe ? c : '_';
-  }
+  const std::string stem = SafeName(text);
   std::string name = stem;
   for (int copy = 2; !taken->insert(name).second; ++copy) {
     name = fmt::format("{}_{}", stem, copy);

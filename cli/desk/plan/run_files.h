@@ -11,25 +11,26 @@
 
 namespace errmap::desk {
 
-/// Names of the files that WriteRunFiles may make of a study: results.json,
-/// residuals.csv and models/*.json; of several components
+/// Returns the names of all files that WriteRunFiles may write for a study:
+/// results.json, residuals.csv and models/*.json. With several components
 /// residuals/COMPONENT.csv and models/COMPONENT/*.json.
 std::vector<std::string> RunFileNames(const StudyPlan& plan);
 
-/// Says of each map in `record` which file WriteRunFiles makes of it.
+/// Sets the file name of each map in `record`, as WriteRunFiles writes it.
 void NameMaps(const StudyRun& run, models::StudyRecord* record);
 
-/// The text of a map's file: that of all rows, with the rows that it is made
-/// for and where it comes from. The model must have been fitted to all rows.
+/// Returns the text of a map's file: the map fitted to all rows, the rows that
+/// it is meant for, and its provenance. The model must have been fitted to all
+/// rows.
 std::string MapFileText(const StudyRun& run,
                         const models::ComponentStudy& component,
                         const models::ModelResult& model);
 
-/// Takes a file's name, relative to the folder of all, and its content.
+/// Writes a file: its name, relative to the output folder, and its content.
 using WriteFile =
     std::function<void(const std::string& name, std::string_view content)>;
 
-/// Gives `write` results.json (`record`), the residuals and every map.
+/// Passes results.json (`record`), the residuals and every map to `write`.
 void WriteRunFiles(const StudyRun& run,
                    const models::StudyRecord& record,
                    const WriteFile& write);

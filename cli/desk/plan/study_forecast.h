@@ -11,29 +11,30 @@
 
 namespace errmap::desk {
 
-/// How long a study will still take, learnt from its fits, and the best map so
-/// far. A fit's share of the work is RoughFitSeconds of its kind and rows; what
-/// that really takes is learnt of each model; where there is none of it yet, of
-/// models of its kind, as far as these were as much work. Fits of an earlier
-/// run teach as those of this one do. Safe to use from any thread.
+/// Estimates how long a study will still take, and keeps the best map so far.
+/// RoughFitSeconds gives the work of each fit. The real time for that work is
+/// learnt from the model's own finished fits. Before there are any, it is
+/// learnt from models of the same kind, as far as their work was as large. Fits
+/// kept from an earlier run count like those of this one. Safe to use from any
+/// thread.
 class StudyForecast {
  public:
   StudyForecast(const StudyPlan& plan, int jobs);
 
-  /// `component`: which of the plan.
+  /// Takes in a finished fit. `component`: its index in the plan.
   void Note(std::size_t component, const models::FitProgress& fit);
   double SecondsLeft() const;
   struct Best {
-    std::string map;      // "poly:eq8 1.90 um"; "" before the first is through
-    std::string holdout;  // the last that does not judge among neighbours
+    std::string map;      // "poly:eq8 1.90 um"; "" until one is finished
+    std::string holdout;  // the last one that does not hold out neighbours
   };
-  /// Of the component at work.
+  /// Returns the best map of the component that is being fitted.
   Best BestSoFar() const;
 
  private:
   struct Work {
-    double rough = 0.0;    // of what is done
-    double seconds = 0.0;  // that it took
+    double rough = 0.0;    // rough seconds of the finished fits
+    double seconds = 0.0;  // the time that they took
   };
   struct OfModel {
     std::string name;
@@ -45,7 +46,7 @@ class StudyForecast {
   };
   struct OfComponent {
     std::vector<OfModel> models;
-    std::size_t holdout = 0;  // by which the best so far is called so
+    std::size_t holdout = 0;  // the hold-out that decides the best so far
     std::string holdout_name;
     data::Unit unit;
   };
@@ -54,7 +55,7 @@ class StudyForecast {
   double Rate(const OfModel& model) const;
 
   int jobs_;
-  mutable std::mutex mutex_;  // of all that follows
+  mutable std::mutex mutex_;  // guards all members below
   std::vector<OfComponent> components_;
   std::map<models::ModelKind, Work> of_kinds_;
   int fits_left_ = 0;

@@ -329,7 +329,8 @@ class ComponentPlanner {
 void PartByDirection(StudyConfig* config, TableReader* reader) {
   std::vector<ComponentConfig> parted;
   for (const ComponentConfig& component : config->components) {
-    std::vector<data::ColumnFilter> ways;
+    std::vector<data::DatasetSelection> ways;
+    std::vector<std::string> names;  // of the ways; empty: as by default
     if (component.split.empty() && component.save_split.empty() &&
         component.predictions.empty()) {
       try {
@@ -337,18 +338,25 @@ void PartByDirection(StudyConfig* config, TableReader* reader) {
             reader->ReadAll(data::FindFiles(component.AllData()).paths,
                             component.selection,
                             {});
-        ways = data::DirectionsOf(
-            data::ReadRoles(table, component.selection).reading,
-            component.selection);
+        for (const data::ColumnFilter& way : data::DirectionsOf(
+                 data::ReadRoles(table, component.selection).reading,
+                 component.selection)) {
+          ways.emplace_back(component.selection).where.push_back(way);
+        }
+        if (component.name.empty()) names = NamesByFile(table, ways);
       } catch (const data::InputError&) {
         // Said where the component is planned.
       }
     }
     if (ways.empty()) parted.push_back(component);
-    for (const data::ColumnFilter& way : ways) {
+    for (std::size_t i = 0; i < ways.size(); ++i) {
       ComponentConfig& one = parted.emplace_back(component);
-      one.selection.where.push_back(way);
-      if (!one.name.empty()) one.name += ", " + ValueText(way);
+      one.selection = ways[i];
+      if (!one.name.empty()) {
+        one.name += ", " + ValueText(one.selection.where.back());
+      } else if (!names.empty()) {
+        one.name = names[i];
+      }
     }
   }
   config->components = std::move(parted);

@@ -14,28 +14,28 @@ using models::ComponentPlan;
 
 /// What a study will do: everything is read, nothing is fitted.
 struct StudyPlan {
-  /// With what the defaults became: names, targets, inputs, groups, goals;
-  /// hold-outs and models where all components have the same.
+  /// The configuration with its defaults filled in: names, targets, inputs,
+  /// groups, goals. Hold-outs and models only if all components have the same.
   StudyConfig config;
   std::vector<InputFile> inputs;  // every file read, in order
   std::vector<models::ComponentPlan> components;
 
   int num_fits() const;
-  /// Paths of all files read, those of "file:" models among them.
+  /// Returns the paths of all files read, including those of "file:" models.
   std::vector<std::string> InputPaths() const;
 };
 
-/// Told of what may be worth knowing, a line at a time.
+/// Receives remarks for the user, one line at a time.
 using Remark = std::function<void(const std::string&)>;
 
-/// Makes recipes of a caller's own for a component.
+/// Makes the caller's own recipes for a component.
 using MakeOwnRecipes = std::function<models::OwnRecipes()>;
 
-/// Reads the data, makes the hold-outs and chooses models where the user left
-/// them to us, `own` (may be empty) beside them. `remark` is told what was
-/// found in the data, what is left out and why; where it is empty, that is not
-/// looked into. Throws data::InputError where data cannot be used or two
-/// components have one name, std::invalid_argument for a SPEC that the
+/// Reads the data, makes the hold-outs, and chooses models if the user named
+/// none. `own` (may be empty) adds recipes. `remark` receives what was found in
+/// the data, what is left out and why; if it is empty, the data are not
+/// examined for this. Throws data::InputError if data cannot be used or two
+/// components have the same name, and std::invalid_argument for a SPEC that the
 /// catalogue does not know.
 StudyPlan PlanStudy(const StudyConfig& config,
                     const Remark& remark = {},

@@ -11,6 +11,7 @@
 #include "cli/desk/provenance.h"
 #include "cli/desk/study_config.h"
 #include "models/study/record/component_study.h"
+#include "models/study/record/study_record.h"
 #include "models/study/study.h"
 
 namespace errmap::models {
@@ -19,17 +20,17 @@ class KeptFits;
 
 namespace errmap::desk {
 
-/// A whole run: table, JSON and files are written from this and nothing else.
+/// A whole run. Tables, JSON and files are written from it alone.
 struct StudyRun {
   std::uint64_t seed = 1;
   std::string command_line;
   StudyConfig config;             // as it was carried out
   std::vector<InputFile> inputs;  // every file read, in the order of reading
-  /// Those of the plan that were begun.
+  /// The components of the plan that were started.
   std::vector<models::ComponentStudy> components;
   bool interrupted = false;
 
-  /// Names of files and headings tell components apart where this is true.
+  /// True if file names and headings must tell components apart.
   bool has_several() const { return config.components.size() > 1; }
 };
 
@@ -38,18 +39,23 @@ struct RunOptions {
   const std::atomic<bool>* stop = nullptr;
   models::KeptFits* journal = nullptr;  // keeps the fits; may be null
   std::string cache = {};  // folder of the last fits (kept_fits.h); "" for none
-  Remark journal_has = {};      // told what the journal has of them
+  Remark journal_has = {};      // receives what the journal has of the fits
   bool keep_fold_maps = false;  // of the hold-outs: FoldResult::map
-  /// Told which component of the plan a fit was of and of the fit, its counts
-  /// those of the whole plan, from any thread; may be empty.
+  /// Receives the index of the component in the plan, and the fit, whose counts
+  /// are those of the whole plan. Called from any thread; may be empty.
   std::function<void(std::size_t, const models::FitProgress&)> progress = {};
 };
 
-/// Fits and judges the components one after another, the fits of each in
-/// parallel. Where `stop` is set, components not yet begun are left out.
-/// `command_line`: for provenance, what is said to have asked for it.
+/// Fits and judges the components one after another; the fits of each run in
+/// parallel. Once `stop` is set, no further component is started.
+/// `command_line`: the command that results name as their origin.
 StudyRun RunPlan(StudyPlan plan,
                  const std::string& command_line = "",
                  const RunOptions& options = {});
+
+/// Returns what a run found, judged and put into words. results.json, every
+/// table and every page are made from it. `jobs`: number of threads that assess
+/// residuals.
+models::StudyRecord RecordOf(const StudyRun& run, int jobs = 1);
 
 }  // namespace errmap::desk

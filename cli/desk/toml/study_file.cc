@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "cli/desk/study_options.h"
-#include "cli/desk/toml/component_pattern.h"
 #include "cli/desk/toml/toml_keys.h"
 #include "cli/desk/toml/toml_text.h"
 #include "data/argument_name.h"
@@ -111,7 +110,7 @@ class StudyFileReader {
       config.models.push_back(ReadModel(*table, config.models));
     }
     for (const toml::table* table : keys.Tables("component")) {
-      config.components.push_back(ReadComponent(*table, &study.sources));
+      config.components.push_back(ReadComponent(*table, &study.components));
     }
     if (config.components.empty()) {
       throw data::InputError(data::PrintablePath(file_) +
@@ -144,7 +143,7 @@ class StudyFileReader {
   }
 
   ComponentConfig ReadComponent(const toml::table& table,
-                                std::vector<ComponentSource>* sources) const {
+                                std::vector<ComponentInFile>* in_file) const {
     const Keys keys(table, "[[component]]", file_);
     ComponentConfig component;
     std::vector<std::string> known = {"name", "data", "where"};
@@ -155,38 +154,13 @@ class StudyFileReader {
     if (component.data.empty()) {
       keys.RefuseTable("needs data = \"FILE.csv\"");
     }
-    sources->push_back({.path = component.data, .fields = {}});
+    in_file->push_back(
+        {.data = component.data,
+         .place = Place(file_, table.source()) + "[[component]]: "});
     component.data = BesideStudyFile(component.data);
-    TakePattern(keys, &component, &sources->back());
     component.selection.where = ReadWhere(keys);
     ForComponentOptions(component, Taker(keys));
     return component;
-  }
-
-  // A path with fields in it, unless a file has that very name.
-  void TakePattern(const Keys& keys,
-                   ComponentConfig* component,
-                   ComponentSource* source) const {
-    const std::string path = source->path;
-    std::error_code ignored;
-    if (!PathPattern::HasFields(path) ||
-        std::filesystem::exists(component->data, ignored)) {
-      return;
-    }
-    try {
-      PathFields fields;
-      const PathPattern pattern(path);
-      for (const std::string& field : pattern.fields()) {
-        fields.emplace_back(field, "");
-      }
-      FillIn(component->name, fields);
-    } catch (const std::invalid_argument& error) {
-      keys.RefuseTable(error.what());
-    }
-    const bool is_absolute = std::filesystem::path(path).is_absolute();
-    source->is_pattern = true;
-    source->path = is_absolute ? path.substr(1) : path;
-    component->data = is_absolute ? "/" : folder_.string();
   }
 
   std::vector<data::ColumnFilter> ReadWhere(const Keys& keys) const {
@@ -428,9 +402,7 @@ StudyFile ReadStudyFile(const std::string& path,
 StudyPlan PlanStudy(const StudyFile& file,
                     const Remark& remark,
                     const MakeOwnRecipes& own) {
-  StudyFile study = file;
-  ExpandPatterns(&study.config, &study.sources);
-  StudyPlan plan = PlanStudy(study.config, remark, own);
+  StudyPlan plan = PlanStudy(file.config, remark, own);
   plan.inputs.insert(plan.inputs.begin(), file.file);
   return plan;
 }

@@ -7,15 +7,15 @@
 
 namespace errmap::desk {
 
-/// A study of one data file: one component, or one per value of a column that
-/// tells directions, slides or components apart (`direction`, `axis`, ... with
-/// few distinct values).
+/// Proposes a study of one data file: one component, or one for each value of a
+/// column that tells directions, slides or components apart (`direction`,
+/// `axis`, ... with few distinct values).
 StudyConfig ProposeStudy(const data::CsvTable& table);
 
-/// A study file for the plan, commented: what was found and what every key
-/// would do. `data` is the data file as seen from the study file's folder,
-/// `usage` how such a study is run, for its first line. Read again, it asks for
-/// what the plan does.
+/// Returns a study file for the plan, with comments on what was found and what
+/// every key does. `data` is the data file as seen from the study file's
+/// folder. `usage` is the command for such a study; it stands in the first
+/// line. The file, read again, gives the same study as the plan.
 std::string StudyFileText(const StudyPlan& plan,
                           const std::string& data,
                           const std::string& usage);

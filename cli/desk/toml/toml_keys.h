@@ -15,28 +15,28 @@
 
 namespace errmap::desk {
 
-/// Begins the name of a source that is no file but a change of one, KEY=VALUE.
+/// How the name of a source begins that is not a file but a change, KEY=VALUE.
 inline constexpr std::string_view kOverride = "KEY=VALUE ";
-/// What a message calls such a change.
+/// Returns the name of such a change in messages.
 std::string NameOfOverride(std::string_view change);
 
-/// "FILE:LINE:COLUMN: ", to begin a message.
+/// Returns "FILE:LINE:COLUMN: ", the beginning of a message.
 std::string Place(const std::string& file, const toml::source_region& at);
 
-/// Throws data::InputError with the place, or std::invalid_argument where it is
-/// a change of the file.
+/// Throws data::InputError with the place, or std::invalid_argument for a
+/// change KEY=VALUE.
 [[noreturn]] void Refuse(const std::string& file,
                          const toml::source_region& at,
                          const std::string& what);
 
-/// Of a whole or other number.
+/// Returns the value of an integer or a floating-point number.
 double NumberOf(const toml::node& node);
 
-/// A TOML document. Throws data::InputError with the place of what is no TOML.
+/// Parses a TOML document. Throws data::InputError with the place of an error.
 toml::table ParseToml(const std::string& text, const std::string& path);
 
-/// A table of a file, read key by key; what is wrong is said with its place by
-/// Refuse. Keeps references to `table` and `file`.
+/// Reads a table of a file key by key. Calls Refuse with the place of what is
+/// wrong. Keeps references to `table` and `file`.
 class Keys {
  public:
   Keys(const toml::table& table, std::string where, const std::string& file);
@@ -44,19 +44,21 @@ class Keys {
   void AllowOnly(const std::vector<std::string>& known) const;
   const toml::node* Find(std::string_view key) const { return table_.get(key); }
 
-  // Each leaves what it is given where the key is absent.
+  // If the key is absent, each leaves its target unchanged.
   /// `check` may be null; it refuses by throwing std::invalid_argument.
   void TakeText(std::string_view key,
                 std::string* text,
                 void (*check)(const std::string&) = nullptr) const;
   void TakeFlag(std::string_view key, bool* flag) const;
-  /// A number above 0, or at least 0, or a text of one with its unit.
+  /// Takes a number above 0 (at least 0 if `may_be_zero`), or a text with a
+  /// number and its unit.
   void TakeError(std::string_view key,
                  bool may_be_zero,
                  GivenError* error) const;
   void TakeSeed(std::uint64_t* seed) const;
 
-  /// Texts of a list; `check` may refuse one by throwing invalid_argument.
+  /// Takes a list of texts. `check` refuses one by throwing
+  /// std::invalid_argument.
   template <typename Check>
   void TakeList(std::string_view key,
                 std::vector<std::string>* list,
@@ -86,7 +88,7 @@ class Keys {
 
   void TakeList(std::string_view key, std::vector<std::string>* list) const;
 
-  /// The tables headed [[key]]; none where the key is absent.
+  /// Returns the tables headed [[key]]; none if the key is absent.
   std::vector<const toml::table*> Tables(std::string_view key) const;
 
   [[noreturn]] void RefuseType(std::string_view key,

@@ -1,9 +1,9 @@
 #pragma once
 
-// toml++ 3.3 asks of any character whether it is white space, and tells the
-// compiler that most of those beyond ASCII cannot occur there. They can: after
-// a bare value, or where a line of a string is continued. They are none, as
-// toml++ has it since its pull request 305.
+// toml++ 3.3 tests any character for white space, and tells the compiler that
+// most characters beyond ASCII cannot occur there. But they can: after a bare
+// value, or where a line of a string is continued. Here they are no white
+// space, as in toml++ since its pull request 305.
 #include <toml++/impl/preprocessor.h>
 #pragma push_macro("TOML_UNREACHABLE")
 #undef TOML_UNREACHABLE

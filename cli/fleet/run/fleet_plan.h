@@ -18,7 +18,7 @@ struct FleetPlan {
   std::vector<std::string> unusable;  // of those looked at: why, a line each
 };
 
-/// `config` as ExpandFleet gives it.
+/// Of an expanded study.
 FleetPlan PlanFleet(const desk::StudyConfig& config);
 
 }  // namespace errmap::fleet

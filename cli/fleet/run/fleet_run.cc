@@ -6,15 +6,12 @@
 #include <mutex>
 #include <new>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/desk/configuration_record.h"
-#include "cli/desk/plan/component_names.h"
 #include "cli/desk/plan/run_files.h"
-#include "cli/desk/plan/run_record.h"
 #include "cli/desk/plan/study_plan.h"
 #include "cli/desk/plan/study_run.h"
 #include "cli/desk/provenance.h"
@@ -25,6 +22,7 @@
 #include "data/sha256.h"
 #include "data/tables/gzip.h"
 #include "data/text.h"
+#include "fitting/parallel_for.h"
 #include "models/file_recipe.h"
 #include "models/fleet/sensor_relations.h"
 #include "models/study/record/record_json.h"
@@ -34,9 +32,7 @@
 namespace errmap::fleet {
 
 using desk::ComponentConfig;
-using desk::ComponentSource;
 using desk::StudyConfig;
-using desk::StudyFile;
 using desk::StudyRun;
 
 namespace {
@@ -113,28 +109,6 @@ std::string KeyOf(const std::string& asked,
   return HashOf(text);
 }
 
-// What is written of one component, and its summary last.
-class ComponentFiles {
- public:
-  ComponentFiles(const StorePaths& store, const std::string& name)
-      : store_(store), name_(name) {}
-
-  void Write(const char* file, const std::string& content) const {
-    const std::string path = store_.InFolder(name_, file);
-    data::PrepareFolder(std::filesystem::path(path).parent_path().string());
-    data::WriteFileAtomically(path, content);
-  }
-
-  void Remove(const char* file) const {
-    std::error_code ignored;
-    std::filesystem::remove(store_.InFolder(name_, file), ignored);
-  }
-
- private:
-  const StorePaths& store_;
-  const std::string& name_;
-};
-
 // The recommended map as compare --out would write it, "" where there is none.
 std::string MapOf(const StudyRun& run) {
   const models::ComponentStudy& component = run.components.front();
@@ -147,7 +121,7 @@ std::string MapOf(const StudyRun& run) {
 
 class FleetRunner {
  public:
-  FleetRunner(const StudyFile& study,
+  FleetRunner(const FleetStudy& study,
               const StorePaths& store,
               const FleetRunOptions& options)
       : config_(study.config),
@@ -159,16 +133,13 @@ class FleetRunner {
     for (std::size_t i = 0; i < sources_.size(); ++i) {
       if (options_.share.Has(config_.components[i].name)) share_.push_back(i);
     }
-    const auto workers = static_cast<std::size_t>(
+    const int workers = static_cast<int>(
         std::clamp<std::ptrdiff_t>(std::ssize(share_), 1, options_.jobs));
-    jobs_each_ = std::max(1, options_.jobs / static_cast<int>(workers));
-    std::vector<std::thread> threads;
-    for (std::size_t i = 1; i < workers; ++i) {
-      threads.emplace_back([this] { Work(); });
-    }
-    Work();
-    for (std::thread& thread : threads) thread.join();
-    if (error_) std::rethrow_exception(error_);
+    jobs_each_ = std::max(1, options_.jobs / workers);
+    fitting::ParallelFor(workers, share_.size(), [&](std::size_t i) {
+      if (IsStopped()) return;
+      Study(config_.components[share_[i]], sources_[share_[i]]);
+    });
     result_.interrupted = IsStopped();
     result_.components = static_cast<int>(share_.size());
     return result_;
@@ -179,16 +150,17 @@ class FleetRunner {
     return options_.stop != nullptr && options_.stop->load();
   }
 
-  void Work() {
-    try {
-      for (std::size_t i = 0; (i = next_++) < share_.size() && !IsStopped();) {
-        Study(config_.components[share_[i]], sources_[share_[i]]);
-      }
-    } catch (...) {
-      const std::lock_guard lock(mutex_);
-      if (!error_) error_ = std::current_exception();
-      next_ = share_.size();
-    }
+  void Write(const std::string& name,
+             const char* file,
+             const std::string& content) const {
+    const std::string path = store_.InFolder(name, file);
+    data::PrepareFolder(std::filesystem::path(path).parent_path().string());
+    data::WriteFileAtomically(path, content);
+  }
+
+  void Remove(const std::string& name, const char* file) const {
+    std::error_code ignored;
+    std::filesystem::remove(store_.InFolder(name, file), ignored);
   }
 
   void Study(const ComponentConfig& component, const ComponentSource& source) {
@@ -200,9 +172,8 @@ class FleetRunner {
       Count(&FleetRunResult::kept);
       return;
     }
-    models::ComponentSummary summary;
+    ComponentSummary summary;
     bool is_final = true;
-    const ComponentFiles files(store_, component.name);
     try {
       StudyRun run = desk::RunPlan(desk::PlanStudy(StudyOf(config_, component)),
                                    options_.command_line,
@@ -216,9 +187,9 @@ class FleetRunner {
           table.file = data::ShownPath(source.path);
         }
       }
-      summary = models::Summarise(record.components.front());
+      summary = Summarise(record.components.front());
       if (summary.status == models::ModelStatus::kOk) {
-        WriteResults(files, run, std::move(record), &summary);
+        WriteResults(run, std::move(record), &summary);
       }
     } catch (const std::bad_alloc&) {
       throw;
@@ -227,7 +198,7 @@ class FleetRunner {
     } catch (const std::exception& error) {
       summary = {};
       summary.name = component.name;
-      summary.file = ShownFile(component);
+      summary.file = std::filesystem::path(component.data).filename().string();
       summary.why = Replaced(error.what(), component.data, source.path);
     }
     summary.version = models::Version();
@@ -239,7 +210,7 @@ class FleetRunner {
     if (failed) {
       // Of an earlier run: they are not this component's any more.
       for (const char* file : {kResultsFile, kMapFile, kRelationsFile}) {
-        files.Remove(file);
+        Remove(component.name, file);
       }
       if (options_.remark) {
         const std::lock_guard lock(mutex_);
@@ -249,35 +220,32 @@ class FleetRunner {
                         *summary.why));
       }
     }
-    files.Write(kSummaryFile, models::ToJsonText(std::move(summary)));
+    Write(component.name, kSummaryFile, ToJsonText(std::move(summary)));
     Count(failed ? &FleetRunResult::failed : &FleetRunResult::fitted);
   }
 
-  static std::string ShownFile(const ComponentConfig& component) {
-    return std::filesystem::path(component.data).filename().string();
-  }
-
-  static void WriteResults(const ComponentFiles& files,
-                           const StudyRun& run,
-                           models::StudyRecord record,
-                           models::ComponentSummary* summary) {
+  // The summary last, by the caller.
+  void WriteResults(const StudyRun& run,
+                    models::StudyRecord record,
+                    ComponentSummary* summary) const {
+    const std::string& name = summary->name;
     const std::string map = MapOf(run);
     if (map.empty()) {
-      files.Remove(kMapFile);
+      Remove(name, kMapFile);
     } else {
-      summary->map = models::SummaryMapRecord{
-          .sha256 = data::Sha256(map),
-          .bytes = static_cast<std::int64_t>(map.size())};
-      files.Write(kMapFile, data::Gzip(map));
+      summary->map =
+          SummaryMapRecord{.sha256 = data::Sha256(map),
+                           .bytes = static_cast<std::int64_t>(map.size())};
+      Write(name, kMapFile, data::Gzip(map));
     }
     const auto relations =
         models::LearnRelations(run.components.front().data.dataset);
     if (relations) {
-      files.Write(kRelationsFile, data::Gzip(relations->ToJsonText()));
+      Write(name, kRelationsFile, data::Gzip(relations->ToJsonText()));
     } else {
-      files.Remove(kRelationsFile);
+      Remove(name, kRelationsFile);
     }
-    files.Write(kResultsFile, PackResults(std::move(record)));
+    Write(name, kResultsFile, PackResults(std::move(record)));
   }
 
   void Count(int FleetRunResult::*number) {
@@ -295,21 +263,21 @@ class FleetRunner {
   const FleetRunOptions& options_;
   std::vector<std::size_t> share_;  // index into the components
   int jobs_each_ = 1;
-  std::atomic<std::size_t> next_ = 0;
-  std::mutex mutex_;  // of all that follows
+  std::mutex mutex_;  // of all that follows, and of options_.remark
   FleetRunResult result_;
-  std::exception_ptr error_;
 };
 
 }  // namespace
 
-StudyFile ExpandFleet(StudyFile study) {
-  desk::ExpandPatterns(&study.config, &study.sources);
-  desk::NameComponents(&study.config);
-  return study;
+bool Share::Has(std::string_view name) const {
+  constexpr std::size_t kDigits = 16;
+  const std::uint64_t hash =
+      std::stoull(data::Sha256(name).substr(0, kDigits), nullptr, 16);
+  return hash % static_cast<std::uint64_t>(count) ==
+         static_cast<std::uint64_t>(index);
 }
 
-FleetRecord FleetOf(const StudyFile& study, const std::string& command_line) {
+FleetRecord FleetOf(const FleetStudy& study, const std::string& command_line) {
   FleetRecord fleet;
   fleet.version = models::Version();
   fleet.file = std::filesystem::path(study.file.file).filename().string();
@@ -327,7 +295,7 @@ FleetRecord FleetOf(const StudyFile& study, const std::string& command_line) {
   return fleet;
 }
 
-FleetRunResult RunFleet(const StudyFile& study,
+FleetRunResult RunFleet(const FleetStudy& study,
                         const StorePaths& store,
                         const FleetRunOptions& options) {
   return FleetRunner(study, store, options).Run();

@@ -1,28 +1,35 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "cli/desk/plan/study_plan.h"
-#include "cli/desk/toml/study_file.h"
+#include "cli/fleet/run/component_pattern.h"
 #include "cli/fleet/store/store_folder.h"
-#include "models/fleet/share.h"
 
 namespace errmap::fleet {
 
-/// The study with its patterns filled in, every component named. Throws
-/// data::InputError where two have one name.
-desk::StudyFile ExpandFleet(desk::StudyFile study);
-
 /// What fleet.json says of an expanded study, in order of the names.
-FleetRecord FleetOf(const desk::StudyFile& study,
-                    const std::string& command_line);
+FleetRecord FleetOf(const FleetStudy& study, const std::string& command_line);
+
+/// The share of a fleet's components that one task does: number `index` of
+/// `count`, from 0.
+struct Share {
+  std::int64_t index = 0;
+  std::int64_t count = 1;
+
+  /// Dealt by a hash of the name (its SHA-256's first 8 bytes, modulo `count`),
+  /// so that a component more or less moves no other.
+  bool Has(std::string_view name) const;
+};
 
 struct FleetRunOptions {
   int jobs = 1;  // components at a time
   const std::atomic<bool>* stop = nullptr;
-  models::Share share = {};
+  Share share = {};
   std::string command_line;
   desk::Remark remark =
       {};  // told of each component that failed, one at a time
@@ -43,7 +50,7 @@ struct FleetRunResult {
 /// or fitted has a summary that says so. What is there from an earlier run of
 /// the same data and words stays. Throws std::system_error where nothing can be
 /// written.
-FleetRunResult RunFleet(const desk::StudyFile& study,
+FleetRunResult RunFleet(const FleetStudy& study,
                         const StorePaths& store,
                         const FleetRunOptions& options);
 

@@ -6,19 +6,6 @@
 namespace errmap::fleet {
 namespace {
 
-models::WatchStatus StatusNamed(const std::string& name) {
-  using models::WatchStatus;
-  for (const WatchStatus status : {WatchStatus::kAsPromised,
-                                   WatchStatus::kWorse,
-                                   WatchStatus::kSensorChanged,
-                                   WatchStatus::kOutside,
-                                   WatchStatus::kTooFewRows,
-                                   WatchStatus::kDoubtful}) {
-    if (ToString(status) == name) return status;
-  }
-  return WatchStatus::kNotJudged;
-}
-
 std::optional<std::string> NullIfEmpty(const std::string& text) {
   if (text.empty()) return std::nullopt;
   return text;
@@ -83,7 +70,7 @@ std::vector<Check> ChecksOf(Database* store, std::int64_t deployment) {
   rows.With(deployment);
   std::vector<Check> found;
   while (rows.Next()) {
-    const models::WatchStatus status = StatusNamed(rows.Text(11));
+    const models::WatchStatus status = models::WatchStatusNamed(rows.Text(11));
     found.push_back(
         {.session = {.label = rows.Text(0),
                      .rows = rows.Whole(1),

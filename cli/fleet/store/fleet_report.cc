@@ -1,5 +1,3 @@
-#include "cli/fleet/store/fleet_report.h"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -10,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/fleet/store/merge.h"
 #include "cli/report/documents/report_style.h"
 #include "cli/report/figures/row_pictures.h"
 #include "cli/report/figures/svg.h"
@@ -23,48 +22,10 @@
 namespace errmap::fleet {
 namespace {
 
-using models::ComponentSummary;
 using models::GoalStanding;
 
 bool HasMap(const ComponentSummary& summary) {
   return summary.recommendation.has_value();
-}
-
-// What is counted over some of the components.
-struct Tally {
-  std::int64_t components = 0;
-  std::int64_t met = 0;
-  std::int64_t missed = 0;
-  std::int64_t failed = 0;
-  double log_ratio = 0.0;  // sum of ln(after / before)
-  std::int64_t ratios = 0;
-
-  void Add(const ComponentSummary& summary) {
-    ++components;
-    if (!HasMap(summary)) {
-      ++failed;
-      return;
-    }
-    const auto& found = *summary.recommendation;
-    met += found.goal == GoalStanding::kMet ? 1 : 0;
-    missed += found.goal == GoalStanding::kMissed ||
-                      found.goal == GoalStanding::kMetAfterRezeroing
-                  ? 1
-                  : 0;
-    if (found.rmse > 0.0 && found.uncompensated > 0.0) {
-      log_ratio += std::log(found.rmse / found.uncompensated);
-      ++ratios;
-    }
-  }
-  // Of the error without a map, what is left: geometric mean.
-  double Left() const {
-    return ratios == 0 ? models::kNotKnown
-                       : std::exp(log_ratio / static_cast<double>(ratios));
-  }
-};
-
-std::string Paragraph(const std::string& html, const char* style = "soft") {
-  return fmt::format("<p class=\"{}\">{}</p>\n", style, html);
 }
 
 std::string Collapsed(const std::string& title,
@@ -76,17 +37,13 @@ std::string Collapsed(const std::string& title,
                      content);
 }
 
-std::string FigureHtml(const report::Plot& plot,
-                       const std::string& title,
-                       const std::string& description,
-                       bool wide) {
+// A table that is wider than some screens; `rows` begin with the head.
+std::string ScrolledTable(const std::string& label, const std::string& rows) {
   return fmt::format(
-      "<figure{}><figcaption><b>{}</b></figcaption>{}<p class=\"soft "
-      "small\">{}</p></figure>\n",
-      wide ? " class=\"wide\"" : "",
-      report::HtmlText(title),
-      report::Svg(plot, title, description),
-      report::HtmlText(description));
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+      "aria-label=\"{}\"><table>{}</table></div>",
+      label,
+      rows);
 }
 
 class FleetPage {
@@ -105,18 +62,9 @@ class FleetPage {
   std::string Html() const {
     const std::string title = fmt::format(
         "Error maps of {}", report::Count(all_.components, "component"));
-    std::string html = fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-        "<meta name=\"viewport\" content=\"width=device-width, "
-        "initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" "
-        "content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
-        "data:\">\n<title>{}</title>\n<style>{}</style></head>\n<body>\n"
-        "<header><h1>{}</h1></header>\n<main>\n",
-        report::HtmlText(title),
-        report::kReportStyle,
-        report::HtmlText(title));
-    html += Answer() + All() + ByField(0) + ByField(1) + Worst() + Failures();
-    return html + Footer() + "</main>\n</body></html>\n";
+    return StorePage(title,
+                     Answer() + All() + ByField(0) + ByField(1) + Worst() +
+                         Failures() + Footer());
   }
 
  private:
@@ -162,13 +110,9 @@ class FleetPage {
       remember += summary.recommendation->longest_memory ? 1 : 0;
     }
     report::Table table;
-    table.columns = {{.name = "recommended", .is_number = false},
-                     {.name = "components"},
-                     {.name = "with a memory"}};
+    table.columns = {{"recommended", false}, {"components"}, {"with a memory"}};
     for (const auto& [choice, count] : counts) {
-      table.rows.push_back({report::Cell(std::string_view(choice)),
-                            report::Cell(count.first),
-                            report::Cell(count.second)});
+      table.rows.push_back({choice, count.first, count.second});
     }
     if (table.rows.empty()) table.missing = "no component has a map";
     return table;
@@ -214,12 +158,12 @@ class FleetPage {
     return FigureHtml(
         plot,
         "Errors before and after",
+        "Errors before and after",
         left_out == 0 ? "Share of the components whose error is at most this"
                       : fmt::format("Share of the components whose error is at "
                                     "most this; {} in another unit are left "
                                     "out",
-                                    left_out),
-        false);
+                                    left_out));
   }
 
   // Steps of (error, percent of the errors up to it), at most kMost.
@@ -275,9 +219,7 @@ class FleetPage {
     }
     return Collapsed(
         fmt::format("Error by {} and {}", FieldName(0), FieldName(1)),
-        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-        "aria-label=\"Errors\"><table>" +
-            html + "</table></div>",
+        ScrolledTable("Errors", html),
         rows.size() <= kMostShown);
   }
 
@@ -302,7 +244,7 @@ class FleetPage {
   }
 
   std::string ByField(std::size_t field) const {
-    std::map<std::string, Tally> tallies;
+    std::map<std::string, FleetTally> tallies;
     for (const ComponentSummary& summary : found_.summaries) {
       if (summary.fields.size() > field) {
         tallies[summary.fields[field].second].Add(summary);
@@ -310,20 +252,20 @@ class FleetPage {
     }
     if (tallies.empty()) return "";
     report::Table table;
-    table.columns = {{.name = FieldName(field), .is_number = false},
-                     {.name = "components"},
-                     {.name = "goal met"},
-                     {.name = "not met"},
-                     {.name = "failed"},
-                     {.name = "error left, %"}};
+    table.columns = {{FieldName(field), false},
+                     {"components"},
+                     {"goal met"},
+                     {"not met"},
+                     {"failed"},
+                     {"error left, %"}};
     for (const auto& [value, tally] : tallies) {
       table.rows.push_back(
-          {report::Cell(std::string_view(value)),
-           report::Cell(tally.components),
-           report::Cell(tally.met),
-           report::Cell(tally.missed),
-           report::Cell(tally.failed),
-           report::Cell(report::Number{report::kPercent * tally.Left(), 3})});
+          {value,
+           tally.components,
+           tally.met,
+           tally.missed,
+           tally.failed,
+           report::Number{report::kPercent * tally.Left(), 3}});
     }
     return Collapsed(fmt::format("By {}: {}", FieldName(field), tallies.size()),
                      report::HtmlTable(table));
@@ -344,9 +286,7 @@ class FleetPage {
     if (worst.size() > kMost) worst.resize(kMost);
     if (worst.empty()) return "";
     std::string html =
-        "<h2>The worst against their goals</h2>\n<div class=\"scroll\" "
-        "tabindex=\"0\" role=\"region\" aria-label=\"The "
-        "worst\"><table><tr><th "
+        "<tr><th "
         "class=\"t\">component</th><th>RMSE</th><th>goal</th><th>without a "
         "map</th><th class=\"t\">unit</th><th class=\"t\">recommended</th>"
         "</tr>\n";
@@ -365,7 +305,8 @@ class FleetPage {
           report::HtmlText(report::PrettyUnit(summary->display.unit)),
           report::HtmlName(found.model));
     }
-    return html + "</table></div>\n";
+    return "<h2>The worst against their goals</h2>\n" +
+           ScrolledTable("The worst", html) + "\n";
   }
 
   std::string Failures() const {
@@ -391,7 +332,7 @@ class FleetPage {
 
   // "unseen day", what the error is of.
   static std::string Unseen(const ComponentSummary& summary) {
-    for (const models::SummaryHoldoutRecord& holdout : summary.holdouts) {
+    for (const SummaryHoldoutRecord& holdout : summary.holdouts) {
       if (holdout.name == summary.recommendation->holdout) {
         return "unseen " + holdout.unit_of_analysis;
       }
@@ -433,14 +374,16 @@ class FleetPage {
     if (rows.empty()) return "";
     return Collapsed(
         "All components",
-        fmt::format(
-            "<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-            "aria-label=\"All components\"><table><tr><th "
-            "class=\"t\">component</th><th class=\"t\">use</th><th>error</th>"
-            "<th class=\"t\">of an</th><th>95 %</th>{}<th class=\"t\">goal</th>"
-            "<th class=\"t\">to hand it over</th></tr>\n{}</table></div>",
-            pictures ? "<th class=\"t\">left of the error</th>" : "",
-            rows),
+        ScrolledTable(
+            "All components",
+            fmt::format(
+                "<tr><th class=\"t\">component</th><th "
+                "class=\"t\">use</th><th>error</th>"
+                "<th class=\"t\">of an</th><th>95 %</th>{}<th "
+                "class=\"t\">goal</th>"
+                "<th class=\"t\">to hand it over</th></tr>\n{}",
+                pictures ? "<th class=\"t\">left of the error</th>" : "",
+                rows)),
         found_.summaries.size() <= kMostShown);
   }
 
@@ -458,23 +401,48 @@ class FleetPage {
   }
 
   std::string Footer() const {
-    return Paragraph(
-        fmt::format("errmap {}, study {}, seed {}. A component's own page: "
-                    "errmap report STORE --component NAME. Errors are RMSE "
-                    "on rows held out of the fit, error = actual - nominal.",
-                    report::HtmlText(found_.fleet.version),
-                    report::HtmlText(found_.fleet.file),
-                    found_.fleet.seed),
-        "soft small");
+    return fmt::format(
+        "<p class=\"soft small\">errmap {}, study {}, seed {}. A component's "
+        "own "
+        "page: errmap report STORE --component NAME. Errors are RMSE on rows "
+        "held out of the fit, error = actual - nominal.</p>\n",
+        report::HtmlText(found_.fleet.version),
+        report::HtmlText(found_.fleet.file),
+        found_.fleet.seed);
   }
 
   const StorePaths& paths_;
   const FleetSummaries& found_;
-  Tally all_;
+  FleetTally all_;
   std::string unit_;  // of most components
 };
 
 }  // namespace
+
+std::string StorePage(const std::string& title, const std::string& main) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+      "<meta name=\"viewport\" content=\"width=device-width, "
+      "initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" "
+      "content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
+      "data:\">\n<title>{0}</title>\n<style>{1}</style></head>\n<body>\n"
+      "<header><h1>{0}</h1></header>\n<main>\n{2}</main>\n</body></html>\n",
+      report::HtmlText(title),
+      report::kReportStyle,
+      main);
+}
+
+std::string FigureHtml(const report::Plot& plot,
+                       const std::string& caption,
+                       const std::string& title,
+                       const std::string& description) {
+  return fmt::format(
+      "<figure><figcaption><b>{}</b></figcaption>{}<p class=\"soft "
+      "small\">{}</p></figure>\n",
+      caption,
+      report::Svg(plot, title, description),
+      report::HtmlText(description));
+}
 
 std::string FleetReportHtml(const StorePaths& paths,
                             const FleetSummaries& found) {

@@ -1,10 +1,9 @@
-#include "cli/fleet/store/fleet_table.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "cli/fleet/store/merge.h"
 #include "cli/report/table.h"
 #include "data/text.h"
 #include "models/study/record/record_json.h"
@@ -13,12 +12,11 @@ namespace errmap::fleet {
 
 struct FleetResults {
   std::string schema;
-  std::vector<models::ComponentSummary> components;
+  std::vector<ComponentSummary> components;
 };
 
 namespace {
 
-using models::ComponentSummary;
 using models::ModelStatus;
 
 // How far from its goal, or from what there was without a map: the worst first.
@@ -32,58 +30,45 @@ double Badness(const ComponentSummary& summary) {
 }
 
 std::string Headline(const std::vector<ComponentSummary>& summaries) {
-  std::size_t failed = 0;
-  std::size_t met = 0;
-  std::size_t missed = 0;
-  std::size_t without = 0;
-  for (const ComponentSummary& summary : summaries) {
-    if (!summary.recommendation) {
-      ++failed;
-      continue;
-    }
-    const models::GoalStanding goal = summary.recommendation->goal;
-    met += goal == models::GoalStanding::kMet ? 1 : 0;
-    missed += goal == models::GoalStanding::kMissed ||
-                      goal == models::GoalStanding::kMetAfterRezeroing
-                  ? 1
-                  : 0;
-    without += goal == models::GoalStanding::kNone ? 1 : 0;
-  }
+  FleetTally all;
+  for (const ComponentSummary& summary : summaries) all.Add(summary);
   // Where none has a goal there is nothing to say of it.
   std::vector<std::string> parts;
-  if (met + missed > 0) {
-    parts.push_back(fmt::format("goal met by {}, not met by {}", met, missed));
-    if (without > 0) parts.push_back(fmt::format("no goal for {}", without));
+  if (all.met + all.missed > 0) {
+    parts.push_back(
+        fmt::format("goal met by {}, not met by {}", all.met, all.missed));
+    if (all.without_goal > 0) {
+      parts.push_back(fmt::format("no goal for {}", all.without_goal));
+    }
   }
-  if (failed > 0) parts.push_back(fmt::format("{} failed", failed));
-  return report::Count(std::ssize(summaries), "component") +
+  if (all.failed > 0) parts.push_back(fmt::format("{} failed", all.failed));
+  return report::Count(all.components, "component") +
          (parts.empty() ? "" : ": " + data::JoinWords(parts, ", ")) + ".\n";
 }
 
 // A row per component: what is recommended and how it does.
 report::Table FleetTable(const std::vector<ComponentSummary>& summaries) {
   report::Table table;
-  table.columns = {{.name = "component", .is_number = false},
-                   {.name = "status", .is_number = false},
-                   {.name = "recommended", .is_number = false},
-                   {.name = "hold-out", .is_number = false},
-                   {.name = "before"},
-                   {.name = "rmse"},
-                   {.name = "unit", .is_number = false},
-                   {.name = "goal", .is_number = false}};
+  table.columns = {{"component", false},
+                   {"status", false},
+                   {"recommended", false},
+                   {"hold-out", false},
+                   {"before"},
+                   {"rmse"},
+                   {"unit", false},
+                   {"goal", false}};
   for (const ComponentSummary& summary : summaries) {
-    std::vector<report::Cell> row{report::Cell(std::string_view(summary.name)),
-                                  report::Cell(ToString(summary.status))};
+    std::vector<report::Cell> row{summary.name, ToString(summary.status)};
     if (summary.recommendation) {
       const auto& found = *summary.recommendation;
       const double scale = summary.display.scale;
       row.insert(row.end(),
-                 {report::Cell(std::string_view(found.model)),
-                  report::Cell(std::string_view(found.holdout)),
-                  report::Cell(report::Number{found.uncompensated, 4, scale}),
-                  report::Cell(report::Number{found.rmse, 4, scale}),
-                  report::Cell(std::string_view(summary.display.unit)),
-                  report::Cell(ToString(found.goal))});
+                 {found.model,
+                  found.holdout,
+                  report::Number{found.uncompensated, 4, scale},
+                  report::Number{found.rmse, 4, scale},
+                  summary.display.unit,
+                  ToString(found.goal)});
     }
     row.resize(table.columns.size());
     table.rows.push_back(std::move(row));
@@ -92,6 +77,31 @@ report::Table FleetTable(const std::vector<ComponentSummary>& summaries) {
 }
 
 }  // namespace
+
+void FleetTally::Add(const ComponentSummary& summary) {
+  using models::GoalStanding;
+  ++components;
+  if (!summary.recommendation) {
+    ++failed;
+    return;
+  }
+  const auto& found = *summary.recommendation;
+  met += found.goal == GoalStanding::kMet ? 1 : 0;
+  missed += found.goal == GoalStanding::kMissed ||
+                    found.goal == GoalStanding::kMetAfterRezeroing
+                ? 1
+                : 0;
+  without_goal += found.goal == GoalStanding::kNone ? 1 : 0;
+  if (found.rmse > 0.0 && found.uncompensated > 0.0) {
+    log_ratio += std::log(found.rmse / found.uncompensated);
+    ++ratios;
+  }
+}
+
+double FleetTally::Left() const {
+  return ratios == 0 ? models::kNotKnown
+                     : std::exp(log_ratio / static_cast<double>(ratios));
+}
 
 std::string FormattedFleet(const std::vector<ComponentSummary>& summaries,
                            const std::string& format,

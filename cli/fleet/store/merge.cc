@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/fleet/store/fleet_report.h"
 #include "cli/fleet/store/store.h"
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
@@ -35,10 +34,10 @@ FleetSummaries ReadSummaries(const StorePaths& paths) {
     const std::string path = paths.InFolder(component.name, kSummaryFile);
     std::error_code ignored;
     if (std::filesystem::is_regular_file(path, ignored)) {
-      models::ComponentSummary summary;
+      ComponentSummary summary;
       try {
-        summary = models::SummaryFromJsonText(
-            data::ReadFile(path, data::kMostTextOfPeople));
+        summary =
+            SummaryFromJsonText(data::ReadFile(path, data::kMostTextOfPeople));
       } catch (const data::InputError& error) {
         throw data::InputError(data::PrintablePath(path) + ": " + error.what());
       }

@@ -16,7 +16,6 @@
 #include <fmt/format.h>
 #include <sys/file.h>
 
-#include "cli/fleet/store/store_schema.h"
 #include "data/files/link.h"
 #include "data/input_error.h"
 #include "data/text.h"
@@ -28,11 +27,6 @@ namespace fs = std::filesystem;
 
 // "errm": tells a store from any other SQLite file.
 constexpr std::int64_t kApplication = 0x6572726d;
-
-template <typename T>
-std::optional<T> Optional(const models::LeftOut<T>& value) {
-  return value;
-}
 
 // What the store says of itself; throws where it is not ours to touch.
 std::int64_t VersionOf(Database* database, const std::string& path) {
@@ -100,8 +94,7 @@ class Copy {
   std::string path_;
 };
 
-double WithinOf(const models::SummaryRecommendationRecord& found,
-                double coverage) {
+double WithinOf(const SummaryRecommendationRecord& found, double coverage) {
   for (const models::PromiseLevelRecord& level : found.promise) {
     if (std::abs(level.coverage - coverage) < 1e-9) return level.half_width;
   }
@@ -111,7 +104,8 @@ double WithinOf(const models::SummaryRecommendationRecord& found,
 class SummaryWriter {
  public:
   SummaryWriter(Database* store, const StorePaths& paths)
-      : paths_(paths),
+      : store_(*store),
+        paths_(paths),
         component_(store->Prepare(
             "INSERT INTO components VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?) "
             "ON CONFLICT (name) DO UPDATE SET study = excluded.study, "
@@ -121,31 +115,20 @@ class SummaryWriter {
             "sessions = excluded.sessions, target = excluded.target, "
             "unit = excluded.unit, shown_unit = excluded.shown_unit, "
             "shown_scale = excluded.shown_scale, goal = excluded.goal, "
-            "fits_seconds = excluded.fits_seconds")),
-        field_(store->Prepare("INSERT INTO fields VALUES (?,?,?)")),
-        holdout_(store->Prepare("INSERT INTO holdouts VALUES (?,?,?,?,?)")),
-        model_(store->Prepare("INSERT INTO models VALUES (?,?,?,?,?,?,?,?)")),
-        metrics_(store->Prepare(
-            "INSERT INTO metrics VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
-        verdict_(store->Prepare("INSERT INTO verdicts VALUES (?,?,?,?,?,?)")),
-        recommendation_(store->Prepare("INSERT INTO recommendations VALUES "
-                                       "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
-        sensor_(store->Prepare("INSERT OR IGNORE INTO sensors VALUES (?,?)")),
-        map_(store->Prepare("INSERT INTO maps VALUES (?,?,?)")) {}
+            "fits_seconds = excluded.fits_seconds")) {}
 
   void Write(const std::string& study,
              const FleetComponentRecord& component,
-             const models::ComponentSummary* summary) {
+             const ComponentSummary* summary) {
     const std::string& name = component.name;
-    const models::ComponentSummary nothing;
-    const models::ComponentSummary& found =
-        summary == nullptr ? nothing : *summary;
+    const ComponentSummary nothing;
+    const ComponentSummary& found = summary == nullptr ? nothing : *summary;
     component_
         .With(name,
               study,
               summary == nullptr ? std::string_view("missing")
                                  : ToString(found.status),
-              Optional(found.why),
+              found.why,
               paths_.FolderOf(name),
               component.data,
               found.sha256,
@@ -159,103 +142,110 @@ class SummaryWriter {
               found.fits_seconds)
         .Run();
     for (const auto& [field, value] : found.fields) {
-      field_.With(name, field, value).Run();
+      Insert("INTO fields", name, field, value);
     }
-    for (const models::SummaryHoldoutRecord& holdout : found.holdouts) {
-      holdout_
-          .With(name,
-                holdout.name,
-                holdout.folds,
-                holdout.unit_of_analysis,
-                holdout.units)
-          .Run();
+    for (const SummaryHoldoutRecord& holdout : found.holdouts) {
+      Insert("INTO holdouts",
+             name,
+             holdout.name,
+             holdout.folds,
+             holdout.unit_of_analysis,
+             holdout.units);
     }
-    for (const models::SummaryModelRecord& model : found.models) {
+    for (const SummaryModelRecord& model : found.models) {
       WriteModel(name, model);
     }
-    for (const models::SummaryVerdictRecord& verdict : found.verdicts) {
-      verdict_
-          .With(name,
-                verdict.holdout,
-                ToString(verdict.choice),
-                verdict.model,
-                verdict.established,
-                ToString(verdict.confidence))
-          .Run();
+    for (const SummaryVerdictRecord& verdict : found.verdicts) {
+      Insert("INTO verdicts",
+             name,
+             verdict.holdout,
+             ToString(verdict.choice),
+             verdict.model,
+             verdict.established,
+             ToString(verdict.confidence));
     }
     if (found.recommendation) WriteRecommendation(name, *found.recommendation);
-    if (found.map) map_.With(name, found.map->sha256, found.map->bytes).Run();
+    if (found.map) {
+      Insert("INTO maps", name, found.map->sha256, found.map->bytes);
+    }
   }
 
  private:
-  void WriteModel(const std::string& name,
-                  const models::SummaryModelRecord& model) {
-    model_
-        .With(name,
-              model.name,
-              ToString(model.kind),
-              ToString(model.choice),
-              ToString(model.status),
-              Optional(model.why),
-              Optional(model.parameters),
-              model.fit_seconds)
-        .Run();
-    for (const models::SummaryMetricsRecord& found : model.results) {
-      metrics_
-          .With(name,
-                model.name,
-                found.holdout,
-                found.n,
-                found.rmse,
-                found.sd,
-                found.mean,
-                found.mae,
-                found.range,
-                found.train_rmse,
-                found.ci95[0],
-                found.ci95[1],
-                found.tier,
-                ToString(found.goal))
-          .Run();
+  // A value for each column; `table` may begin with what to do in a conflict.
+  template <typename... T>
+  void Insert(const std::string& table, const T&... values) {
+    auto statement = inserts_.find(table);
+    if (statement == inserts_.end()) {
+      const std::vector<const char*> marks(sizeof...(values), "?");
+      statement =
+          inserts_
+              .emplace(
+                  table,
+                  store_.Prepare(fmt::format(
+                      "INSERT {} VALUES ({})", table, fmt::join(marks, ","))))
+              .first;
+    }
+    statement->second.With(values...).Run();
+  }
+
+  void WriteModel(const std::string& name, const SummaryModelRecord& model) {
+    Insert("INTO models",
+           name,
+           model.name,
+           ToString(model.kind),
+           ToString(model.choice),
+           ToString(model.status),
+           model.why,
+           model.parameters,
+           model.fit_seconds);
+    for (const SummaryMetricsRecord& found : model.results) {
+      Insert("INTO metrics",
+             name,
+             model.name,
+             found.holdout,
+             found.n,
+             found.rmse,
+             found.sd,
+             found.mean,
+             found.mae,
+             found.range,
+             found.train_rmse,
+             found.ci95[0],
+             found.ci95[1],
+             found.tier,
+             ToString(found.goal));
     }
   }
 
   void WriteRecommendation(const std::string& name,
-                           const models::SummaryRecommendationRecord& found) {
-    recommendation_
-        .With(name,
-              ToString(found.choice),
-              found.model,
-              found.holdout,
-              found.rmse,
-              found.ci95[0],
-              found.ci95[1],
-              found.uncompensated,
-              found.constant,
-              ToString(found.goal),
-              found.established,
-              Optional(found.longest_memory),
-              Optional(found.zeroed),
-              WithinOf(found, 0.9),
-              WithinOf(found, 0.95),
-              found.extrapolated_share,
-              found.sentence)
-        .Run();
+                           const SummaryRecommendationRecord& found) {
+    Insert("INTO recommendations",
+           name,
+           ToString(found.choice),
+           found.model,
+           found.holdout,
+           found.rmse,
+           found.ci95[0],
+           found.ci95[1],
+           found.uncompensated,
+           found.constant,
+           ToString(found.goal),
+           found.established,
+           found.longest_memory,
+           found.zeroed,
+           WithinOf(found, 0.9),
+           WithinOf(found, 0.95),
+           found.extrapolated_share,
+           found.sentence);
     for (const std::string& sensor : found.sensors) {
-      sensor_.With(name, sensor).Run();
+      Insert("OR IGNORE INTO sensors", name, sensor);
     }
   }
 
+  Database& store_;
   const StorePaths& paths_;
   Statement component_;
-  Statement field_;
-  Statement holdout_;
-  Statement model_;
-  Statement metrics_;
-  Statement verdict_;
-  Statement recommendation_;
-  Statement sensor_;
-  Statement map_;
+  std::map<std::string, Statement> inserts_;
 };
 
 }  // namespace
@@ -352,22 +342,20 @@ Database OpenStore(const StorePaths& paths, const StoreLock& lock) {
 void WriteSummaries(Database* store,
                     const StorePaths& paths,
                     const FleetRecord& fleet,
-                    const std::vector<models::ComponentSummary>& summaries) {
-  std::map<std::string_view, const models::ComponentSummary*> by_name;
-  for (const models::ComponentSummary& summary : summaries) {
+                    const std::vector<ComponentSummary>& summaries) {
+  std::map<std::string_view, const ComponentSummary*> by_name;
+  for (const ComponentSummary& summary : summaries) {
     by_name[summary.name] = &summary;
   }
   for (const char* table :
        {"fields", "models", "holdouts", "recommendations", "sensors", "maps"}) {
     store->Execute(std::string("DELETE FROM ") + table);
   }
-  store->Prepare("INSERT OR IGNORE INTO runs VALUES (?, '', '', 0, '', 0, 0)")
-      .With(fleet.sha256)
-      .Run();
   store
       ->Prepare(
-          "UPDATE runs SET file = ?2, version = ?3, seed = ?4, "
-          "command_line = ?5, components = ?6, missing = ?7 WHERE study = ?1")
+          "INSERT INTO runs VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7) ON CONFLICT "
+          "(study) DO UPDATE SET file = ?2, version = ?3, seed = ?4, "
+          "command_line = ?5, components = ?6, missing = ?7")
       .With(fleet.sha256,
             fleet.file,
             fleet.version,

@@ -4,10 +4,10 @@
 #include <functional>
 #include <vector>
 
+#include "cli/fleet/store/component_summary.h"
 #include "cli/fleet/store/store_folder.h"
 #include "data/files/file_descriptor.h"
 #include "data/files/sqlite.h"
-#include "models/fleet/component_summary.h"
 
 namespace errmap::fleet {
 
@@ -19,6 +19,9 @@ using data::Statement;
 /// Version of the tables in errmap.sqlite that this program writes; an older
 /// store is brought up to it by the next command that writes.
 inline constexpr std::int64_t kStoreVersion = 3;
+/// SQL that brings a store from each version to the next, from 0: nothing.
+/// Lengths are in the data file's own unit, times in seconds.
+extern const char* const kStoreMigrations[];
 
 /// The store's lock, held while it lives: merge, deploy and watch write one
 /// after another. Throws std::runtime_error where another has it for too long.
@@ -50,6 +53,6 @@ Database OpenStore(const StorePaths& paths, const StoreLock& lock);
 void WriteSummaries(Database* store,
                     const StorePaths& paths,
                     const FleetRecord& fleet,
-                    const std::vector<models::ComponentSummary>& summaries);
+                    const std::vector<ComponentSummary>& summaries);
 
 }  // namespace errmap::fleet

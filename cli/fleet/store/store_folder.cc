@@ -1,14 +1,13 @@
 #include "cli/fleet/store/store_folder.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include <fmt/format.h>
 
+#include "cli/desk/plan/component_names.h"
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
-#include "data/sha256.h"
 #include "data/tables/gzip.h"
 #include "data/text.h"
 #include "models/study/record/record_json.h"
@@ -40,77 +39,27 @@ std::vector<std::int64_t> RowsOf(const models::HoldoutRecord& holdout) {
     }
   }
   std::ranges::sort(rows);
-  const auto repeated = std::ranges::unique(rows);
-  rows.erase(repeated.begin(), repeated.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   return rows;
-}
-
-// What is safe of a name as one of a file.
-std::string SafeName(const std::string& name) {
-  constexpr std::size_t kMostLength = 100;
-  std::string safe;
-  for (const char c : name.substr(0, kMostLength)) {
-    const bool is_safe = std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-                         c == '.' || c == '=' || c == '+' || c == '-' ||
-                         c == '_';
-    safe += is_safe ? c : '_';
-  }
-  if (safe.starts_with('.')) safe.front() = '_';
-  return safe;
-}
-
-bool IsPlainName(const std::string& name) {
-  return !name.empty() && SafeName(name) == name;
-}
-
-std::string WithHash(const std::string& safe, const std::string& name) {
-  constexpr std::size_t kHashDigits = 12;
-  return safe + "-" + data::Sha256(name).substr(0, kHashDigits);
 }
 
 }  // namespace
 
-std::string StorePaths::Fleet() const {
-  return (fs::path(store) / "fleet.json").string();
-}
-std::string StorePaths::Database() const {
-  return (fs::path(store) / "errmap.sqlite").string();
-}
-std::string StorePaths::Lock() const {
-  return (fs::path(store) / "errmap.lock").string();
-}
-std::string StorePaths::Report() const {
-  return (fs::path(store) / "report.html").string();
-}
-std::string StorePaths::Watch() const {
-  return (fs::path(store) / "watch.html").string();
-}
-std::string StorePaths::Map(const std::string& sha256) const {
-  return (fs::path(store) / "maps" / (sha256 + ".json")).string();
-}
-
-std::string StorePaths::FlatFolderOf(const std::string& component) {
-  return "components/" + (IsPlainName(component)
-                              ? component
-                              : WithHash(SafeName(component), component));
+std::string StorePaths::In(const std::string& name) const {
+  return (fs::path(store) / name).string();
 }
 
 std::string StorePaths::FolderOf(const std::string& component) const {
-  const std::string flat = FlatFolderOf(component);
+  std::string flat = "components/" + desk::PlainOrHashedName(component);
   const std::size_t slash = component.find('/');
   const std::string machine = component.substr(0, slash);
   std::error_code ignored;
-  if (slash == component.npos || !IsPlainName(machine) ||
+  if (slash == component.npos || desk::PlainOrHashedName(machine) != machine ||
       fs::exists(fs::path(store) / flat, ignored)) {
     return flat;
   }
   return "components/" + machine + "/" +
-         WithHash(SafeName(component.substr(slash + 1)), component);
-}
-
-std::string StorePaths::InFolder(const std::string& component,
-                                 const char* file) const {
-  return (fs::path(store) / FolderOf(component) / file).string();
+         desk::HashedName(component.substr(slash + 1), component);
 }
 
 bool IsStore(const std::string& folder) {
@@ -170,14 +119,13 @@ std::string WhyNoMap(const std::string& component, const std::string& why) {
                      why);
 }
 
-std::optional<models::ComponentSummary> FindSummary(
-    const StorePaths& paths, const std::string& component) {
+std::optional<ComponentSummary> FindSummary(const StorePaths& paths,
+                                            const std::string& component) {
   const std::string path = paths.InFolder(component, kSummaryFile);
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored)) return std::nullopt;
   try {
-    return models::SummaryFromJsonText(
-        data::ReadFile(path, data::kMostTextOfPeople));
+    return SummaryFromJsonText(data::ReadFile(path, data::kMostTextOfPeople));
   } catch (const data::InputError&) {
     return std::nullopt;  // torn by somebody else
   }
@@ -192,7 +140,7 @@ models::StudyRecord ReadResultsOf(const StorePaths& paths,
   const std::string path = paths.InFolder(component, kResultsFile);
   const std::string compressed = data::ReadFile(path);
   try {
-    models::StudyRecord record = models::FromJsonText(
+    models::StudyRecord record = models::FromStoredJsonText(
         data::Gunzip(compressed, data::kMostTextOfPrograms));
     for (models::ComponentRecord& of : record.components) {
       for (models::HoldoutRecord& holdout : of.holdouts) {

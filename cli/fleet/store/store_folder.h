@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "models/fleet/component_summary.h"
+#include "cli/fleet/store/component_summary.h"
 #include "models/study/record/record.h"
 
 namespace errmap::fleet {
@@ -25,21 +25,25 @@ namespace errmap::fleet {
 struct StorePaths {
   std::string store;
 
-  std::string Fleet() const;
-  std::string Database() const;
-  std::string Lock() const;
-  std::string Report() const;
-  std::string Watch() const;
+  std::string Fleet() const { return In("fleet.json"); }
+  std::string Database() const { return In("errmap.sqlite"); }
+  std::string Lock() const { return In("errmap.lock"); }
+  std::string Report() const { return In("report.html"); }
+  std::string Watch() const { return In("watch.html"); }
   /// Of maps that were deployed.
-  std::string Map(const std::string& sha256) const;
+  std::string Map(const std::string& sha256) const {
+    return In("maps/" + sha256 + ".json");
+  }
   /// The component's folder below the store: its name where that is a plain
   /// file name, else what is safe of it and a hash; of a name with a slash in
   /// the folder of what stands before, such as a machine, but for stores that
   /// have it beside the others already.
   std::string FolderOf(const std::string& component) const;
-  /// Beside the others, whatever the name.
-  static std::string FlatFolderOf(const std::string& component);
-  std::string InFolder(const std::string& component, const char* file) const;
+  std::string InFolder(const std::string& component, const char* file) const {
+    return In(FolderOf(component) + "/" + file);
+  }
+  /// Of a name below the store.
+  std::string In(const std::string& name) const;
 };
 
 inline constexpr const char* kSummaryFile = "summary.json";
@@ -75,8 +79,8 @@ void WriteFleet(const StorePaths& paths, const FleetRecord& fleet);
 
 /// What was written of a component last; nothing where it was not studied yet,
 /// or what is there cannot be read.
-std::optional<models::ComponentSummary> FindSummary(
-    const StorePaths& paths, const std::string& component);
+std::optional<ComponentSummary> FindSummary(const StorePaths& paths,
+                                            const std::string& component);
 
 /// Of a component that failed in the study.
 std::string WhyNoMap(const std::string& component, const std::string& why);

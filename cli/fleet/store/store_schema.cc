@@ -1,4 +1,4 @@
-#include "cli/fleet/store/store_schema.h"
+#include "cli/fleet/store/store.h"
 
 namespace errmap::fleet {
 

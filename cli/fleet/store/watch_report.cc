@@ -1,14 +1,13 @@
 #include "cli/fleet/store/watch_report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
 #include <fmt/format.h>
 
-#include "cli/fleet/store/store_folder.h"
-#include "cli/report/documents/report_style.h"
-#include "cli/report/figures/svg.h"
+#include "cli/fleet/store/merge.h"
 #include "cli/report/html.h"
 #include "cli/report/plot.h"
 #include "cli/report/shell_word.h"
@@ -62,12 +61,8 @@ std::string Figure(const WatchedComponent& component, std::size_t number) {
       fmt::format("RMSE of each session checked since {}; the newest: {}",
                   component.deployment.since,
                   ToString(component.status));
-  return fmt::format(
-      "<figure><figcaption><b>{}</b></figcaption>{}<p class=\"soft "
-      "small\">{}</p></figure>\n",
-      report::HtmlName(component.deployment.component),
-      report::Svg(plot, component.deployment.component, description),
-      report::HtmlText(description));
+  const std::string& name = component.deployment.component;
+  return FigureHtml(plot, report::HtmlName(name), name, description);
 }
 
 }  // namespace
@@ -135,35 +130,32 @@ std::string WatchHeadline(const std::vector<WatchedComponent>& components) {
 report::Table WatchTable(const std::vector<WatchedComponent>& components,
                          bool brief) {
   report::Table table;
-  table.columns = {{.name = "component", .is_number = false},
-                   {.name = "status", .is_number = false},
-                   {.name = "found"},
-                   {.name = "promised"},
-                   {.name = "unit", .is_number = false},
-                   {.name = "p"},
-                   {.name = "sensor", .is_number = false},
-                   {.name = "p sensor"},
-                   {.name = "shift"},
-                   {.name = "sessions"}};
+  table.columns = {{"component", false},
+                   {"status", false},
+                   {"found"},
+                   {"promised"},
+                   {"unit", false},
+                   {"p"},
+                   {"sensor", false},
+                   {"p sensor"},
+                   {"shift"},
+                   {"sessions"}};
   if (brief) table.columns.resize(table.columns.size() - 2);
   for (const WatchedComponent& component : components) {
-    std::vector<report::Cell> row{
-        report::Cell(std::string_view(component.deployment.component)),
-        report::Cell(ToString(component.status))};
+    std::vector<report::Cell> row{component.deployment.component,
+                                  ToString(component.status)};
     if (component.examined) {
       const double scale = component.deployment.shown_scale;
       const models::WatchedSession& newest = component.checks.back().session;
-      row.insert(
-          row.end(),
-          {report::Cell(report::Number{component.found, 3, scale}),
-           report::Cell(
-               report::Number{component.deployment.promised, 3, scale}),
-           report::Cell(std::string_view(component.deployment.shown_unit)),
-           report::Cell(report::P{component.p_map}),
-           report::Cell(std::string_view(newest.sensor)),
-           report::Cell(report::P{newest.p_sensor}),
-           report::Cell(report::Number{newest.sensor_shift, 3}),
-           report::Cell(std::ssize(component.checks))});
+      row.insert(row.end(),
+                 {report::Number{component.found, 3, scale},
+                  report::Number{component.deployment.promised, 3, scale},
+                  component.deployment.shown_unit,
+                  report::P{component.p_map},
+                  newest.sensor,
+                  report::P{newest.p_sensor},
+                  report::Number{newest.sensor_shift, 3},
+                  std::ssize(component.checks)});
     }
     row.resize(table.columns.size());
     table.rows.push_back(std::move(row));
@@ -176,46 +168,38 @@ report::Table WatchTable(const std::vector<WatchedComponent>& components,
 
 namespace {
 
-// What was found first, the worst before the others.
-int Rank(const WatchedComponent& component) {
-  switch (component.status) {
-    case WatchStatus::kWorse:
-      return 0;
-    case WatchStatus::kSensorChanged:
-      return 1;
-    case WatchStatus::kDoubtful:
-      return 2;
-    case WatchStatus::kOutside:
-      return 3;
-    default:
-      return 4;
-  }
+// Its place on the page, the worst first; what nothing was found of last.
+std::ptrdiff_t Rank(const WatchedComponent& component) {
+  static constexpr std::array kFirst = {WatchStatus::kWorse,
+                                        WatchStatus::kSensorChanged,
+                                        WatchStatus::kDoubtful,
+                                        WatchStatus::kOutside};
+  return std::ranges::find(kFirst, component.status) - kFirst.begin();
 }
 
 // A row for each of whom something is to be done.
 report::Table ToDo(const std::string& store,
                    const std::vector<WatchedComponent>& sorted) {
   report::Table table;
-  table.columns = {{.name = "component", .is_number = false},
-                   {.name = "verdict", .is_number = false},
-                   {.name = "map", .is_number = false},
-                   {.name = "found"},
-                   {.name = "promised"},
-                   {.name = "unit", .is_number = false},
-                   {.name = "what to do", .is_number = false}};
+  table.columns = {{"component", false},
+                   {"verdict", false},
+                   {"map", false},
+                   {"found"},
+                   {"promised"},
+                   {"unit", false},
+                   {"what to do", false}};
   for (const WatchedComponent& component : sorted) {
     const std::string proposal = component.Proposal(store);
     if (proposal.empty()) continue;
     const Deployment& deployment = component.deployment;
     const double scale = deployment.shown_scale;
-    table.rows.push_back(
-        {report::Cell(std::string_view(deployment.component)),
-         report::Cell(ToString(component.status)),
-         report::Cell(std::string_view(deployment.model)),
-         report::Cell(report::Number{component.found, 3, scale}),
-         report::Cell(report::Number{deployment.promised, 3, scale}),
-         report::Cell(std::string_view(deployment.shown_unit)),
-         report::Cell(std::string_view(proposal))});
+    table.rows.push_back({deployment.component,
+                          ToString(component.status),
+                          deployment.model,
+                          report::Number{component.found, 3, scale},
+                          report::Number{deployment.promised, 3, scale},
+                          deployment.shown_unit,
+                          proposal});
   }
   if (table.rows.empty()) table.missing = "nothing is to be done";
   return table;
@@ -237,28 +221,22 @@ std::string WatchHtml(const std::string& store,
   }
   const std::string title = fmt::format(
       "Maps watched: {}", report::Count(std::ssize(components), "component"));
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta name=\"viewport\" content=\"width=device-width, "
-      "initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" "
-      "content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
-      "data:\">\n<title>{0}</title>\n<style>{1}</style></head>\n<body>\n"
-      "<header><h1>{0}</h1></header>\n<main>\n<div class=\"card\"><p "
-      "class=\"sentence\">{2}.</p></div>\n{3}<div "
-      "class=\"figures\">{4}</div>\n<details><summary>All "
-      "components</summary>\n{5}</details>\n<p class=\"soft small\">p by t "
-      "statistics of sessions against what those held out when the map was "
-      "made show of rows at such times and places; worse or changed is a "
-      "component whose own p is below {6:g}, and worse one that errs {7:g} % "
-      "more than promised.</p>\n</main>\n</body></html>\n",
-      report::HtmlText(title),
-      report::kReportStyle,
-      report::HtmlText(WatchHeadline(components)),
-      report::HtmlTable(ToDo(store, sorted)),
-      figures,
-      report::HtmlTable(WatchTable(sorted)),
-      models::kSurelyChanged,
-      100.0 * models::kLeastWorse);
+  return StorePage(
+      title,
+      fmt::format(
+          "<div class=\"card\"><p class=\"sentence\">{}.</p></div>\n{}<div "
+          "class=\"figures\">{}</div>\n<details><summary>All "
+          "components</summary>\n{}</details>\n<p class=\"soft small\">p by t "
+          "statistics of sessions against what those held out when the map was "
+          "made show of rows at such times and places; worse or changed is a "
+          "component whose own p is below {:g}, and worse one that errs {:g} % "
+          "more than promised.</p>\n",
+          report::HtmlText(WatchHeadline(components)),
+          report::HtmlTable(ToDo(store, sorted)),
+          figures,
+          report::HtmlTable(WatchTable(sorted)),
+          models::kSurelyChanged,
+          100.0 * models::kLeastWorse));
 }
 
 }  // namespace errmap::fleet

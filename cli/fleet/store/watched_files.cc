@@ -1,5 +1,3 @@
-#include "cli/fleet/store/watched_files.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -8,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/fleet/store/watched_maps.h"
 #include "data/input_error.h"
 #include "data/text.h"
 

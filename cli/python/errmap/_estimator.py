@@ -205,7 +205,7 @@ class Map(RegressorMixin, BaseEstimator):
                 break
             seconds += cost / jobs
             kept.append(model)
-        slow = seconds >= 2
+        slow = seconds >= 1
         if slow:
             print(f"errmap: compares {len(kept)} models, about {seconds:.0f} s; "
                   f"budget=SECONDS leaves out the slowest", file=sys.stderr)

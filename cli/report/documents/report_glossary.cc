@@ -7,7 +7,7 @@
 namespace errmap::report {
 namespace {
 
-// For who meets the words first; the page stands alone.
+// For first-time readers; the page must explain itself.
 struct Explained {
   const char* id;
   const char* word;

@@ -4,8 +4,8 @@
 
 namespace errmap::report {
 
-/// Links of a page's first screen to what its words mean, and the place in the
-/// same page where that stands, as HTML.
+/// HTML links from a page's first screen to the meaning of its words, and the
+/// section of the page that explains them.
 std::string GlossaryLinks();
 std::string Glossary();
 

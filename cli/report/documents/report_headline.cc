@@ -8,19 +8,6 @@ const char* const kSignConvention =
     "Error = actual - nominal: compensate by minus the predicted error. "
     "Residual = measured - predicted error.";
 
-namespace {
-
-std::vector<std::string> TextsOf(
-    const std::vector<models::RemarkRecord>& remarks) {
-  std::vector<std::string> texts;
-  for (const models::RemarkRecord& remark : remarks) {
-    if (!remark.text.empty()) texts.push_back(remark.text);
-  }
-  return texts;
-}
-
-}  // namespace
-
 Headline HeadlineOf(const ReportView& view) {
   Headline line;
   line.answer = FirstAnswerOf(*view.component);
@@ -30,8 +17,11 @@ Headline HeadlineOf(const ReportView& view) {
     line.error = ErrorTextOf(view).WithUnit(advice.rmse);
   }
   line.goal_standing = advice.goal_standing;
-  line.reasons = TextsOf(advice.grounds);
-  line.caveats = TextsOf(advice.doubts);
+  for (const Remark& remark : RemarksOf(ComponentNumbers(*view.component))) {
+    if (remark.place == Remark::Place::kAnswer) continue;
+    (remark.is_caveat ? line.caveats : line.reasons)
+        .push_back(SentenceOf(remark));
+  }
   return line;
 }
 

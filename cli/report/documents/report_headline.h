@@ -8,11 +8,12 @@
 
 namespace errmap::report {
 
-/// What the first screen says of a component, as plain text.
+/// The first screen of a component, as plain text.
 struct Headline {
   FirstAnswer answer;
-  std::string error;  // "0.938 µm", "" where there is none
+  std::string error;  // "0.938 µm", "" if there is none
   models::GoalStanding goal_standing = models::GoalStanding::kNone;
+  // Further details, for which the answer has no room.
   std::vector<std::string> reasons;
   std::vector<std::string> caveats;
 };

@@ -12,7 +12,7 @@
 #include "cli/report/number_text.h"
 #include "cli/report/shell_word.h"
 #include "cli/report/tables/fit_tables.h"
-#include "cli/report/tables/machine_tables.h"
+#include "cli/report/tables/regression_tables.h"
 #include "cli/report/tables/report_tables.h"
 #include "cli/report/tables/result_table.h"
 #include "cli/report/words/answers/data_words.h"
@@ -174,7 +174,7 @@ class Page {
                    const ComponentFigures& figures) const;
   std::string Polynomials(const ReportView& view, bool brief) const;
   std::string Data(const ReportView& view) const;
-  std::string Machine() const;
+  std::string Parts() const;
 };
 
 std::string Page::Title() const {
@@ -247,6 +247,11 @@ std::string Page::Index(const std::vector<ReportView>& views) const {
              : std::string(models::ToString(line.goal_standing)));
     html += "</tr>\n";
   }
+  std::string links;
+  for (const RecordPart& part : figures_.parts) {
+    links += fmt::format(
+        "<p><a href=\"#{}\">{}</a></p>", part.id, HtmlText(part.link));
+  }
   return html +
          "</tbody></table></div><p class=\"soft small\">Left of the error: the "
          "dot between 0 and the error without a map, its bar the 95 % "
@@ -258,11 +263,7 @@ std::string Page::Index(const std::vector<ReportView>& views) const {
                 "report DIR --component NAME</code> draws the "
                 "whole page of one."
               : "") +
-         "</p>" +
-         (record_.machine ? "<p><a href=\"#machine\">The machine: the error at "
-                            "the tool</a></p>"
-                          : "") +
-         "</nav>\n";
+         "</p>" + links + "</nav>\n";
 }
 
 std::string Page::Next(std::size_t index) const {
@@ -295,10 +296,10 @@ std::string Page::Card(const ReportView& view) const {
     html += "<p class=\"number\">" + HtmlText(line.error) + "</p>\n";
   }
   std::string rows;
-  for (const AnswerLine& row : line.answer.lines) {
-    const char* tone = row.tone == AnswerLine::Tone::kGood  ? " class=\"good\""
-                       : row.tone == AnswerLine::Tone::kBad ? " class=\"bad\""
-                                                            : "";
+  for (const Remark& row : line.answer.lines) {
+    const char* tone = row.tone == Remark::Tone::kGood  ? " class=\"good\""
+                       : row.tone == Remark::Tone::kBad ? " class=\"bad\""
+                                                        : "";
     rows += fmt::format("<dt>{}</dt><dd{}>{}</dd>",
                         HtmlText(row.label),
                         tone,
@@ -496,17 +497,20 @@ std::string Page::Component(const ReportView& view, std::size_t index) const {
 }
 
 // What it comes to first, then where and why.
-std::string Page::Machine() const {
-  if (!record_.machine) return "";
-  std::string figures;
-  for (const Figure& figure : figures_.machine) figures += FigureHtml(figure);
-  std::string html = "<section id=\"machine\">\n<h2>The machine</h2>\n";
-  const std::vector<Table> tables = MachineTables(*record_.machine);
-  for (std::size_t i = 0; i < tables.size(); ++i) {
-    html += HtmlTable(tables[i]);
-    if (i == 0) html += Grid(figures, "figures halves");
+std::string Page::Parts() const {
+  std::string html;
+  for (const RecordPart& part : figures_.parts) {
+    std::string figures;
+    for (const Figure& figure : part.figures) figures += FigureHtml(figure);
+    html += fmt::format(
+        "<section id=\"{}\">\n<h2>{}</h2>\n", part.id, HtmlText(part.title));
+    for (std::size_t i = 0; i < part.tables.size(); ++i) {
+      html += HtmlTable(part.tables[i]);
+      if (i == 0) html += Grid(figures, "figures halves");
+    }
+    html += "</section>\n";
   }
-  return html + "</section>\n";
+  return html;
 }
 
 std::string Page::Html() const {
@@ -529,7 +533,7 @@ std::string Page::Html() const {
   for (std::size_t i = 0; i < views.size(); ++i) {
     html += Component(views[i], i);
   }
-  html += Machine();
+  html += Parts();
   if (views.size() != kOpenComponents) {
     html += Collapsed("Provenance", HtmlTable(ProvenanceTable(record_)));
   }

@@ -6,9 +6,9 @@
 
 namespace errmap::report {
 
-/// report.html: one self-contained page drawn from the record alone, with the
-/// figures of MakeFigures. Of a study that is incomplete or failed it says what
-/// is not there.
+/// Returns report.html: one self-contained page drawn from the record alone,
+/// with the figures of MakeFigures. For an incomplete or failed study, it says
+/// what is missing.
 std::string ReportHtml(const models::StudyRecord& record,
                        const FigureSet& figures);
 

@@ -1,10 +1,11 @@
 #include <fmt/format.h>
 
 #include "cli/report/documents/report_headline.h"
+#include "cli/report/figures/figures.h"
 #include "cli/report/html.h"
 #include "cli/report/report.h"
 #include "cli/report/tables/fit_tables.h"
-#include "cli/report/tables/machine_tables.h"
+#include "cli/report/tables/regression_tables.h"
 #include "cli/report/tables/report_tables.h"
 #include "cli/report/tables/result_table.h"
 #include "cli/report/words/answers/data_words.h"
@@ -28,7 +29,7 @@ std::string Answer(const ReportView& view) {
   const Headline line = HeadlineOf(view);
   std::string text = "**" + MarkdownText(line.answer.use) + "**\n\n";
   std::vector<std::string> facts;
-  for (const AnswerLine& row : line.answer.lines) {
+  for (const Remark& row : line.answer.lines) {
     facts.push_back(row.label + ": " + row.text);
   }
   text += Bullets(facts) + MarkdownParagraph(kSignConvention) +
@@ -82,10 +83,8 @@ std::string ReportMarkdown(const models::StudyRecord& record) {
     view.shown_unit = component.display.unit;  // as in every file
     text += Component(view);
   }
-  if (record.machine) {
-    for (const Table& table : MachineTables(*record.machine)) {
-      text += MarkdownTable(table, "##");
-    }
+  for (const RecordPart& part : PartsOf(record)) {
+    for (const Table& table : part.tables) text += MarkdownTable(table, "##");
   }
   return text + MarkdownTable(ProvenanceTable(record), "##");
 }

@@ -6,8 +6,8 @@
 
 namespace errmap::report {
 
-/// residuals.csv: one line per hold-out, fold and test row, with
-/// group, target and each model's prediction (empty where it failed).
+/// Returns residuals.csv: one line for each hold-out, fold and test row, with
+/// group, target and each model's prediction (empty if it failed).
 std::string ResidualsCsv(const models::ComponentStudy& study);
 
 }  // namespace errmap::report

@@ -8,8 +8,8 @@
 
 namespace errmap::report {
 
-/// The starts as a table with a line about the spread of their costs; "" for no
-/// starts.
+/// Returns the starts as a table with a line on the spread of their costs; ""
+/// if there are no starts.
 std::string StartsText(const std::vector<models::StartResult>& starts,
                        const ErrorText& error);
 

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "cli/report/figures/figures.h"
 #include "cli/report/number_text.h"
 #include "cli/report/shell_word.h"
-#include "cli/report/tables/machine_tables.h"
 #include "cli/report/tables/result_table.h"
 #include "cli/report/words/answers/component_numbers.h"
 #include "cli/report/words/answers/data_words.h"
@@ -73,6 +73,7 @@ class ComponentScreen {
   // What to use, of which data, and the table.
   void Answer();
   void Next(const std::vector<std::string>& data);
+  // After Answer, as it tells what that had no room for.
   void Details();
 
  private:
@@ -82,6 +83,7 @@ class ComponentScreen {
   ReportView view_;
   const StudyTableOptions& options_;
   Screen* screen_;
+  std::vector<Remark> left_out_;  // of the answer, which has no room for them
 
   void Leaderboard();
 
@@ -126,11 +128,12 @@ void ComponentScreen::Answer() {
   for (const std::string& line : above) screen_->Add(line + "\n");
   screen_->Add("\n");
   bool first = true;
-  for (const std::string& line :
-       AnswerLines(FirstAnswerOf(record_), Width(), above)) {
+  ShownAnswer answer = AnswerLines(FirstAnswerOf(record_), Width(), above);
+  for (const std::string& line : answer.lines) {
     screen_->Add(line + "\n", first);
     first = false;
   }
+  left_out_ = std::move(answer.left_out);
   screen_->Add("\n");
   Leaderboard();
   screen_->Add("\n");
@@ -164,6 +167,15 @@ void ComponentScreen::Leaderboard() {
   }
   if (std::string drawn = DrawnRowsWords(view_); !drawn.empty()) {
     legend.push_back(std::move(drawn));
+  }
+  if (std::string other = StandInWords(view_); !other.empty()) {
+    legend.push_back(std::move(other));
+  }
+  if (std::ranges::any_of(view_.models, [&](const ModelRecord* model) {
+        const ResultRecord* const result = ResultOf(*model, view_.decisive);
+        return result != nullptr && !std::isfinite(result->ci95[0]);
+      })) {
+    legend.emplace_back("95 % -: no range is known.");
   }
   if (!options_.all && view_.models.size() > kMostRows) {
     legend.push_back(
@@ -224,6 +236,11 @@ void ComponentScreen::Details() {
     if (model.memorisation) Paragraph(model.memorisation->sentence);
   }
   screen_->Add("\n" + VerdictParagraphs(record_, Width(), options_.next_steps));
+  for (const Remark& remark : left_out_) {
+    for (const std::string& line : LabelledLines(remark, Width())) {
+      screen_->Add(line + "\n");
+    }
+  }
 }
 
 // How many meet their goal, and for how many nothing is proven.
@@ -259,9 +276,7 @@ std::string OverallWords(const models::StudyRecord& record) {
   text += ".";
   if (maps > 0) {
     text += fmt::format(
-        " That the map beats the best baseline is proven for {} of {}.",
-        proven,
-        maps);
+        " {} of {} maps are proven to beat the best baseline.", proven, maps);
   }
   return text;
 }
@@ -283,15 +298,9 @@ std::string LeadingColumns(Table table, std::size_t width) {
   return TerminalTable(table, width);
 }
 
-void AddMachine(const models::MachineRecord& machine,
-                const Terminal& terminal,
-                Screen* screen) {
+void AddPart(const RecordPart& part, const Terminal& terminal, Screen* screen) {
   const std::size_t width = terminal.text_columns();
-  for (const Table& table : {ToolTipTable(machine),
-                             ToolTipIntervalTable(machine),
-                             PositioningTable(machine),
-                             DiagonalTable(machine)}) {
-    if (table.rows.empty()) continue;
+  for (const Table& table : part.screen) {
     screen->Add("\n" + WrapText(table.title, width) + "\n\n" +
                 LeadingColumns(table, terminal.columns) +
                 WrapText(table.note, width) + "\n");
@@ -301,7 +310,7 @@ void AddMachine(const models::MachineRecord& machine,
 std::string WhereMapsAre(const StudyTableOptions& options) {
   std::string words =
       options.folder.empty()
-          ? "The maps are written with --out DIR, which also draws a page."
+          ? "To write the maps and draw a page, add --out DIR."
           : fmt::format(
                 "The maps are in {0}/models, the page is {0}/report.html.",
                 options.folder);
@@ -343,7 +352,9 @@ Screen StudyTable(const models::StudyRecord& record,
     }
     screen.Add(WrapText(WhereMapsAre(options), width) + "\n");
   }
-  if (record.machine) AddMachine(*record.machine, options.terminal, &screen);
+  for (const RecordPart& part : PartsOf(record)) {
+    AddPart(part, options.terminal, &screen);
+  }
   screen.Add(std::string("\n") + kSign + "\n");
   return screen;
 }

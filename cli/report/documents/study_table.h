@@ -11,17 +11,17 @@ namespace errmap::report {
 struct StudyTableOptions {
   bool all = false;         // every row of tables
   bool details = false;     // p values, gaps, times, every sentence
-  std::string folder = {};  // that the maps are written to; "" none
-  std::string page = {};    // written alone; "" none
-  /// The measurements as fit can open them, empty where it cannot have the same
-  /// rows.
+  std::string folder = {};  // for the maps; "" if none
+  std::string page = {};    // if written alone; "" if none
+  /// Arguments with which fit opens the measurements; empty if it cannot get
+  /// the same rows.
   std::vector<std::string> data = {};
   Terminal terminal = {};
-  bool next_steps = true;  // the commands to go on with
+  bool next_steps = true;  // the commands to continue with
 };
 
-/// A study as a terminal shows it: the verdict in at most eight lines, the
-/// table, what to do next; of several components a row each.
+/// Returns a study for a terminal: the answer in at most 12 lines, the table,
+/// next steps; with several components one row each.
 Screen StudyTable(const models::StudyRecord& record,
                   const StudyTableOptions& options);
 

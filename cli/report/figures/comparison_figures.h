@@ -8,11 +8,11 @@
 
 namespace errmap::report {
 
-/// Error of every model under each hold-out: the picture that decides.
+/// Error of every model under each hold-out: the figure that decides.
 Figure GapFigure(const ReportView& view, const std::string& prefix);
 
-/// sqrt(2 E) against the iteration of every net (the report's Figures 10-24),
-/// a few nets to a figure; empty where no model iterates.
+/// sqrt(2 E) against iteration for every net (the report's Figures 10-24), a
+/// few nets in each figure; empty if no model iterates.
 std::vector<Figure> TrainingFigures(const ReportView& view,
                                     const std::string& prefix);
 

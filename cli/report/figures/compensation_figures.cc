@@ -30,8 +30,8 @@ Figure Begin(const ReportView& view,
   return figure;
 }
 
-// Places along an axis: the values themselves where they are few, else the
-// middles of as many parts of equal width.
+// Positions along an axis: the values themselves if they are few, else the
+// middles of parts of equal width.
 std::vector<double> PlacesOf(const std::vector<double>& values,
                              std::size_t most) {
   const std::set<double> levels(values.begin(), values.end());
@@ -157,8 +157,8 @@ Figure TimeFigure(const ReportView& view,
   return figure;
 }
 
-// The input whose mean over the unit's rows lies farthest beyond those of all
-// other units: "t03_degC: 27.4 °C, else 22.1 to 24.9". "" = none does.
+// The input whose mean over the unit's rows lies farthest outside those of all
+// other units: "t03_degC: 27.4 °C, else 22.1 to 24.9". "" if none does.
 std::string WhatDiffers(const ReportView& view,
                         const HeldOutRows& rows,
                         const std::vector<double>& unit_of_row,

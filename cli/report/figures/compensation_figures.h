@@ -8,10 +8,10 @@
 
 namespace errmap::report {
 
-/// What the recommended map does to the machine's error, on rows that its fits
-/// have not seen: the error over the position before and after, what is left
-/// over the time of day, and the error by day or cycle with what differs on the
-/// worst. A figure that the data do not allow is not made.
+/// The recommended map's effect on the machine's error, on held-out rows. Shows
+/// the error over position before and after, the remaining error over the time
+/// of day, and the error by day or cycle with what differs on the worst. Omits
+/// figures that the data do not allow.
 std::vector<Figure> CompensationFigures(const ReportView& view,
                                         const std::string& prefix);
 

@@ -11,7 +11,7 @@
 
 namespace errmap::report {
 
-// Okabe and Ito's colours (2008), told apart in every kind of colour vision.
+// Okabe and Ito's colours (2008), distinct in every kind of colour vision.
 inline constexpr const char* kBlue = "#0072B2";
 inline constexpr const char* kVermillion = "#D55E00";
 inline constexpr const char* kGreen = "#009E73";
@@ -19,48 +19,50 @@ inline constexpr const char* kPurple = "#CC79A7";
 inline constexpr const char* kOrange = "#E69F00";
 inline constexpr const char* kBlack = "#000000";
 inline constexpr const char* kGrey = "#666666";
-/// For lines on white, one after another.
+/// For lines on white, in this order.
 inline constexpr std::array kLineColours = {
     kBlue, kVermillion, kGreen, kPurple, kOrange, kBlack};
 
-/// Error bars and lines from low to high need a logarithmic axis.
+/// True if error bars and lines from low to high need a logarithmic axis.
 bool SpansDecades(double low, double high);
 
-/// Everything the figures of one model's residuals share.
+/// The data shared by the figures of one model's residuals.
 struct ResidualContext {
   const ReportView& view;
   const HeldOutRows& rows;
   std::string model;
-  std::string prefix;  // of the names of their files
+  std::string prefix;  // of their files' names
 };
 
-/// A figure without its plot, which is missing where the rows are.
+/// A figure without its plot; `missing` says if there are no rows.
 Figure BeginFigure(const ResidualContext& context,
                    const std::string& kind,
                    const std::string& title);
 
-/// "residuals of 30 held-out rows from -1 to 1.2, mean 0.1 µm".
+/// Returns "residuals of 30 held-out rows from -1 to 1.2, mean 0.1 µm".
 std::string SpreadWords(const ResidualContext& context);
 
-/// Three digits.
+/// Formats with three digits.
 std::string Plain(double value);
-/// "0.123 µm" of an error in the shown unit, with the digits of all others.
+/// Formats an error in the shown unit, "0.123 µm", with the digits of all
+/// others.
 std::string Amount(double error, const ReportView& view);
 
 double MeanOf(const std::vector<double>& values);
 double RmsOf(const std::vector<double>& values);
 
-/// Index of the position among the inputs of the figures' rows; npos: none.
+/// Index of the position among the inputs of the figures' rows; npos if none.
 std::size_t PositionIndex(const ReportView& view);
 
-/// Of an input, its name less the unit in at most `most` characters.
+/// The axis of an input: its name without the unit, in at most `most`
+/// characters.
 Axis InputAxis(const ReportView& view, std::size_t index, std::size_t most);
 
 Axis ResidualAxis(const ReportView& view);
 
 Series Points(std::vector<double> x, std::vector<double> y);
 
-/// y = 0 from the lowest to the highest x.
+/// Draws y = 0 from the lowest to the highest x.
 Series ZeroLine(const std::vector<double>& x);
 
 }  // namespace errmap::report

@@ -7,7 +7,6 @@
 
 #include "cli/report/figures/comparison_figures.h"
 #include "cli/report/figures/compensation_figures.h"
-#include "cli/report/figures/machine_figures.h"
 #include "cli/report/figures/measured_figures.h"
 #include "cli/report/figures/residual_figures.h"
 #include "cli/report/figures/sensor_figures.h"
@@ -68,7 +67,7 @@ std::vector<const Figure*> Drawn(const FigureSet& figures) {
   for (const ComponentFigures& component : figures.components) {
     add(component.figures);
   }
-  add(figures.machine);
+  for (const RecordPart& part : figures.parts) add(part.figures);
   return drawn;
 }
 
@@ -87,11 +86,23 @@ FigureSet MakeFigures(const models::StudyRecord& record) {
     figures.figures = FiguresOf(view, fmt::format("c{}-", i + 1), detail);
     set.components.push_back(std::move(figures));
   }
-  if (record.machine) {
-    set.machine = MachineFigures(*record.machine);
-    MarkEmpty(&set.machine);
-  }
+  set.parts = PartsOf(record);
+  for (RecordPart& part : set.parts) MarkEmpty(&part.figures);
   return set;
+}
+
+std::vector<RecordPart> PartsOf(const models::StudyRecord& record) {
+  std::vector<RecordPart> parts;
+  for (const auto& [key, json] : record.others) {
+    for (const RecordPartMaker& maker : RecordPartMakers()) {
+      if (maker.key != key) continue;
+      RecordPart& part = parts.emplace_back(maker.make(json));
+      for (std::vector<Table>* tables : {&part.screen, &part.tables}) {
+        std::erase_if(*tables, [](const Table& t) { return t.rows.empty(); });
+      }
+    }
+  }
+  return parts;
 }
 
 std::string FigureSvg(const Figure& figure) {

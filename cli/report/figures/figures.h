@@ -1,14 +1,16 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/report/plot.h"
+#include "cli/report/table.h"
 #include "models/study/record/study_record.h"
 
 namespace errmap::report {
 
-/// Where in a component's part of the report a figure stands.
+/// The section of a component's report in which a figure appears.
 enum class FigurePlace {
   kAnswer,
   kMeasured,
@@ -21,16 +23,16 @@ enum class FigurePlace {
 /// A figure of the report.
 struct Figure {
   FigurePlace place = FigurePlace::kResiduals;
-  std::string subject;      // the model it is of, "" where it is of all
+  std::string subject;      // the model shown; "" for all
   std::string title;        // what is shown
   std::string note;         // how to read it, a sentence or two
-  std::string description;  // what it shows, for those who do not see it
-  /// Why there is nothing to draw; "" = there is.
+  std::string description;  // what it shows, for blind readers
+  /// Why there is nothing to draw; "" if there is a plot.
   std::string missing;
   Plot plot;  // plot.name: "c1-gap", unique in the report
 };
 
-/// How much is drawn of one component.
+/// How many figures one component gets.
 enum class FigureDetail { kFull, kSome, kBrief };
 
 /// The figures of one component.
@@ -39,32 +41,54 @@ struct ComponentFigures {
   std::vector<Figure> figures;
 };
 
+/// A part of the report on what a slice added to the record, of all components
+/// together.
+struct RecordPart {
+  std::string id;               // of its section of the page
+  std::string title;            // of the same
+  std::string link;             // to it, in the page's index
+  std::vector<Table> screen;    // what a terminal shows
+  std::vector<Table> tables;    // of the page and report.md
+  std::vector<Figure> figures;  // below the first of these
+};
+
+/// How what a slice keeps under a key of models::StudyRecord::others is shown.
+struct RecordPartMaker {
+  std::string_view key;
+  /// Throws data::InputError where the text holds something else.
+  RecordPart (*make)(const std::string& json);
+};
+/// Those of the slices that are built; written by CMake.
+const std::vector<RecordPartMaker>& RecordPartMakers();
+/// The parts of a record that a slice shows, tables without rows left out.
+std::vector<RecordPart> PartsOf(const models::StudyRecord& record);
+
 /// All figures of a report, by component.
 struct FigureSet {
   std::vector<ComponentFigures> components;
-  std::vector<Figure> machine;  // of all of them together
+  std::vector<RecordPart> parts;
 
-  /// Whether there are so many components that most is left out.
+  /// True if most figures are left out, since there are many components.
   bool IsBrief() const {
     return !components.empty() &&
            components.front().detail == FigureDetail::kBrief;
   }
 };
 
-/// Figures of a study: at most twenty of a component, fewer where components
-/// are many.
+/// Makes the figures of a study: at most twenty for each component, fewer if
+/// there are many components.
 FigureSet MakeFigures(const models::StudyRecord& record);
 
-/// The figure as SVG.
+/// Returns the figure as SVG.
 std::string FigureSvg(const Figure& figure);
 
-/// A file of a report: its name in the report's folder, and what it holds.
+/// A file of a report: its name in the report's folder, and its content.
 struct ReportFile {
   std::string name;
   std::string text;
 };
 
-/// Every figure as NAME.svg.
+/// Returns every figure as NAME.svg.
 std::vector<ReportFile> FigureFiles(const FigureSet& figures);
 
 }  // namespace errmap::report

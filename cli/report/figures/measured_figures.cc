@@ -14,8 +14,8 @@ namespace {
 
 using models::FigureTableRecord;
 
-// Where each row lies along the measurement: hours, or rows where no clock ran.
-// Sessions follow one another without the nights between them.
+// The position of each row in the measurement: hours, or rows without a clock.
+// Sessions follow each other without the nights between them.
 class Course {
  public:
   explicit Course(const ReportView& view)

@@ -8,8 +8,8 @@
 
 namespace errmap::report {
 
-/// What was measured, in its order: temperatures and the error, sessions one
-/// after another. A figure that the data do not allow is not made.
+/// The measurements in their order: temperatures and the error, session after
+/// session. Omits figures that the data do not allow.
 std::vector<Figure> MeasuredFigures(const ReportView& view,
                                     const std::string& prefix);
 

@@ -9,19 +9,19 @@
 
 namespace errmap::report {
 
-// In pixels:
+// All in pixels:
 inline constexpr double kTextSize = 12.0;
-inline constexpr double kEdge = 6.0;   // free at the rim of the picture
+inline constexpr double kEdge = 6.0;   // free margin of the picture
 inline constexpr double kApart = 8.0;  // between labels
 inline constexpr double kTicLength = 4.0;
 inline constexpr double kSwatch = 20.0;     // of a series in the legend
-inline constexpr double kColourBar = 14.0;  // width of the scale of colours
+inline constexpr double kColourBar = 14.0;  // width of the colour bar
 
-/// Width in pixels of a text in any of the usual sans-serif fonts, rather too
-/// wide than too narrow: nobody knows which one the reader has.
+/// Estimates the width of a text in pixels, for any usual sans-serif font. It
+/// is rather too wide than too narrow, since the reader's font is unknown.
 double TextWidth(std::string_view text);
 
-/// The text, shortened in its middle until it is no wider than `most` pixels.
+/// Shortens the text in its middle to at most `most` pixels.
 std::string Fitting(const std::string& text, double most);
 
 struct LegendEntry {
@@ -31,7 +31,7 @@ struct LegendEntry {
   double y = 0.0;
 };
 
-/// Where the parts of a picture stand, in pixels from its upper left corner.
+/// The positions of a picture's parts, in pixels from its upper left corner.
 struct PlotLayout {
   Scale x;
   Scale y;
@@ -43,11 +43,11 @@ struct PlotLayout {
   std::vector<LegendEntry> legend = {};
 };
 
-/// Whether the picture has a scale of colours at its right.
+/// True if the picture has a colour bar at its right.
 bool HasColours(const Plot& plot);
 
-/// Margins first, so that every label finds its place. The legend points at
-/// the series of `plot`, which has to outlive it.
+/// Computes the margins first, so that every label fits. The legend points at
+/// the series of `plot`, which must outlive it.
 PlotLayout LayOut(const Plot& plot);
 
 }  // namespace errmap::report

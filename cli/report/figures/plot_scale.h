@@ -8,7 +8,7 @@
 
 namespace errmap::report {
 
-/// A mark at an axis and what is written beside it.
+/// A mark at an axis and its text.
 struct Tic {
   double at = 0.0;
   std::string text;
@@ -17,13 +17,13 @@ struct Tic {
 /// Pixels along the axis that a tic's text needs.
 using TicRoom = double (*)(const Tic&);
 
-/// Lowest and highest value along an axis, with what marks reach beyond it.
+/// Lowest and highest value along an axis, including the extent of marks.
 std::pair<double, double> Ends(const Plot& plot, bool along_x);
 
-/// From values of one axis to pixels from `from` to `to`.
+/// Maps the values of an axis to pixels from `from` to `to`.
 class Scale {
  public:
-  /// `ends` are the lowest and highest value that must be seen.
+  /// `ends` are the lowest and highest value that must be visible.
   Scale(const Axis& axis, std::pair<double, double> ends);
 
   void Span(double from, double to) {
@@ -37,7 +37,7 @@ class Scale {
     return from_ + (Place(value) - low_) / (high_ - low_) * (to_ - from_);
   }
 
-  /// Round numbers, as many as find room.
+  /// Returns round numbers, as many as fit.
   std::vector<Tic> Tics(TicRoom room) const;
 
   bool StandApart(const std::vector<Tic>& tics, TicRoom room) const;

@@ -10,6 +10,7 @@
 
 #include "cli/report/figures/distribution_figures.h"
 #include "cli/report/figures/figure_parts.h"
+#include "stats/summary.h"
 
 namespace errmap::report {
 namespace {
@@ -162,17 +163,10 @@ Figure MapFigure(const ResidualContext& context, std::size_t position) {
 
 double AbsoluteCorrelation(const std::vector<double>& x,
                            const std::vector<double>& y) {
-  const double mean_x = MeanOf(x);
-  const double mean_y = MeanOf(y);
-  double xx = 0.0;
-  double yy = 0.0;
-  double xy = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    xx += (x[i] - mean_x) * (x[i] - mean_x);
-    yy += (y[i] - mean_y) * (y[i] - mean_y);
-    xy += (x[i] - mean_x) * (y[i] - mean_y);
-  }
-  return xx > 0.0 && yy > 0.0 ? std::abs(xy) / std::sqrt(xx * yy) : 0.0;
+  const auto vector = [](const std::vector<double>& values) {
+    return Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+  };
+  return std::abs(stats::Correlation(vector(x), vector(y)));
 }
 
 // Indices of the inputs that the model reads, the position aside.

@@ -8,9 +8,9 @@
 
 namespace errmap::report {
 
-/// The figures of a model's held-out residuals: predicted against measured,
-/// against position, group and the used inputs that go most with them, map, and
-/// the report's Figures 7 and 11. `prefix` begins the names of their files.
+/// The figures of a model's held-out residuals: predicted against measured;
+/// residuals against position, group and the most correlated inputs; map; the
+/// report's Figures 7 and 11. `prefix` begins the names of their files.
 std::vector<Figure> ResidualFigures(const ReportView& view,
                                     const std::string& model,
                                     const std::string& holdout,

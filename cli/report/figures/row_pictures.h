@@ -7,18 +7,18 @@
 
 namespace errmap::report {
 
-// Pictures that stand in a row of a table, as SVG.
+// Pictures in table rows, as SVG.
 
-/// A dot between 0 and the error without a map, with its 95 % interval as a
-/// bar; "" where that is not known or less.
+/// A dot between 0 and `without_map`, with the 95 % interval as a bar; "" if
+/// `without_map` is unknown or less than `rmse`.
 std::string IntervalPicture(double rmse,
                             const models::IntervalRecord& ci95,
                             double without_map);
 
-/// The errors of a map on one unit after another, as a line from 0 to the
-/// largest, which has a dot; of more units than the line has points for the
-/// largest beside each other count. `words` says what it shows. "" for fewer
-/// than two.
+/// A map's errors over successive units, as a line from 0 to the largest error,
+/// which has a dot. If there are more units than points, each point is the
+/// largest of its neighbours. `words` describes it for blind readers. "" for
+/// fewer than two units.
 std::string Sparkline(const std::vector<double>& errors,
                       const std::string& words);
 

@@ -9,7 +9,7 @@
 namespace errmap::report {
 
 /// Held-out error of the recommended map without each of its sensors, and
-/// without those that are alike; none where the record has nothing of it.
+/// without alike sensors; none if the record lacks it.
 std::vector<Figure> ImportanceFigures(const ReportView& view,
                                       const std::string& prefix);
 

@@ -158,7 +158,7 @@ class Pen {
     });
   }
 
-  // Where no cell is: nothing was measured, which is not zero.
+  // The background without cells: not measured, which is not zero.
   std::string Hatching() const {
     constexpr double kStep = 6.0;
     const double left = x_.from();

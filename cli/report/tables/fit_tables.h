@@ -8,45 +8,32 @@
 
 namespace errmap::report {
 
-/// Error beside what a step of each map costs on a controller.
+/// The error of each map and the cost of a step on a controller.
 Table CostTable(const ReportView& view);
 
-/// The fits to all rows: what each optimiser did, how it stopped, time per
-/// iteration (the report's Table 4).
+/// The fits to all rows: each optimiser's work, how it stopped, and its time
+/// per iteration (the report's Table 4).
 Table RunTable(const ReportView& view);
 
-/// Every fit of every fold: errors, iterations, stop.
+/// Every fit of every fold: errors, iterations, termination.
 Table FoldTable(const ReportView& view);
 
-/// Every start of the nets with several.
+/// Every start of nets with several starts.
 Table StartTable(const ReportView& view);
 
 /// Nets fitted to shuffled targets: can they learn noise?
 Table MemorisationTable(const ReportView& view);
 
-/// What is told of one polynomial.
-struct PolynomialTables {
-  std::string model;
-  std::string equation;
-  std::string method;
-  std::string summary;  // s, R2, PRESS, condition
-  Table coefficients;
-  Table excluded;
-  Table aliased;
-};
-/// Of every model with an equation or a regression, the recommended one first.
-std::vector<PolynomialTables> PolynomialTablesOf(const ReportView& view);
-
 /// Options and choices of every model.
 Table OptionTable(const ReportView& view);
 
-/// Columns left out of the inputs, and why.
+/// Columns left out of the inputs, with the reasons.
 Table DroppedTable(const ReportView& view);
 
 /// How rows were held out.
 Table HoldoutTable(const ReportView& view);
 
-/// Where the figures come from: of the whole document.
+/// The origin of the results, for the whole document.
 Table ProvenanceTable(const models::StudyRecord& record);
 
 }  // namespace errmap::report

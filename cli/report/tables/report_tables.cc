@@ -1,5 +1,8 @@
 #include "cli/report/tables/report_tables.h"
 
+#include <string>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "cli/report/number_text.h"
@@ -31,7 +34,74 @@ void SayIfEmpty(const std::string& why, Table* table) {
   if (table->rows.empty()) table->missing = why;
 }
 
-constexpr const char* kNoResults = "No model has results under this hold-out.";
+// A row of each model that has results under the hold-out.
+using RowOf = std::vector<Cell>(const std::string& model,
+                                const ResultRecord& result);
+
+void AddRowsOfModels(const ReportView& view,
+                     const std::string& holdout,
+                     RowOf* row_of,
+                     Table* table) {
+  for (const ModelRecord* model : view.models) {
+    const ResultRecord* const result = ResultOf(*model, holdout);
+    if (result == nullptr) continue;
+    MarkIfRecommended(view, model->name, table);
+    table->rows.push_back(row_of(model->name, *result));
+  }
+  SayIfEmpty("No model has results under this hold-out.", table);
+}
+
+std::vector<Cell> ErrorsRow(const std::string& model,
+                            const ResultRecord& result) {
+  const models::MetricsRecord& test = result.test;
+  std::vector<Cell> row{model, test.n};
+  for (const double value : {test.mean,
+                             test.sd,
+                             test.min,
+                             test.max,
+                             test.range,
+                             test.rmse,
+                             test.mae}) {
+    row.push_back(Error{value});
+  }
+  row.push_back(Fixed{test.r2, 4});
+  row.push_back(Error{result.train.rmse});
+  return row;
+}
+
+std::vector<Cell> NormalityRow(const std::string& model,
+                               const ResultRecord& result) {
+  const models::NormalityRecord& tests = result.normality;
+  return {model,
+          Statistic{tests.ks.d, tests.ks.p_given},
+          Statistic{tests.lilliefors.d, tests.lilliefors.p},
+          Statistic{tests.shapiro_wilk.w, tests.shapiro_wilk.p},
+          Statistic{tests.anderson_darling.a2, tests.anderson_darling.p},
+          Statistic{tests.jarque_bera.jb, tests.jarque_bera.p},
+          Number{tests.ppcc.lambda, 3},
+          Number{tests.ppcc.r_max},
+          Number{tests.ppcc.r_normal},
+          Number{tests.skewness, 3},
+          Number{tests.kurtosis, 3}};
+}
+
+std::vector<Cell> IndependenceRow(const std::string& model,
+                                  const ResultRecord& result) {
+  const models::RandomnessRecord& tests = result.randomness;
+  const models::SerialRecord& order = tests.in_order;
+  const auto& spread = tests.breusch_pagan;
+  return {
+      model,
+      Statistic{order.runs.test.value.z, order.runs.test.value.p},
+      Statistic{order.lag1.test.value.r, order.lag1.test.value.p},
+      Statistic{order.durbin_watson.d, order.durbin_watson.p},
+      Statistic{order.ljung_box.test.value.q, order.ljung_box.test.value.p},
+      Number{ShareOf(tests.by_group), 3},
+      TestOf(tests.by_group),
+      Number{ShareOf(tests.by_position), 3},
+      TestOf(tests.by_position),
+      spread ? Statistic{spread->test.value.lm, spread->test.value.p} : Cell()};
+}
 
 }  // namespace
 
@@ -148,26 +218,7 @@ Table ResidualTable(const ReportView& view, const std::string& holdout) {
                    {"MAE"},
                    {"R2"},
                    {"training RMSE"}};
-  for (const ModelRecord* model : view.models) {
-    const ResultRecord* result = ResultOf(*model, holdout);
-    if (result == nullptr) continue;
-    MarkIfRecommended(view, model->name, &table);
-    const models::MetricsRecord& test = result->test;
-    std::vector<Cell> row{model->name, test.n};
-    for (const double value : {test.mean,
-                               test.sd,
-                               test.min,
-                               test.max,
-                               test.range,
-                               test.rmse,
-                               test.mae}) {
-      row.push_back(Error{value});
-    }
-    row.push_back(Fixed{test.r2, 4});
-    row.push_back(Error{result->train.rmse});
-    table.rows.push_back(std::move(row));
-  }
-  SayIfEmpty(kNoResults, &table);
+  AddRowsOfModels(view, holdout, ErrorsRow, &table);
   return table;
 }
 
@@ -205,25 +256,7 @@ Table NormalityTable(const ReportView& view, const std::string& holdout) {
                    {"r normal"},
                    {"skewness"},
                    {"kurtosis"}};
-  for (const ModelRecord* model : view.models) {
-    const ResultRecord* result = ResultOf(*model, holdout);
-    if (result == nullptr) continue;
-    MarkIfRecommended(view, model->name, &table);
-    const models::NormalityRecord& tests = result->normality;
-    table.rows.push_back(
-        {model->name,
-         Statistic{tests.ks.d, tests.ks.p_given},
-         Statistic{tests.lilliefors.d, tests.lilliefors.p},
-         Statistic{tests.shapiro_wilk.w, tests.shapiro_wilk.p},
-         Statistic{tests.anderson_darling.a2, tests.anderson_darling.p},
-         Statistic{tests.jarque_bera.jb, tests.jarque_bera.p},
-         Number{tests.ppcc.lambda, 3},
-         Number{tests.ppcc.r_max},
-         Number{tests.ppcc.r_normal},
-         Number{tests.skewness, 3},
-         Number{tests.kurtosis, 3}});
-  }
-  SayIfEmpty(kNoResults, &table);
+  AddRowsOfModels(view, holdout, NormalityRow, &table);
   return table;
 }
 
@@ -242,27 +275,7 @@ Table IndependenceTable(const ReportView& view, const std::string& holdout) {
                    {"between positions, %"},
                    {"F (p)"},
                    {"Breusch-Pagan (p)"}};
-  for (const ModelRecord* model : view.models) {
-    const ResultRecord* result = ResultOf(*model, holdout);
-    if (result == nullptr) continue;
-    MarkIfRecommended(view, model->name, &table);
-    const models::RandomnessRecord& tests = result->randomness;
-    const models::SerialRecord& order = tests.in_order;
-    const auto& spread = tests.breusch_pagan;
-    table.rows.push_back(
-        {model->name,
-         Statistic{order.runs.test.value.z, order.runs.test.value.p},
-         Statistic{order.lag1.test.value.r, order.lag1.test.value.p},
-         Statistic{order.durbin_watson.d, order.durbin_watson.p},
-         Statistic{order.ljung_box.test.value.q, order.ljung_box.test.value.p},
-         Number{ShareOf(tests.by_group), 3},
-         TestOf(tests.by_group),
-         Number{ShareOf(tests.by_position), 3},
-         TestOf(tests.by_position),
-         spread ? Statistic{spread->test.value.lm, spread->test.value.p}
-                : Cell()});
-  }
-  SayIfEmpty(kNoResults, &table);
+  AddRowsOfModels(view, holdout, IndependenceRow, &table);
   return table;
 }
 

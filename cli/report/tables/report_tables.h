@@ -7,13 +7,13 @@
 
 namespace errmap::report {
 
-/// Errors between neighbours beside those on unseen groups.
+/// Errors among neighbours compared with those on unseen groups.
 Table GapTable(const ReportView& view);
 
-/// The recommended model against every other one: differences and tests.
+/// The recommended model compared with each other one: differences and tests.
 Table ComparisonTable(const ReportView& view, const std::string& holdout);
 
-/// How often each model wins when the groups are cut anew.
+/// How often each model wins over repeated splits of the groups.
 Table StabilityTable(const ReportView& view);
 
 /// The recommended map's error by time since the session's start.

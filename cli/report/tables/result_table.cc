@@ -382,6 +382,22 @@ std::string DrawnRowsWords(const ReportView& view) {
                      view.component->data.rows);
 }
 
+std::string StandInWords(const ReportView& view) {
+  constexpr std::string_view kOfATemperature = "poly:temperature";
+  for (const ModelRecord* model : view.models) {
+    const auto& inputs = model->inputs_used;
+    if (model->name != kOfATemperature || !inputs || inputs->size() != 1 ||
+        !model->sensors || !model->sensors->empty()) {
+      continue;
+    }
+    const std::string& input = inputs->front();
+    return fmt::format("{} is a line over {}, as there is no thermometer.",
+                       model->name,
+                       data::Printable(input, input.size()));
+  }
+  return "";
+}
+
 Table TerminalLeaderboard(const ReportView& view, std::size_t most_rows) {
   const ComponentRecord& component = *view.component;
   std::vector<Slot> slots = SlotsOf({"model"});
@@ -418,7 +434,7 @@ Table TerminalLeaderboard(const ReportView& view, std::size_t most_rows) {
     }
     table.columns.push_back(std::move(shown));
   }
-  // The recommended one always stands in the table.
+  // The recommended one is always in the table.
   std::vector<const ModelRecord*> models = view.models;
   if (const auto recommended =
           std::ranges::find(models, view.recommended, &ModelRecord::name);
@@ -546,6 +562,9 @@ Table PageLeaderboard(const ReportView& view) {
   }
   if (const std::string drawn = DrawnRowsWords(view); !drawn.empty()) {
     table.note += drawn + " ";
+  }
+  if (const std::string other = StandInWords(view); !other.empty()) {
+    table.note += other + " ";
   }
   table.note += fmt::format("{}.", kIntervalCoverage);
   if (table.rows.empty()) table.missing = "No model was fitted.";

@@ -5,36 +5,41 @@
 
 namespace errmap::report {
 
-// What models achieved, for people and for files. The columns are declared
-// once, in the .cc file, with what each is called and where it stands.
+// The results of models, for people and for files. Columns are declared once,
+// in the .cc file, with their names and the tables that have them.
 
-/// A row per component, hold-out and model.
+/// One row for each component, hold-out and model.
 Table LeaderboardRows(const models::StudyRecord& record);
 
-/// For terminals, by the decisive error: sensors, that error with its interval,
-/// the error between neighbours, the goal. At most `most_rows`, the recommended
-/// one among them: "*" before its name, "=" before those as good as the best.
+/// For terminals, sorted by the decisive error: sensors, that error with its
+/// interval, the error among neighbours, the goal. At most `most_rows`,
+/// including the recommended one: "*" before its name, "=" before those as good
+/// as the best.
 Table TerminalLeaderboard(const ReportView& view, std::size_t most_rows);
 
-/// What stands behind it: training error, tier, p and whether the difference
-/// from the recommended one is established, under one hold-out.
+/// Details for one hold-out: training error, tier, p, and whether the
+/// difference from the recommended model is established.
 Table TerminalDetails(const ReportView& view, const std::string& holdout);
 /// Parameters, gap and times.
 Table TerminalTimes(const ReportView& view);
 
-/// A row per component: what to use, and how good and how sure that is.
+/// One row for each component: the map to use, its error and how sure it is.
 Table SummaryRows(const models::StudyRecord& record);
 inline constexpr std::size_t kIntervalColumn = 3;
 inline constexpr std::size_t kProvenColumn = 4;
 
-/// "unseen cycle", "another file", "held-out rows": what decides.
+/// "unseen cycle", "another file", "held-out rows": the decisive hold-out.
 std::string UnseenWords(const ReportView& view);
 
-/// Which models learnt from a part of the rows, and how to have all; "" where
+/// Says which models learnt from a part of the rows, and how to use all; "" if
 /// none did.
 std::string DrawnRowsWords(const ReportView& view);
 
-/// A row per model under the hold-outs, the decisive one first: errors,
+/// Says what poly:temperature reads where the data have no thermometer; "" if
+/// they have one.
+std::string StandInWords(const ReportView& view);
+
+/// One row for each model, with the hold-outs, the decisive one first: errors,
 /// significance, goal, cost.
 Table PageLeaderboard(const ReportView& view);
 

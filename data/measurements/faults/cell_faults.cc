@@ -95,10 +95,16 @@ Rows RowsBeyond(const VectorXd& values, const Bounds& bounds, Bounds* others) {
 }
 
 // Rows of one code at either end, far from all other values; `others` becomes
-// their range.
-Rows RowsOfCode(const VectorXd& values, Bounds* others) {
+// their range. Any value is one that comes three times or more to the last
+// digit and is farther from the others than `far` (NaN: never) and they reach.
+Rows RowsOfCode(const VectorXd& values, double far, Bounds* others) {
   for (const double code : {values.minCoeff(), values.maxCoeff()}) {
-    if (!IsCode(code)) continue;
+    const bool is_code = IsCode(code);
+    constexpr Index kFewest = 3;
+    if (!is_code &&
+        (std::isnan(far) || (values.array() == code).count() < kFewest)) {
+      continue;
+    }
     const bool low = code < values.mean();
     Bounds rest;
     const double infinity = std::numeric_limits<double>::infinity();
@@ -109,7 +115,8 @@ Rows RowsOfCode(const VectorXd& values, Bounds* others) {
                    &rest);
     const double gap = low ? rest.low - code : code - rest.high;
     if (2 * static_cast<Index>(rows.size()) <= values.size() &&
-        gap > kFarRangesOfCode * (rest.high - rest.low)) {
+        gap > (is_code ? kFarRangesOfCode : 1.0) * (rest.high - rest.low) &&
+        (is_code || gap > far)) {
       *others = rest;
       return rows;
     }
@@ -256,15 +263,28 @@ class CellFaultFinder {
           !found_.faults.back().of_cells) {
         return;  // as a whole: in kelvin, or not connected
       }
+      if (wrong.empty()) wrong = RowsWithoutPower(input, values);
       TakeThermometer(input, std::move(wrong));
       return;
     }
     if (!HasLevels(values, kFewestLevels)) return;
     wrong = RowsBeyond(values, BoundsOfTheRest(values), &others);
-    if (wrong.empty()) wrong = RowsOfCode(values, &others);
+    if (wrong.empty()) wrong = RowsOfCode(values, NAN, &others);
     if (wrong.empty()) return;
     Add(FaultKind::kOutlying, input, wrong, values[wrong.front()], others);
     SingleOutCodes(values);
+  }
+
+  // What a channel shows that was switched off for a while: 0 most often.
+  Rows RowsWithoutPower(Index input, const VectorXd& values) {
+    constexpr double kFar = 5.0;  // degC
+    Bounds others{};
+    const Rows rows =
+        RowsOfCode(values, kFar * DegreeIn(UnitOf(input)), &others);
+    if (rows.empty()) return rows;
+    Add(FaultKind::kOutlying, input, rows, values[rows.front()], others);
+    found_.faults.back().of_cells = true;
+    return rows;
   }
 
   // Whether it really was that cold: readings that vary, and with no gap to
@@ -294,10 +314,8 @@ class CellFaultFinder {
   }
 
   void TakeThermometer(Index input, Rows wrong) {
-    const Unit degc = UnitOfSymbol("degC");
     Thermometer t{.input = input,
-                  .degree = Converted(1.0, degc, UnitOf(input)) -
-                            Converted(0.0, degc, UnitOf(input)),
+                  .degree = DegreeIn(UnitOf(input)),
                   .wrong = std::move(wrong)};
     const Rows rows = SoundRows(measured_, t);
     const std::vector<double> values = ValuesAt(measured_, rows, input);

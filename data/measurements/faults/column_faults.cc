@@ -1,6 +1,7 @@
 #include "data/measurements/column_faults.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <iterator>
 
@@ -12,35 +13,24 @@
 #include "data/measurements/faults/row_faults.h"
 #include "data/measurements/faults/thermometer_faults.h"
 #include "data/measurements/rounded.h"
+#include "data/text.h"
 
 namespace errmap::data {
 
 using Eigen::Index;
 
 std::string_view ToString(FaultKind kind) {
-  switch (kind) {
-    case FaultKind::kImpossible:
-      return "impossible";
-    case FaultKind::kOutlying:
-      return "outlying";
-    case FaultKind::kJump:
-      return "jump";
-    case FaultKind::kStep:
-      return "step";
-    case FaultKind::kStuck:
-      return "stuck";
-    case FaultKind::kNoisy:
-      return "noisy";
-    case FaultKind::kDrifting:
-      return "drifting";
-    case FaultKind::kRepeated:
-      return "repeated";
-    case FaultKind::kZero:
-      return "zero";
-    case FaultKind::kOtherUnit:
-      return "other-unit";
-  }
-  return "";
+  constexpr auto kNames = std::to_array<std::string_view>({"impossible",
+                                                           "outlying",
+                                                           "jump",
+                                                           "step",
+                                                           "stuck",
+                                                           "noisy",
+                                                           "drifting",
+                                                           "repeated",
+                                                           "zero",
+                                                           "other-unit"});
+  return NameOf(kNames, kind);
 }
 
 std::vector<ColumnFault> FindColumnFaults(const MeasuredColumns& measured) {

@@ -362,10 +362,7 @@ std::optional<ColumnFault> FindColdDrift(
   }
   if (worst_at < 0) return std::nullopt;
   const double degree =
-      Converted(
-          1.0, degc, measured.inputs[static_cast<std::size_t>(worst_at)].unit) -
-      Converted(
-          0.0, degc, measured.inputs[static_cast<std::size_t>(worst_at)].unit);
+      DegreeIn(measured.inputs[static_cast<std::size_t>(worst_at)].unit);
   return MakeFault(measured,
                    FaultKind::kDrifting,
                    worst_at,

@@ -13,12 +13,14 @@
 #include <string>
 #include <unordered_map>
 
+#include "data/argument_name.h"
+#include "data/column_words.h"
+#include "data/columns.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/dataset.h"
 #include "data/measurements/faults/thermometers.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/least_squares.h"
-#include "data/measurements/reading/column_words.h"
 #include "data/measurements/text_times.h"
 #include "data/text.h"
 
@@ -29,16 +31,12 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 bool IsSummary(std::string_view text) {
-  constexpr auto kWords = std::to_array<std::string_view>(
-      {"mean",   "average",     "avg",     "total",      "totals",  "sum",
-       "summe",  "gesamt",      "mittel",  "mittelwert", "moyenne", "media",
-       "min",    "max",         "minimum", "maximum",    "std",     "stdev",
-       "sd",     "sigma",       "median",  "count",      "range",   "rms",
-       "anzahl", "end of file", "eof",     "end",        "ende"});
   while (text.ends_with(':') || text.ends_with('.')) text.remove_suffix(1);
-  return std::ranges::any_of(kWords, [&](std::string_view word) {
-    return EqualsIgnoringCase(text, word);
-  });
+  return EqualsIgnoringCase(text, "end of file") ||
+         IsOneOf(text,
+                 "mean average avg total totals sum summe gesamt mittel "
+                 "mittelwert moyenne media min max minimum maximum std stdev "
+                 "sd sigma median count range rms anzahl eof end ende");
 }
 
 bool HasDigit(std::string_view text) {
@@ -315,9 +313,12 @@ void LookForOtherUnit(const MeasuredColumns& measured,
 
 }  // namespace
 
-void RefuseRowsOfWords(const CsvTable& table,
-                       const std::vector<bool>& numbering,
-                       const std::vector<bool>& passes) {
+std::vector<Index> LeaveOutRowsOfWords(const CsvTable& table,
+                                       const std::vector<bool>& numbering,
+                                       MissingPolicy missing_policy,
+                                       std::vector<bool>* passing) {
+  std::vector<bool>& passes = *passing;
+  std::vector<Index> left_out;
   const auto num_rows =
       static_cast<std::size_t>(std::ranges::count(passes, true));
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
@@ -326,7 +327,7 @@ void RefuseRowsOfWords(const CsvTable& table,
     const TextTimes times = column.is_text() ? ReadTimes(column) : TextTimes{};
     std::size_t words = 0;
     std::size_t missing = 0;
-    std::ptrdiff_t first = -1;
+    std::vector<std::size_t> rows;
     for (const auto& [row, text] : column.exceptions) {
       if (!passes[row] || (column.is_text() && times.seconds[text])) continue;
       const std::string& cell = column.texts[text];
@@ -337,20 +338,29 @@ void RefuseRowsOfWords(const CsvTable& table,
       ++words;
       const bool out_of_place =
           IsSummary(cell) || (numbering[i] && !HasDigit(cell));
-      if (first < 0 && out_of_place) first = static_cast<std::ptrdiff_t>(row);
+      if (out_of_place) rows.push_back(row);
     }
     const std::size_t usual = num_rows - words - missing;
-    if (first < 0 || 100 * usual < kUsualPercent * (num_rows - missing)) {
+    if (rows.empty() || 100 * usual < kUsualPercent * (num_rows - missing)) {
       continue;
     }
-    const auto row = static_cast<std::size_t>(first);
+    const std::size_t row = rows.front();
+    if (missing_policy == MissingPolicy::kDropRows) {
+      for (const std::size_t at : rows) {
+        passes[at] = false;
+        left_out.push_back(static_cast<Index>(at));
+      }
+      continue;
+    }
     throw InputError(table.Where(row, column.name) + ": " +
                      QuotedText(table.CellText(column, row)) +
                      " where the other rows have " +
                      (column.is_text() ? "times" : "numbers") +
                      ": a row of totals or a remark is no measurement; remove "
-                     "it, or start it with #");
+                     "it, start it with #, or leave it out with " +
+                     ArgumentName("missing", "drop-rows"));
   }
+  return left_out;
 }
 
 std::vector<Index> RepeatedRows(const CsvTable& table,
@@ -396,8 +406,8 @@ std::vector<ColumnFault> FindSlippedPoints(const MeasuredColumns& measured) {
   constexpr double kNear = 2.0;  // once the point is put right
   constexpr Index kRowsPerSlip = 20;
   const VectorXd& target = measured.target_values;
-  std::vector<Index> all(static_cast<std::size_t>(target.size()));
-  std::iota(all.begin(), all.end(), Index{0});
+  const std::vector<Index> all =
+      AllRows(static_cast<std::size_t>(target.size()));
   const VectorXd predicted = LinearPrediction(measured, all);
   if (predicted.size() == 0) return {};
   const double sd = SpreadOfMisses(measured, predicted, all);

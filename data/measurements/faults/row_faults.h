@@ -4,16 +4,20 @@
 
 #include "data/csv.h"
 #include "data/measurements/column_faults.h"
+#include "data/measurements/dataset.h"
 
 namespace errmap::data {
 
-/// Throws InputError where a row that passes (one flag per row of the table) is
-/// no measurement but a row of totals or a remark: text where nearly all other
-/// rows have a number or a time; in columns that number the rows (`numbering`,
-/// one flag per column) any word, elsewhere one such as "Mean".
-void RefuseRowsOfWords(const CsvTable& table,
-                       const std::vector<bool>& numbering,
-                       const std::vector<bool>& passes);
+/// Rows that pass (one flag per row of the table) and are no measurements but
+/// totals or remarks: text where nearly all other rows have a number or a time;
+/// in columns that number the rows (`numbering`, one flag per column) any word,
+/// elsewhere one such as "Mean". With kDropRows they pass no longer; else
+/// throws InputError where there is one.
+std::vector<Eigen::Index> LeaveOutRowsOfWords(
+    const CsvTable& table,
+    const std::vector<bool>& numbering,
+    MissingPolicy missing_policy,
+    std::vector<bool>* passing);
 
 /// Rows that pass and repeat an earlier one value for value in all named
 /// columns, ascending; none where the target's values are so few that rows may

@@ -16,6 +16,11 @@ constexpr Index kFewCells = 3;
 
 }  // namespace
 
+double DegreeIn(const Unit& unit) {
+  const Unit degc = UnitOfSymbol("degC");
+  return Converted(1.0, degc, unit) - Converted(0.0, degc, unit);
+}
+
 ColumnFault MakeFault(const MeasuredColumns& measured,
                       FaultKind kind,
                       Index input,

@@ -32,6 +32,9 @@ struct Bounds {
   double high = 0.0;
 };
 
+/// A difference of 1 degC in another unit.
+double DegreeIn(const Unit& unit);
+
 /// A fault of `rows` (from 0); of single cells where its kind is of cells and
 /// they are few.
 ColumnFault MakeFault(const MeasuredColumns& measured,

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <iterator>
 #include <limits>
+#include <set>
 
 #include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
@@ -55,6 +58,28 @@ bool CountsOn(const Eigen::Ref<const Eigen::VectorXd>& values,
     highest = std::max(highest, value);
   }
   return true;
+}
+
+bool NumberEach(const Eigen::Ref<const Eigen::VectorXd>& values,
+                Eigen::Index sessions) {
+  constexpr Eigen::Index kFewest = 3;
+  if (sessions < kFewest) return false;
+  std::set<double> numbers;
+  for (const double value : values) {
+    if (value != std::floor(value)) return false;
+    numbers.insert(value);
+    if (std::ssize(numbers) > sessions) return false;
+  }
+  return std::ssize(numbers) == sessions;
+}
+
+bool HasTwoValues(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  std::set<double> found;
+  for (const double value : values) {
+    if (!std::isnan(value)) found.insert(value);
+    if (found.size() > 2) return false;
+  }
+  return found.size() == 2;
 }
 
 RepeatedInputs::Found RepeatedInputs::Look(const Dataset::Parts& parts) {

@@ -26,6 +26,14 @@ IdleInput HowIdle(const Eigen::Ref<const Eigen::VectorXd>& values);
 bool CountsOn(const Eigen::Ref<const Eigen::VectorXd>& values,
               const std::vector<Eigen::Index>& sessions);
 
+/// Whether values (m) are whole numbers, one for each of `sessions` (at least
+/// three): the day of the year.
+bool NumberEach(const Eigen::Ref<const Eigen::VectorXd>& values,
+                Eigen::Index sessions);
+
+/// Whether values (m; NaN apart) are of two kinds, as those of a switch.
+bool HasTwoValues(const Eigen::Ref<const Eigen::VectorXd>& values);
+
 /// Tells which inputs repeat another value for value. Columns are met by their
 /// hash, so that many stay cheap.
 class RepeatedInputs {

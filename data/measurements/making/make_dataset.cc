@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -18,6 +19,7 @@
 #include "data/measurements/faults/row_faults.h"
 #include "data/measurements/making/idle_inputs.h"
 #include "data/measurements/making/leaking_inputs.h"
+#include "data/measurements/making/parts.h"
 #include "data/measurements/making/value_checks.h"
 #include "data/measurements/making/word_columns.h"
 #include "data/measurements/reading/read_table.h"
@@ -91,10 +93,6 @@ class DatasetBuilder {
     return info;
   }
 
-  void Drop(std::size_t index, const std::string& why) {
-    dropped_.push_back({.column = Name(index), .why = why});
-  }
-
   // ---- Which rows and columns.
 
   // Those that may be used, and their sessions.
@@ -129,22 +127,33 @@ class DatasetBuilder {
         remarks_.end(), chosen.remarks.begin(), chosen.remarks.end());
   }
 
-  // Where a position was measured is known after the fact only.
+  // Where a position was measured is known after the fact only; what numbers
+  // the positions says them once more.
   void LeaveOutMeasuredPositions() {
+    const std::string axis = NameInRemark(read_.position);
     for (const std::size_t column : read_.axis.measured) {
-      const auto found = std::ranges::find(inputs_, column);
-      if (found == inputs_.end() || IsNamed(Name(column))) continue;
-      const std::string why = read_.position.empty()
-                                  ? "reads the position, which holds the error"
-                                  : "reads the position that " +
-                                        NameInRemark(read_.position) +
-                                        " commands";
-      inputs_.erase(found);
-      Drop(column, why);
-      remarks_.push_back("input " + NameInRemark(Name(column)) + " " + why +
-                         " and is left out; name it in " +
-                         ArgumentName("inputs") + " to use it");
+      LeaveOut(column,
+               read_.position.empty()
+                   ? "reads the position, which holds the error"
+                   : "reads the position that " + axis + " commands");
     }
+    for (const std::size_t column : read_.axis.numbers) {
+      LeaveOut(column, "numbers the positions of " + axis);
+    }
+  }
+
+  void LeaveOut(std::size_t column, const std::string& why) {
+    const auto found = std::ranges::find(inputs_, column);
+    if (found == inputs_.end() || IsNamed(Name(column))) return;
+    inputs_.erase(found);
+    LeaveOutColumn(column, why);
+  }
+
+  // Of those that nobody named.
+  void LeaveOutColumn(std::size_t column, const std::string& why) {
+    LeaveOutInput(Name(column),
+                  why,
+                  "; name it in " + ArgumentName("inputs") + " to use it");
   }
 
   // ---- In which units.
@@ -208,6 +217,7 @@ class DatasetBuilder {
                    parts_.target_values);
     if (selection_.only_to_judge) return;
     if (auto remark = UnlikelySize(parts_.target, parts_.target_values)) {
+      AskForUnit();
       remarks_.push_back(std::move(*remark));
     }
     const double first = parts_.target_values(0);
@@ -221,6 +231,27 @@ class DatasetBuilder {
                        std::to_string(parts_.rows.size()) + " rows)") +
             ", so there is nothing to map; name another with " +
             ArgumentName("target"));
+  }
+
+  // A unit that nobody stated and that the values speak against.
+  void AskForUnit() const {
+    constexpr std::size_t kFewestRows = 12;
+    constexpr double kMost = 1.0;  // mm
+    const std::string& name = Name(roles_.target);
+    const double size = parts_.target_values.norm();
+    if (ReadHeader(name).source == UnitSource::kStated ||
+        parts_.rows.size() < kFewestRows ||
+        size * size < kMost * static_cast<double>(parts_.rows.size())) {
+      return;
+    }
+    throw OpenQuestion(
+        PrintablePath(table_.file),
+        {.topic = "unit",
+         .question = "in which unit is " + QuotedName(name) + "?",
+         .answers = {{.option = ArgumentName("target", name + " [um]"),
+                      .means = "in um"},
+                     {.option = ArgumentName("target", name + " [mm]"),
+                      .means = "in mm"}}});
   }
 
   void RequireSquaresOfInputs() const {
@@ -299,10 +330,7 @@ class DatasetBuilder {
                          "; both are kept");
       return false;
     }
-    Drop(input, why);
-    remarks_.push_back("input " + NameInRemark(Name(input)) + " " + why +
-                       " and is left out; name it in " +
-                       ArgumentName("inputs") + " to use it");
+    LeaveOutColumn(input, why);
     return true;
   }
 
@@ -337,7 +365,7 @@ class DatasetBuilder {
     if (std::optional<ColumnFault> drift =
             FindColdDrift(measured,
                           NumSessions() == 0 ? std::vector<Eigen::Index>()
-                                             : RunsIn(SessionOfRows()),
+                                             : RunStarts(SessionOfRows()),
                           faults_)) {
       faults_.push_back(*std::move(drift));
     }
@@ -363,17 +391,7 @@ class DatasetBuilder {
         kept.push_back(static_cast<Eigen::Index>(i));
       }
     }
-    if (kept.size() == parts_.rows.size()) return;
-    std::vector<Eigen::Index> rows;
-    for (const Eigen::Index i : kept) {
-      rows.push_back(parts_.rows[static_cast<std::size_t>(i)]);
-    }
-    parts_.rows = std::move(rows);
-    parts_.target_values = parts_.target_values(kept).eval();
-    parts_.input_values = parts_.input_values(kept, Eigen::all).eval();
-    if (parts_.weights.size() != 0) {
-      parts_.weights = parts_.weights(kept).eval();
-    }
+    KeepRows(kept, &parts_);
   }
 
   bool IsNamed(const std::string& input) const {
@@ -382,12 +400,17 @@ class DatasetBuilder {
   }
 
   // A remark, which the answer repeats where somebody asked for the input.
-  void SayLeftOut(const std::string& input, const std::string& what) {
-    remarks_.push_back("input " + NameInRemark(input) + " " + what);
-    if (IsNamed(input)) {
-      doubts_.push_back("The input " + NameInRemark(input) + ", asked for by " +
-                        ArgumentName("inputs") + ", " + what + ".");
-    }
+  void LeaveOutInput(const std::string& input,
+                     const std::string& why,
+                     const std::string& behind) {
+    dropped_.push_back({.column = input, .why = why});
+    const std::string what =
+        NameInRemark(input) + " " + why + " and is left out" + behind;
+    remarks_.push_back("input " + what);
+    if (!IsNamed(input)) return;
+    doubts_.push_back("The input " + NameInRemark(input) + ", asked for by " +
+                      ArgumentName("inputs") + ", " +
+                      what.substr(NameInRemark(input).size() + 1) + ".");
   }
 
   void ReportIdle(const std::string& input, const IdleInput& idle) {
@@ -402,37 +425,23 @@ class DatasetBuilder {
                          " and is kept");
       return;
     }
-    dropped_.push_back({.column = input, .why = why});
-    SayLeftOut(
-        input,
-        why + " and is left out; " + ArgumentName("keep_dead") + " keeps it");
+    LeaveOutInput(input, why, "; " + ArgumentName("keep_dead") + " keeps it");
   }
 
-  // Those of `parts_.inputs` that are not marked.
+  // Those of `parts_.inputs` that are not marked, and the faults of these.
   void KeepInputs(const std::vector<bool>& left_out) {
-    std::vector<Eigen::Index> kept;
-    std::vector<ColumnInfo> inputs;
-    std::vector<Eigen::Index> place(left_out.size(), -1);
-    for (std::size_t i = 0; i < left_out.size(); ++i) {
-      if (left_out[i]) continue;
-      place[i] = static_cast<Eigen::Index>(kept.size());
-      kept.push_back(static_cast<Eigen::Index>(i));
-      inputs.push_back(std::move(parts_.inputs[i]));
+    if (std::ranges::count(left_out, true) == 0) return;
+    if (std::ranges::count(left_out, false) == 0) {
+      ThrowNoInputs(table_, dropped_);
     }
-    if (kept.size() == left_out.size()) {
-      parts_.inputs = std::move(inputs);
-      return;
-    }
-    if (kept.empty()) ThrowNoInputs(table_, dropped_);
-    parts_.inputs = std::move(inputs);
-    parts_.input_values = parts_.input_values(Eigen::all, kept).eval();
     std::erase_if(faults_, [&](const ColumnFault& fault) {
       return fault.input >= 0 &&
              left_out[static_cast<std::size_t>(fault.input)];
     });
+    const std::vector<Eigen::Index> places = LeaveOutInputs(left_out, &parts_);
     for (ColumnFault& fault : faults_) {
       if (fault.input < 0) continue;
-      fault.input = place[static_cast<std::size_t>(fault.input)];
+      fault.input = places[static_cast<std::size_t>(fault.input)];
     }
   }
 
@@ -445,14 +454,11 @@ class DatasetBuilder {
                                       parts_.input_values)) {
       for (const Eigen::Index input : leak.left_out) {
         left_out[static_cast<std::size_t>(input)] = true;
-        const std::string& name =
-            parts_.inputs[static_cast<std::size_t>(input)].name;
-        const std::string what = "holds the error itself (" +
-                                 NameInRemark(parts_.target.name) + " = " +
-                                 leak.formula + " in all rows, to rounding)";
-        dropped_.push_back({.column = name, .why = what});
-        SayLeftOut(name,
-                   what + " and is left out: no control knows it beforehand");
+        LeaveOutInput(parts_.inputs[static_cast<std::size_t>(input)].name,
+                      "holds the error itself (" +
+                          NameInRemark(parts_.target.name) + " = " +
+                          leak.formula + " in all rows, to rounding)",
+                      ": no control knows it beforehand");
       }
     }
     KeepInputs(left_out);
@@ -466,17 +472,17 @@ class DatasetBuilder {
     std::vector<bool> left_out(parts_.inputs.size(), false);
     for (std::size_t i = 0; i < left_out.size(); ++i) {
       const ColumnInfo& input = parts_.inputs[i];
-      if (IsNamed(input.name) || !CountsCycles(input) ||
-          !CountsOn(parts_.input_values.col(static_cast<Eigen::Index>(i)),
-                    sessions)) {
+      const auto values = parts_.input_values.col(static_cast<Eigen::Index>(i));
+      if (IsNamed(input.name) ||
+          !(CountsCycles(input) ||
+            (input.unit.symbol.empty() && NumberEach(values, NumSessions()))) ||
+          !CountsOn(values, sessions)) {
         continue;
       }
       left_out[i] = true;
-      const std::string what = "counts on from session to session";
-      dropped_.push_back({.column = input.name, .why = what});
-      SayLeftOut(input.name,
-                 what + " and is left out; name it in " +
-                     ArgumentName("inputs") + " to use it");
+      LeaveOutInput(input.name,
+                    "counts on from session to session",
+                    "; name it in " + ArgumentName("inputs") + " to use it");
     }
     KeepInputs(left_out);
   }
@@ -494,13 +500,11 @@ class DatasetBuilder {
           parts_.inputs[static_cast<std::size_t>(fault.input)].name;
       if (IsNamed(name)) continue;  // the fault is told
       left_out[static_cast<std::size_t>(fault.input)] = true;
-      const std::string what = "is dead (stuck at " + CsvNumber(fault.value) +
-                               " from data row " +
-                               std::to_string(fault.rows.front()) + " on)";
-      dropped_.push_back({.column = name, .why = what});
-      SayLeftOut(name,
-                 what + " and is left out; " + ArgumentName("keep_dead") +
-                     " keeps it");
+      LeaveOutInput(name,
+                    "is dead (stuck at " + CsvNumber(fault.value) +
+                        " from data row " + std::to_string(fault.rows.front()) +
+                        " on)",
+                    "; " + ArgumentName("keep_dead") + " keeps it");
     }
     KeepInputs(left_out);
   }

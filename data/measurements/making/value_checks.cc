@@ -1,7 +1,6 @@
 #include "data/measurements/making/value_checks.h"
 
 #include <cmath>
-#include <limits>
 
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
@@ -23,8 +22,7 @@ std::optional<std::string> UnlikelySize(const ColumnInfo& target,
   return NameInRemark(target.name) + " is " + Rounded(rms) + " " +
          target.unit.symbol + " RMS, " + (size > kMost ? "more" : "less") +
          " than machine tools err by; if it is in another unit, write that "
-         "into "
-         "its name: error_um, 'error [mm]'";
+         "into its name: error_um, 'error [mm]'";
 }
 
 void RequireSquares(const CsvTable& table,
@@ -43,26 +41,6 @@ void RequireSquares(const CsvTable& table,
       ": the largest " + what + ", " + CsvNumber(values[row]) +
       ", is no size between 1e-100 and 1e100, whose squares can be summed; "
       "correct it or choose another unit");
-}
-
-bool HasTwoValues(const Eigen::Ref<const Eigen::VectorXd>& values) {
-  double other = std::numeric_limits<double>::quiet_NaN();
-  for (const double value : values) {
-    if (value == values[0] || std::isnan(value)) continue;
-    if (std::isnan(other)) other = value;
-    if (value != other) return false;
-  }
-  return !std::isnan(other);
-}
-
-std::vector<Eigen::Index> RunsIn(const std::vector<Eigen::Index>& codes) {
-  std::vector<Eigen::Index> starts;
-  for (std::size_t i = 0; i < codes.size(); ++i) {
-    if (i == 0 || codes[i] != codes[i - 1]) {
-      starts.push_back(static_cast<Eigen::Index>(i));
-    }
-  }
-  return starts;
 }
 
 }  // namespace errmap::data

@@ -26,10 +26,4 @@ void RequireSquares(const CsvTable& table,
                     const std::string& column,
                     const Eigen::Ref<const Eigen::VectorXd>& values);
 
-/// Whether values (NaN apart) are of two kinds, as those of a switch.
-bool HasTwoValues(const Eigen::Ref<const Eigen::VectorXd>& values);
-
-/// Where runs of equal codes begin.
-std::vector<Eigen::Index> RunsIn(const std::vector<Eigen::Index>& codes);
-
 }  // namespace errmap::data

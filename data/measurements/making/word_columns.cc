@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "data/argument_name.h"
+#include "data/columns.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/least_squares.h"
 #include "data/measurements/rounded.h"
@@ -36,19 +38,14 @@ double SquaresLeft(const std::vector<Index>& rows,
 PartingColumn PartBy(const CsvTable& table,
                      const CsvColumn& column,
                      const std::vector<Index>& rows) {
-  PartingColumn parting{.name = column.name, .values = {}, .codes = {}};
-  for (const Index row : rows) {
-    std::string value = table.CellText(column, static_cast<std::size_t>(row));
-    if (IsMissingText(value)) return {.name = column.name};
-    const auto found = std::ranges::find(parting.values, value);
-    parting.codes.push_back(
-        static_cast<std::size_t>(found - parting.values.begin()));
-    if (found != parting.values.end()) continue;
-    if (parting.values.size() == kMostParts) return {.name = column.name};
-    parting.values.push_back(std::move(value));
+  auto [labels, codes] = LabelsOf(table, column, rows, kMostParts);
+  if (labels.size() < 2 || labels.size() > kMostParts ||
+      std::ranges::any_of(labels, IsMissingText)) {
+    return {.name = column.name};
   }
-  if (parting.values.size() < 2) return {.name = column.name};
-  return parting;
+  return {.name = column.name,
+          .values = std::move(labels),
+          .codes = std::move(codes)};
 }
 
 PartingEffect EffectOfParting(const PartingColumn& column,

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 #include "data/argument_name.h"
+#include "data/column_words.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
-#include "data/measurements/reading/column_words.h"
 #include "data/units.h"
 
 namespace errmap::data {
@@ -15,23 +16,13 @@ namespace {
 
 using Eigen::Index;
 
-bool IsLengthOrAngle(const Unit& unit) {
-  return unit.quantity == Quantity::kLength ||
-         unit.quantity == Quantity::kAngle;
-}
-
-// What errors are in, and positions hardly ever.
-bool IsSmall(const Unit& unit) {
-  constexpr std::string_view kSmall[] = {"nm", "um", "uin", "arcsec", "urad"};
-  return std::ranges::count(kSmall, std::string_view(unit.symbol)) > 0;
-}
-
 struct Candidate {
   std::size_t column = 0;
   bool named = false;
   bool nominal = false;
   bool measured = false;
   bool constant = false;
+  bool numbers = false;  // 1, 2, 3, ... without a unit
   Levels levels = {};
   Motion motion = {};
 
@@ -45,10 +36,11 @@ struct Candidate {
     return moves;
   }
 
-  // Higher is likelier.
+  // Higher is likelier. What numbers positions is beside what measures them.
   int Rank() const {
-    return (motion.is_commanded ? 8 : 0) + (named ? 4 : 0) + (nominal ? 2 : 0) -
-           (measured ? 3 : 0) - (levels.width > 0.0 ? 1 : 0);
+    return (motion.is_commanded ? 8 : 0) + (named && !measured ? 4 : 0) +
+           (nominal ? 2 : 0) - (measured ? 3 : 0) -
+           (levels.width > 0.0 ? 1 : 0) - (numbers ? 7 : 0);
   }
 };
 
@@ -69,11 +61,26 @@ class AxisFinder {
       axis_.evidence = Evidence::kUser;
       axis_.positions.push_back(index);
       AddNamed();
+      FindNumbers();
+      FindReadings();
       return std::move(axis_);
     }
     std::vector<Candidate> candidates = Named();
-    if (candidates.empty()) candidates = ByValues();
+    if (candidates.empty()) {
+      candidates = ByValues();
+    } else if (std::ranges::all_of(candidates, [](const Candidate& named) {
+                 return named.numbers || named.measured;
+               })) {
+      // What numbers positions, or reads them, is called so, too.
+      for (Candidate& other : ByValues()) {
+        if (IsLengthOrAngle(UnitOfColumn(Name(other.column)))) {
+          candidates.push_back(std::move(other));
+        }
+      }
+    }
     if (!candidates.empty()) Choose(&candidates);
+    FindNumbers();
+    FindReadings();
     return std::move(axis_);
   }
 
@@ -108,6 +115,9 @@ class AxisFinder {
     candidate.levels = LevelsOf(values);
     candidate.motion = MotionThrough(candidate.levels);
     candidate.constant = candidate.levels.centers.size() <= 1;
+    candidate.numbers =
+        ReadHeader(Name(column)).source != UnitSource::kStated &&
+        AreSuccessive(candidate.levels.centers);
     return candidate;
   }
 
@@ -132,7 +142,8 @@ class AxisFinder {
     std::size_t looked = 0;
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       const Unit unit = UnitOfColumn(Name(i));
-      if (!IsFree(i) || IsSmall(unit) ||
+      const bool is_error = IsUnitOfErrors(unit) && !IsAxisLetter(Name(i));
+      if (!IsFree(i) || is_error || IsCalledPosition(Name(i)) ||
           !(IsLengthOrAngle(unit) || unit.symbol.empty()) ||
           Says(Name(i), Word::kTemperature) ||
           Says(Name(i), Word::kDirection) ||
@@ -159,8 +170,10 @@ class AxisFinder {
         std::ranges::any_of(*candidates, &Candidate::constant) &&
         !best.motion.is_commanded;
     for (const Candidate& other : *candidates) {
-      const bool reads = &other != &best && !other.motion.is_commanded &&
-                         !other.constant && IsReadBeside(other, best);
+      const bool varies =
+          !other.motion.is_commanded || other.levels.width > best.levels.width;
+      const bool reads = &other != &best && varies && !other.constant &&
+                         IsReadBeside(other, best);
       (reads ? axis_.measured : axis_.positions).push_back(other.column);
     }
     if (best.constant) return;
@@ -188,20 +201,83 @@ class AxisFinder {
                                         : std::move(candidates->front()));
   }
 
+  // Whole numbers from 0 or 1 on, each one more than the one before.
+  static bool AreSuccessive(const std::vector<double>& levels) {
+    if (levels.size() < 3 || !(levels[0] == 0.0 || levels[0] == 1.0)) {
+      return false;
+    }
+    for (std::size_t i = 1; i < levels.size(); ++i) {
+      if (levels[i] != levels[i - 1] + 1.0) return false;
+    }
+    return true;
+  }
+
   // Whether one column is the other as an instrument read it.
   bool IsReadBeside(const Candidate& read, const Candidate& commanded) const {
     if (!commanded.motion.is_commanded) return false;
+    const Unit of_read = UnitOfColumn(Name(read.column));
+    const Unit of_commanded = UnitOfColumn(Name(commanded.column));
+    const bool converts = AreConvertible(of_read, of_commanded);
     const auto& a = table_.columns[read.column].values;
     const auto& b = table_.columns[commanded.column].values;
     const Levels& levels = commanded.levels;
     const double spacing = (levels.centers.back() - levels.centers.front()) /
                            static_cast<double>(levels.centers.size() - 1);
     for (const Index row : rows_) {
+      const double value = a[static_cast<std::size_t>(row)];
       const double away =
-          a[static_cast<std::size_t>(row)] - b[static_cast<std::size_t>(row)];
+          (converts ? Converted(value, of_read, of_commanded) : value) -
+          b[static_cast<std::size_t>(row)];
       if (std::abs(away) > 0.25 * spacing) return false;
     }
     return true;
+  }
+
+  // Columns whose whole numbers go with the positions, one each.
+  void FindNumbers() {
+    const std::vector<Index>& codes = axis_.levels.codes;
+    if (!axis_.motion.is_commanded || codes.size() != rows_.size()) return;
+    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+      if (std::cmp_equal(i, axis_.column) ||
+          ReadHeader(Name(i)).source == UnitSource::kStated || !IsFree(i)) {
+        continue;
+      }
+      const ColumnValues& values = table_.columns[i].values;
+      std::vector<double> number(axis_.levels.centers.size(), std::nan(""));
+      const bool goes_with = std::ranges::all_of(
+          std::views::iota(std::size_t{0}, rows_.size()), [&](std::size_t k) {
+            const double value = values[static_cast<std::size_t>(rows_[k])];
+            if (codes[k] < 0 || value != std::floor(value)) return false;
+            double& known = number[static_cast<std::size_t>(codes[k])];
+            if (std::isnan(known)) known = value;
+            return known == value;
+          });
+      if (!goes_with) continue;
+      const bool rises = number.front() < number.back();
+      if (!rises) std::ranges::reverse(number);
+      if (std::ranges::adjacent_find(number, std::greater_equal<>()) ==
+          number.end()) {
+        axis_.numbers.push_back(i);
+        std::erase(axis_.positions, i);
+      }
+    }
+  }
+
+  // Columns of no name that says it whose lengths go with the axis.
+  void FindReadings() {
+    if (!axis_.motion.is_commanded) return;
+    const Candidate axis{.column = static_cast<std::size_t>(axis_.column),
+                         .levels = axis_.levels,
+                         .motion = axis_.motion};
+    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+      if (i == axis.column || !IsLengthOrAngle(UnitOfColumn(Name(i))) ||
+          std::ranges::count(axis_.measured, i) > 0 ||
+          std::ranges::count(axis_.positions, i) > 0 || !IsFree(i) ||
+          !IsReadBeside({.column = i}, axis)) {
+        continue;
+      }
+      axis_.measured.push_back(i);
+    }
   }
 
   void TakeFrom(Candidate candidate) {
@@ -229,21 +305,6 @@ class AxisFinder {
 };
 
 }  // namespace
-
-bool IsCalledPosition(std::string_view name) {
-  const Header header = ReadHeader(name);
-  const bool fits = header.source == UnitSource::kNone ||
-                    header.source == UnitSource::kAssumed ||
-                    (IsLengthOrAngle(header.unit) && !IsSmall(header.unit));
-  const std::vector<std::string> words = WordsOf(name);
-  if (SayAny(words, Word::kError) || SayAny(words, Word::kCorrection)) {
-    return false;
-  }
-  return NamesPosition(name) ||
-         (fits && (SayAny(words, Word::kPosition) ||
-                   (SayAny(words, Word::kNominal) && words.size() <= 2) ||
-                   IsAxisLetter(name)));
-}
 
 Axis FindAxis(const CsvTable& table,
               const DatasetSelection& selection,

@@ -22,6 +22,7 @@ struct Axis {
   std::optional<std::string> alternative;
   std::vector<std::size_t> positions;  // all columns of positions, it included
   std::vector<std::size_t> measured;   // positions as read beside it
+  std::vector<std::size_t> numbers;    // whole numbers that go with it
 };
 
 /// The column that `selection` names, else the one whose values come again as
@@ -31,9 +32,5 @@ Axis FindAxis(const CsvTable& table,
               const DatasetSelection& selection,
               std::size_t target,
               const std::vector<Eigen::Index>& rows);
-
-/// Whether a column is a position by its name: "position_mm", "x_pos_mm",
-/// "Sollposition [mm]", "X [mm]".
-bool IsCalledPosition(std::string_view name);
 
 }  // namespace errmap::data

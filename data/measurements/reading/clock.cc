@@ -1,14 +1,17 @@
 #include "data/measurements/reading/clock.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 
 #include "data/argument_name.h"
+#include "data/column_words.h"
 #include "data/measurements/column_checks.h"
+#include "data/measurements/column_roles.h"
 #include "data/measurements/date_time.h"
-#include "data/measurements/reading/column_words.h"
+#include "data/measurements/reading/axis.h"
+#include "data/measurements/reading/row_columns.h"
+#include "data/measurements/reading/time_units.h"
 #include "data/measurements/sessions.h"
 #include "data/measurements/text_times.h"
 #include "data/text.h"
@@ -19,130 +22,12 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kSecondsOfDay = 86400.0;
-
-struct TimeUnit {
-  std::string_view name;
-  double seconds;
-};
-constexpr auto kTimeUnits = std::to_array<TimeUnit>({{"s", 1.0},
-                                                     {"ms", 1e-3},
-                                                     {"us", 1e-6},
-                                                     {"ns", 1e-9},
-                                                     {"min", 60.0},
-                                                     {"h", 3600.0},
-                                                     {"days", kSecondsOfDay}});
-
-const TimeUnit* FindTimeUnit(std::string_view name) {
-  const auto* const found =
-      std::ranges::find(kTimeUnits, name, &TimeUnit::name);
-  return found == kTimeUnits.end() ? nullptr : found;
-}
-
-// What a name says of the unit of its times; null: nothing.
-const TimeUnit* StatedUnit(std::string_view column) {
-  const Header header = ReadHeader(column);
-  if (const TimeUnit* unit = FindTimeUnit(header.unit.symbol)) return unit;
-  const std::vector<std::string> words = WordsOf(column);
-  const std::string last = words.empty() ? "" : words.back();
-  if (last == "d" || last == "day" || last == "days" || last == "tage") {
-    return words.size() > 1 ? FindTimeUnit("days") : nullptr;
-  }
-  for (const std::string& text : {last, header.unit_text}) {
-    if (text == "us" || text == "ns") return FindTimeUnit(text);
-    if (text == "sec" || text == "seconds" || text == "sek") {
-      return FindTimeUnit("s");
-    }
-  }
-  return nullptr;
-}
-
-// Steps and span of times as they stand.
-struct Pace {
-  double least = 0.0;
-  double most = 0.0;
-  double step = 0.0;  // median of those above 0
-
-  // 0.01 s to a day, under ten years.
-  bool MayBeIn(const TimeUnit& unit) const {
-    constexpr double kLeastStep = 0.01;
-    constexpr double kMostSpan = 3653.0 * kSecondsOfDay;
-    return !std::isfinite(step) ||
-           (step * unit.seconds >= 0.999 * kLeastStep &&
-            step * unit.seconds <= 1.001 * kSecondsOfDay &&
-            (most - least) * unit.seconds < kMostSpan);
-  }
-};
-
-Pace PaceOf(std::vector<double> values) {
-  std::erase_if(values, [](double value) { return std::isnan(value); });
-  if (values.empty()) return {};
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    steps.push_back(std::abs(values[i] - values[i - 1]));
-  }
-  // Rows in another order have long steps; sorted, they have their own.
-  std::vector<double> sorted = values;
-  std::ranges::sort(sorted);
-  std::vector<double> in_order;
-  for (std::size_t i = 1; i < sorted.size(); ++i) {
-    in_order.push_back(sorted[i] - sorted[i - 1]);
-  }
-  const double step =
-      std::min(MedianStep(std::move(steps)), MedianStep(std::move(in_order)));
-  return {sorted.front(), sorted.back(), step};
-}
-
-// Seconds of 20260302080000; NaN where it is no such number.
-double SecondsOfDigits(double number) {
-  if (!(number >= 19800101000000.0 && number < 20700101000000.0)) {
-    return std::nan("");
-  }
-  const std::string text = CsvNumber(std::floor(number));
-  if (text.size() != 14) return std::nan("");
-  const auto part = [&](std::size_t at, std::size_t size) {
-    return text.substr(at, size);
-  };
-  const auto parsed =
-      ParseDateTime(part(0, 4) + "-" + part(4, 2) + "-" + part(6, 2) + " " +
-                    part(8, 2) + ":" + part(10, 2) + ":" + part(12, 2));
-  return parsed ? parsed->seconds + number - std::floor(number) : std::nan("");
-}
-
-// Numbers that count from 1970 (or are Excel's days) whatever their unit is
-// called: the years 1990 to 2060 in each unit do not meet.
-struct Epoch {
-  const TimeUnit* unit;
-  double offset;  // seconds from 1970 to 0
-};
-std::optional<Epoch> EpochOf(const Pace& pace, bool by_name) {
-  constexpr double kFrom = 6.3e8;
-  constexpr double kTo = 2.84e9;
-  for (const char* name : {"s", "ms", "us", "ns"}) {
-    const TimeUnit* unit = FindTimeUnit(name);
-    if (pace.least * unit->seconds >= kFrom &&
-        pace.most * unit->seconds <= kTo && pace.MayBeIn(*unit)) {
-      return Epoch{unit, 0.0};
-    }
-  }
-  // Excel counts days from 30 December 1899.
-  constexpr double kDaysTo1970 = 25569.0;
-  const TimeUnit* days = FindTimeUnit("days");
-  const double from = (pace.least - kDaysTo1970) * kSecondsOfDay;
-  const double to = (pace.most - kDaysTo1970) * kSecondsOfDay;
-  if (by_name && from >= kFrom && to <= kTo && pace.MayBeIn(*days) &&
-      pace.step < 1.0) {
-    return Epoch{days, -kDaysTo1970 * kSecondsOfDay};
-  }
-  return std::nullopt;
-}
-
-class ClockFinder {
+class ClockFinder : private RowColumns {
  public:
   ClockFinder(const CsvTable& table,
               const DatasetSelection& selection,
               const std::vector<Index>& rows)
-      : table_(table), selection_(selection), rows_(rows) {
+      : RowColumns(table, selection, rows) {
     UseRowNumbers();
   }
 
@@ -151,10 +36,13 @@ class ClockFinder {
       return std::move(clock_);
     }
     if (!selection_.time.empty()) {
-      Take(NamedColumn(), true);
+      Take(NamedColumn(selection_.time, ArgumentName("time")), true);
       return std::move(clock_);
     }
-    for (const auto& candidates : Candidates()) {
+    for (std::vector<std::size_t> candidates : Candidates()) {
+      if (candidates.size() > 1 && table_.At(candidates[0]).is_text()) {
+        TakeLikeliest(&candidates);
+      }
       if (candidates.size() > 1) {
         clock_.remarks.push_back(
             "several columns could be the time; name one with " +
@@ -168,30 +56,26 @@ class ClockFinder {
   }
 
  private:
+  // Of several columns of dates the one that is called a time, else the first.
+  void TakeLikeliest(std::vector<std::size_t>* candidates) {
+    const auto called =
+        std::ranges::find_if(*candidates, [&](std::size_t column) {
+          const std::string& name = table_.columns[column].name;
+          return IsCalled(name, Word::kTime) || IsCalled(name, Word::kDate);
+        });
+    const std::size_t taken =
+        called == candidates->end() ? candidates->front() : *called;
+    for (const std::size_t other : *candidates) {
+      if (other == taken) continue;
+      clock_.sure = false;
+      clock_.alternative = table_.columns[other].name;
+    }
+    *candidates = {taken};
+  }
+
   void UseRowNumbers() {
     clock_.known.assign(rows_.size(), true);
-    clock_.time.resize(std::ssize(rows_));
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      clock_.time[static_cast<Index>(i)] = static_cast<double>(rows_[i]);
-    }
-  }
-
-  // What is measured tells no time: filters would see the error itself.
-  bool IsMeasured(std::size_t column) const {
-    const std::string& name = table_.columns[column].name;
-    return name == selection_.target || name == selection_.weight;
-  }
-
-  std::size_t NamedColumn() const {
-    const std::size_t index =
-        RequireColumn(table_, selection_.time, ArgumentName("time"));
-    if (IsMeasured(index)) {
-      throw InputError(PrintablePath(table_.file) + ": column " +
-                       QuotedName(table_.columns[index].name) +
-                       " is the target or the weight; name another with " +
-                       ArgumentName("time"));
-    }
-    return index;
+    clock_.time = RowNumbers();
   }
 
   // Columns that could be the time, the likeliest first.
@@ -211,13 +95,9 @@ class ClockFinder {
         }
         continue;
       }
-      const Quantity quantity = UnitOfColumn(column.name).quantity;
-      const bool fits = quantity == Quantity::kTime ||
-                        UnitOfColumn(column.name).symbol.empty();
       if (NamesTime(column.name)) {
         found[StartsWithIgnoringCase(column.name, "time") ? 1 : 2].push_back(i);
-      } else if (fits && (Says(column.name, Word::kTime) ||
-                          Says(column.name, Word::kDate))) {
+      } else if (MayBeTime(column)) {
         found[4].push_back(i);
       }
     }
@@ -227,29 +107,101 @@ class ClockFinder {
     }
     if (std::ranges::all_of(found, [](const auto& of) { return of.empty(); })) {
       for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+        const CsvColumn& column = table_.columns[i];
         if (IsMeasured(i)) continue;
-        if (CountsFrom1970(table_.columns[i])) found[0].push_back(i);
-        if (GoesOn(table_.columns[i])) found[1].push_back(i);
+        if (CountsFrom1970(column)) found[0].push_back(i);
+        if (!GoesOn(column)) continue;
+        (IsCalledTime(column.name) ? found[1] : found[2]).push_back(i);
       }
     }
     return found;
   }
 
-  // What is in a unit of time and goes on with the rows.
-  bool GoesOn(const CsvColumn& column) const {
-    if (column.is_text() || !column.exceptions.empty() || rows_.size() < 2 ||
-        UnitOfColumn(column.name).quantity != Quantity::kTime) {
+  // Of a name that says a time or a date somewhere: in a unit of time, or by
+  // values as a clock has them. "temp data" and "heating time temp" are
+  // thermometers, "tempo" and "cas" may be, "elapsed_cycles" is a count.
+  bool MayBeTime(const CsvColumn& column) const {
+    const Unit unit = UnitOfColumn(column.name);
+    const bool says_time = Says(column.name, Word::kTime);
+    const bool says_date = Says(column.name, Word::kDate);
+    if (!(says_time || says_date) || Says(column.name, Word::kTemperature)) {
       return false;
     }
+    if (unit.quantity == Quantity::kTime) return true;
+    if (!unit.symbol.empty() || CountsCycles({column.name, {}})) return false;
     const std::vector<double> values = ValuesOf(column);
-    std::size_t back = 0;
+    const Pace pace = PaceOf(values);
+    const bool are_days = says_date && !AreWholeDays(values) &&
+                          EpochOf(pace, Named::kDate).has_value();
+    return are_days || CountsFrom1970(column) ||
+           (says_time &&
+            (GoesForward(values) ||
+             (IsCalled(column.name, Word::kTime) && AreEven(values))));
+  }
+
+  // With most rows, and seldom back.
+  static bool GoesForward(const std::vector<double>& values) {
     std::size_t on = 0;
+    std::size_t back = 0;
     for (std::size_t i = 1; i < values.size(); ++i) {
       on += values[i] > values[i - 1] ? 1 : 0;
       back += values[i] < values[i - 1] ? 1 : 0;
     }
     constexpr std::size_t kSeldom = 10;
     return 2 * on > values.size() && kSeldom * back < values.size();
+  }
+
+  // In whatever order: a step apart from one another, nearly all.
+  static bool AreEven(std::vector<double> values) {
+    std::erase_if(values, [](double value) { return std::isnan(value); });
+    std::ranges::sort(values);
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      steps.push_back(values[i] - values[i - 1]);
+    }
+    const double step = MedianStep(steps);
+    const auto even = std::ranges::count_if(steps, [&](double other) {
+      return std::abs(other - step) < 0.01 * step;
+    });
+    constexpr std::ptrdiff_t kNearlyAll = 90;  // percent
+    return 100 * even >= kNearlyAll * std::ssize(steps);
+  }
+
+  // In a unit of time, or called by one ("ms", "t").
+  static bool IsCalledTime(std::string_view name) {
+    return UnitOfColumn(name).quantity == Quantity::kTime ||
+           StatedUnit(name) != nullptr || EqualsIgnoringCase(name, "t");
+  }
+
+  // What goes on with the rows: in a unit of time most often, else with each
+  // row but where it begins anew, in steps that are not all the same, as those
+  // of a number of the row are.
+  bool GoesOn(const CsvColumn& column) const {
+    const bool called = IsCalledTime(column.name);
+    if (column.is_text() || !column.exceptions.empty() || rows_.size() < 2 ||
+        !(called || UnitOfColumn(column.name).symbol.empty())) {
+      return false;
+    }
+    const std::vector<double> values = ValuesOf(column);
+    if (called) return GoesForward(values);
+    if (Says(column.name, Word::kTemperature) ||
+        (Says(column.name, Word::kDate) && AreWholeDays(values))) {
+      return false;
+    }
+    std::size_t back = 0;
+    std::size_t on = 0;
+    bool even = true;
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      on += values[i] > values[i - 1] ? 1 : 0;
+      back += values[i] < values[i - 1] ? 1 : 0;
+      even = even && (i < 2 || std::abs(values[i] + values[i - 2] -
+                                        2.0 * values[i - 1]) < 1e-9);
+    }
+    constexpr std::size_t kFewest = 24;
+    constexpr std::size_t kHardly = 50;
+    return values.size() >= kFewest && !even &&
+           kHardly * back < values.size() && on + back + 1 == values.size() &&
+           !CountsCycles({column.name, {}}) && !IsCalledPosition(column.name);
   }
 
   bool CountsFrom1970(const CsvColumn& column) const {
@@ -260,7 +212,7 @@ class ClockFinder {
     }
     const std::vector<double> values = ValuesOf(column);
     return !std::isnan(SecondsOfDigits(values[0])) ||
-           EpochOf(PaceOf(values), false).has_value();
+           EpochOf(PaceOf(values), Named::kNothing).has_value();
   }
 
   // The only column of dates without hours, or -1.
@@ -277,10 +229,6 @@ class ClockFinder {
     return found;
   }
 
-  std::size_t DataRow(std::size_t i) const {
-    return static_cast<std::size_t>(rows_[i]);
-  }
-
   std::vector<double> ValuesOf(const CsvColumn& column) const {
     std::vector<double> values;
     values.reserve(rows_.size());
@@ -288,13 +236,6 @@ class ClockFinder {
       values.push_back(column.values[static_cast<std::size_t>(row)]);
     }
     return values;
-  }
-
-  // A column that somebody named must do; another is passed over.
-  void PassOver(bool named, const std::string& why, const std::string& remedy) {
-    if (named) throw InputError(why + "; " + remedy);
-    clock_.remarks.push_back(why + "; the column is passed over");
-    UseRowNumbers();
   }
 
   void Take(std::size_t index, bool named) {
@@ -306,24 +247,24 @@ class ClockFinder {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       if (!std::isnan(values[i])) continue;
       const std::size_t row = DataRow(i);
-      const auto exception = std::ranges::lower_bound(
-          column.exceptions, row, {}, [](const auto& cell) {
-            return cell.first;
-          });
-      const std::string& text = column.texts[exception->second];
+      const std::string& text = *column.TextAt(row);
+      const auto at = static_cast<std::size_t>(&text - column.texts.data());
       if (IsMissingNumber(text)) {
-        if (!MayBeMissing(index, row, named)) return;
+        if (!MayBeMissing(index, row, named, &clock_.remarks)) {
+          return UseRowNumbers();
+        }
         known[i] = false;
-      } else if (as_numbers || !times.seconds[exception->second]) {
+      } else if (as_numbers || !times.seconds[at]) {
         PassOver(named,
                  table_.Where(row, column.name) + ": " + QuotedText(text) +
                      " is no time",
                  "write seconds, or dates and times such as "
                  "2024-03-01T12:00:05, or name another column with " +
-                     ArgumentName("time"));
-        return;
+                     ArgumentName("time"),
+                 &clock_.remarks);
+        return UseRowNumbers();
       } else {
-        values[i] = *times.seconds[exception->second];
+        values[i] = *times.seconds[at];
       }
     }
     if (std::ranges::find(known, true) == known.end()) return;
@@ -332,44 +273,103 @@ class ClockFinder {
                       : as_numbers ? Evidence::kName
                                    : Evidence::kNameAndValues;
     if (as_numbers) {
+      AddDaysOfExcel(&values, &known);
       ToSeconds(column.name, named, &values);
     } else {
       clock_.unit = "date";
       clock_.dated = times.all_dates;
-      clock_.hours_alone = !times.all_dates;
-      clock_.origin = clock_.dated ? "1970" : "midnight";
-      clock_.words = times.doubt;
-      if (clock_.hours_alone) AddDates(&values);
+      clock_.hours_alone = !times.all_dates && !times.elapsed;
+      clock_.origin = clock_.dated    ? "1970"
+                      : times.elapsed ? "begin"
+                                      : "midnight";
+      SayOrder(column, times);
+      if (clock_.hours_alone) AddDates(&values, &known);
     }
     for (std::size_t i = 0; i < values.size(); ++i) {
       clock_.time[static_cast<Index>(i)] = values[i];
     }
     clock_.known = std::move(known);
-    HoldLast();
+    HoldLast(clock_.known, &clock_.time);
+  }
+
+  void SayOrder(const CsvColumn& column, const TextTimes& times) {
+    if (times.order.empty()) return;
+    clock_.remarks.push_back("the dates of " + NameInRemark(column.name) +
+                             " are read as " + times.order);
   }
 
   // The days of hours that stand in a column of their own.
-  void AddDates(std::vector<double>* values) {
+  void AddDates(std::vector<double>* values, std::vector<bool>* known) {
     const std::ptrdiff_t at = DateColumn();
     if (at < 0) return;
     const CsvColumn& column = table_.At(at);
     const TextTimes dates = ReadTimes(column);
-    std::vector<double> sums = *values;
-    auto cell = column.exceptions.begin();
+    std::vector<double> days;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const std::size_t row = DataRow(i);
-      while (cell != column.exceptions.end() && cell->first < row) ++cell;
-      if (cell == column.exceptions.end() || !dates.seconds[cell->second]) {
-        return;
-      }
-      sums[i] += *dates.seconds[cell->second];
+      const std::string* const text = column.TextAt(DataRow(i));
+      const auto place = text == nullptr
+                             ? std::optional<double>()
+                             : dates.seconds[static_cast<std::size_t>(
+                                   text - column.texts.data())];
+      days.push_back(place.value_or(std::nan("")));
     }
-    *values = std::move(sums);
-    clock_.date_column = at;
+    if (!AddDays(at, std::move(days), values, known)) return;
     clock_.dated = true;
     clock_.hours_alone = false;
     clock_.origin = "1970";
-    clock_.words = dates.doubt;
+    SayOrder(column, dates);
+  }
+
+  // Parts of a day beside a column of Excel's numbers of days.
+  void AddDaysOfExcel(std::vector<double>* values, std::vector<bool>* known) {
+    if (std::ranges::any_of(
+            *values, [](double part) { return part < 0.0 || part >= 1.0; })) {
+      return;
+    }
+    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+      const CsvColumn& column = table_.columns[i];
+      if (!IsCalled(column.name, Word::kDate) || column.is_text()) continue;
+      std::vector<double> days = ValuesOf(column);
+      if (!AreWholeDays(days)) continue;
+      AddDays(static_cast<std::ptrdiff_t>(i), std::move(days), values, known);
+      return;
+    }
+  }
+
+  // Adds the days (NaN: missing) of another column to times of day. Between
+  // rows of one day it is that day; else the time is not known, or without
+  // leave to drop rows no day is.
+  bool AddDays(std::ptrdiff_t column,
+               std::vector<double> days,
+               std::vector<double>* values,
+               std::vector<bool>* known) {
+    std::vector<double> next(days.size(), std::nan(""));  // from each row on
+    for (std::size_t i = days.size(); i-- > 0;) {
+      next[i] = !std::isnan(days[i])  ? days[i]
+                : i + 1 < days.size() ? next[i + 1]
+                                      : std::nan("");
+    }
+    std::vector<bool> lack(days.size(), false);
+    double before = std::nan("");
+    for (std::size_t i = 0; i < days.size(); ++i) {
+      if (std::isnan(days[i]) && next[i] == before) days[i] = before;
+      lack[i] = std::isnan(days[i]);
+      if (!lack[i]) before = days[i];
+    }
+    for (std::size_t i = 0; i < lack.size(); ++i) {
+      if (lack[i] && !MayBeMissing(static_cast<std::size_t>(column),
+                                   DataRow(i),
+                                   false,
+                                   &clock_.remarks)) {
+        return false;
+      }
+    }
+    for (std::size_t i = 0; i < days.size(); ++i) {
+      (*values)[i] += days[i];
+      (*known)[i] = (*known)[i] && !lack[i];
+    }
+    clock_.date_column = column;
+    return true;
   }
 
   void ToSeconds(const std::string& name,
@@ -384,7 +384,10 @@ class ClockFinder {
                          ": is no unit of time; give s, ms, us, ns, min, h or "
                          "days");
       }
+      const std::optional<Epoch> epoch =
+          EpochOf(PaceOf(*values), Named::kNothing);
       Scale(*unit, 0.0, values);
+      if (epoch && epoch->unit == unit) TakeEpoch(*epoch);
       return;
     }
     if (std::ranges::none_of(*values, [](double value) {
@@ -397,18 +400,25 @@ class ClockFinder {
       return;
     }
     const Pace pace = PaceOf(*values);
-    const std::optional<Epoch> epoch =
-        EpochOf(pace,
-                named || Says(name, Word::kTime) || Says(name, Word::kDate) ||
-                    NamesTime(name));
-    if (unit != nullptr && pace.MayBeIn(*unit)) {
-      Scale(*unit, 0.0, values);
-      if (epoch && epoch->unit == unit) TakeEpoch(*epoch, values);
+    const bool is_date = Says(name, Word::kDate) && AreWholeDays(*values);
+    const bool is_time = named || Says(name, Word::kTime) ||
+                         Says(name, Word::kDate) || NamesTime(name);
+    const std::optional<Epoch> epoch = EpochOf(pace,
+                                               is_date   ? Named::kDate
+                                               : is_time ? Named::kTime
+                                                         : Named::kNothing);
+    // Numbers from 1970 in one unit hardly ever are so large in another;
+    // Excel's days are numbers as any.
+    const bool fits = unit != nullptr && pace.MayBeIn(*unit);
+    if (epoch && (!fits || epoch->unit == unit || !epoch->counts_days())) {
+      clock_.sure = unit == nullptr || !fits || epoch->unit == unit;
+      if (!clock_.sure) clock_.alternative = unit->name;
+      Scale(*epoch->unit, epoch->offset, values);
+      TakeEpoch(*epoch);
       return;
     }
-    if (epoch) {
-      Scale(*epoch->unit, epoch->offset, values);
-      TakeEpoch(*epoch, values);
+    if (fits) {
+      Scale(*unit, 0.0, values);
       return;
     }
     if (unit != nullptr) {  // the name has the last word
@@ -423,17 +433,18 @@ class ClockFinder {
     }
     if (fitting.empty()) fitting.push_back(FindTimeUnit("s"));
     Scale(*fitting.front(), 0.0, values);
-    clock_.words = fitting.front()->name == "s"
-                       ? ", taken for seconds"
-                       : ", taken for " + std::string(fitting.front()->name);
+    clock_.remarks.push_back(
+        NameInRemark(name) + " names no unit and is taken for " +
+        (fitting.front()->name == "s" ? "seconds"
+                                      : std::string(fitting.front()->name)));
     clock_.sure = fitting.size() == 1;
     if (fitting.size() > 1) clock_.alternative = fitting[1]->name;
   }
 
-  void TakeEpoch(const Epoch& epoch, std::vector<double>* /*values*/) {
+  void TakeEpoch(const Epoch& epoch) {
     clock_.dated = true;
     clock_.origin = "1970";
-    if (epoch.offset != 0.0) clock_.unit = "Excel days";
+    if (epoch.counts_days()) clock_.unit = "Excel days";
   }
 
   void Scale(const TimeUnit& unit, double offset, std::vector<double>* values) {
@@ -444,38 +455,6 @@ class ClockFinder {
     for (double& value : *values) value = std::round(1e3 * value) / 1e3;
   }
 
-  // Whether a cell of a column may be missing in this row. One of a column that
-  // somebody named drops its row, or stops.
-  bool MayBeMissing(std::size_t column, std::size_t row, bool named) {
-    if (!named) {
-      PassOver(
-          false,
-          table_.Where(row, table_.columns[column].name) + ": no value there",
-          "");
-      return false;
-    }
-    if (selection_.missing == MissingPolicy::kError) {
-      RefuseMissingCell(table_, {column, ColumnUse::kOther}, row);
-    }
-    return true;
-  }
-
-  // Rows that are not known get the value before them (the first ones that
-  // after them), so that steps to and from them are those of the others.
-  void HoldLast() {
-    const auto first =
-        std::ranges::find(clock_.known, true) - clock_.known.begin();
-    double last = clock_.time[first];
-    for (std::size_t i = 0; i < clock_.known.size(); ++i) {
-      double& value = clock_.time[static_cast<Index>(i)];
-      if (clock_.known[i]) last = value;
-      value = last;
-    }
-  }
-
-  const CsvTable& table_;
-  const DatasetSelection& selection_;
-  const std::vector<Index>& rows_;
   Clock clock_;
 };
 
@@ -487,16 +466,13 @@ Clock FindClock(const CsvTable& table,
   return ClockFinder(table, selection, rows).Find();
 }
 
-void GoOnOverMidnight(Clock* clock) {
+void GoOnOverMidnight(const CsvTable& table,
+                      const std::vector<Index>& rows,
+                      Clock* clock) {
   constexpr double kHour = 3600.0;
   if (!clock->is_found()) return;
-  const double step = [&] {
-    std::vector<double> steps;
-    for (Index i = 1; i < clock->time.size(); ++i) {
-      steps.push_back(clock->time[i] - clock->time[i - 1]);
-    }
-    return MedianStep(std::move(steps));
-  }();
+  const double most_off =
+      std::min(kHour / 2.0, 3.0 * MedianStepOf(clock->time));
   double added = 0.0;
   double last = clock->time.size() > 0 ? clock->time[0] : 0.0;
   for (Index i = 1; i < clock->time.size(); ++i) {
@@ -506,8 +482,14 @@ void GoOnOverMidnight(Clock* clock) {
     if (clock->hours_alone && back > 0.0) {
       added += kSecondsOfDay;
     } else if (clock->dated && clock->unit == "date" && back > 0.0 &&
-               back <= kHour && kHour - back <= kHour / 2.0 + 20.0 * step) {
+               std::abs(kHour - back) <= most_off) {
       added += kHour;
+      clock->remarks.push_back(
+          table.Where(
+              static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]),
+              table.At(clock->column).name) +
+          ": the clock is set back by an hour, as where summer time ends; an "
+          "hour is added from here on");
     }
     clock->time[i] += added;
   }

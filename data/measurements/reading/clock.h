@@ -23,11 +23,10 @@ struct Clock {
   bool hours_alone = false;         // times of day without a date
   std::string unit = "rows";        // of the column: "s", "ms", "date", ...
   std::string origin;               // "1970", "midnight", "begin"
-  std::string words;                // on its unit or its order of dates
   Evidence evidence = Evidence::kNone;
   bool sure = true;
   std::optional<std::string> alternative;
-  std::vector<std::string> remarks;  // on columns that were passed over
+  std::vector<std::string> remarks;  // on its unit, its order of dates, others
 
   bool is_found() const { return column >= 0; }
 };
@@ -43,7 +42,10 @@ Clock FindClock(const CsvTable& table,
                 const std::vector<Eigen::Index>& rows);
 
 /// Times of day that pass midnight go on, and so does a clock that is set back
-/// by an hour where summer time ends. For rows in the order of measurement.
-void GoOnOverMidnight(Clock* clock);
+/// by an hour, to three steps, where summer time ends (with a remark). For rows
+/// in the order of measurement.
+void GoOnOverMidnight(const CsvTable& table,
+                      const std::vector<Eigen::Index>& rows,
+                      Clock* clock);
 
 }  // namespace errmap::data

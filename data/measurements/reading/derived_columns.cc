@@ -4,75 +4,55 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <set>
+#include <string_view>
 #include <utility>
+
+#include "data/columns.h"
+#include "data/text.h"
+#include "data/units.h"
 
 namespace errmap::data {
 
 using Eigen::Index;
 
 CsvTable Borrowed(const CsvTable& table) {
-  CsvTable borrowed = {.file = table.file,
-                       .columns = {},
-                       .num_rows = table.num_rows,
-                       .line_runs = table.line_runs,
-                       .parts = table.parts,
-                       .titles = table.titles,
-                       .remarks = table.remarks};
+  CsvTable borrowed{.file = table.file,
+                    .columns = {},
+                    .num_rows = table.num_rows,
+                    .line_runs = table.line_runs,
+                    .parts = table.parts,
+                    .titles = table.titles,
+                    .remarks = table.remarks};
   const std::shared_ptr<const void> keeper(&table, [](const void*) {});
   for (const CsvColumn& column : table.columns) {
+    const ColumnValues& values = column.values;
     CsvColumn& copy = borrowed.columns.emplace_back(
         CsvColumn{.name = column.name,
                   .has_name = column.has_name,
-                  .values = {},
                   .exceptions = column.exceptions,
                   .texts = column.texts,
                   .first_decimal_comma = column.first_decimal_comma,
                   .first_decimal_point = column.first_decimal_point});
-    if (column.values.empty()) continue;
-    const double* first = &column.values[0];
+    if (values.empty()) continue;
     const std::ptrdiff_t stride =
-        column.values.size() > 1 ? &column.values[1] - first : 1;
+        values.size() > 1 ? &values[1] - &values[0] : 1;
     copy.values =
-        ColumnValues::Borrowed(first, stride, column.values.size(), keeper);
+        ColumnValues::Borrowed(&values[0], stride, values.size(), keeper);
   }
   return borrowed;
 }
 
 CsvTable InOrder(const CsvTable& table, const std::vector<Index>& order) {
-  CsvTable sorted = {.file = table.file,
-                     .columns = {},
-                     .num_rows = table.num_rows,
-                     .line_runs = {},
-                     .parts = {},
-                     .titles = table.titles,
-                     .remarks = table.remarks};
-  std::vector<Index> place(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    place[static_cast<std::size_t>(order[i])] = static_cast<Index>(i);
-  }
+  CsvTable sorted{.file = table.file,
+                  .columns = {},
+                  .num_rows = table.num_rows,
+                  .line_runs = {},
+                  .parts = {},
+                  .titles = table.titles,
+                  .remarks = table.remarks};
   for (const CsvColumn& column : table.columns) {
-    CsvColumn copy = {.name = column.name,
-                      .has_name = column.has_name,
-                      .values = {},
-                      .exceptions = column.exceptions,
-                      .texts = column.texts,
-                      .first_decimal_comma = -1,
-                      .first_decimal_point = -1};
-    std::vector<double>& values = copy.values.Own();
-    values.reserve(order.size());
-    for (const Index row : order) {
-      values.push_back(column.values[static_cast<std::size_t>(row)]);
-    }
-    for (auto& [row, text] : copy.exceptions) {
-      row = static_cast<std::size_t>(place[row]);
-    }
-    std::ranges::sort(copy.exceptions);
-    const auto moved = [&](std::ptrdiff_t row) {
-      return row < 0 ? row : place[static_cast<std::size_t>(row)];
-    };
-    copy.first_decimal_comma = moved(column.first_decimal_comma);
-    copy.first_decimal_point = moved(column.first_decimal_point);
-    sorted.columns.push_back(std::move(copy));
+    sorted.columns.push_back(TakeRows(column, order));
   }
   for (std::size_t i = 0; !table.line_runs.empty() && i < order.size(); ++i) {
     sorted.line_runs.emplace_back(
@@ -81,36 +61,132 @@ CsvTable InOrder(const CsvTable& table, const std::vector<Index>& order) {
   return sorted;
 }
 
-CsvColumn NumberColumn(const std::string& name, std::vector<double> values) {
-  CsvColumn column{.name = name, .values = {}, .exceptions = {}, .texts = {}};
+namespace {
+
+// The values of a column by a function of them, under a name.
+template <typename Of>
+CsvColumn Mapped(const CsvColumn& column,
+                 const std::string& name,
+                 const Of& of) {
+  CsvColumn mapped = column;
+  mapped.name = name;
+  std::vector<double> values(column.values.size());
   for (std::size_t row = 0; row < values.size(); ++row) {
-    if (!std::isnan(values[row])) continue;
-    if (column.texts.empty()) column.texts.emplace_back();
-    column.exceptions.emplace_back(row, 0U);
+    values[row] = of(row, column.values[row]);
   }
-  column.values = std::move(values);
-  return column;
+  mapped.values = std::move(values);
+  return mapped;
 }
 
-CsvColumn WordColumn(const std::string& name,
-                     const std::vector<int>& codes,
-                     std::vector<std::string> words) {
-  CsvColumn column{
-      .name = name, .values = {}, .exceptions = {}, .texts = std::move(words)};
-  column.values = std::vector<double>(codes.size(), std::nan(""));
-  for (std::size_t row = 0; row < codes.size(); ++row) {
-    column.exceptions.emplace_back(row, static_cast<std::uint32_t>(codes[row]));
+// "A-B", in this unit.
+std::optional<CsvColumn> Difference(const CsvTable& table,
+                                    std::string_view names,
+                                    const std::string& name,
+                                    const Unit& unit) {
+  for (std::size_t at = names.find('-'); at != names.npos;
+       at = names.find('-', at + 1)) {
+    const std::ptrdiff_t a = table.Find(names.substr(0, at));
+    const std::ptrdiff_t b = table.Find(names.substr(at + 1));
+    if (a < 0 || b < 0) continue;
+    const Unit of_a = UnitOfColumn(table.At(a).name);
+    const Unit of_b = UnitOfColumn(table.At(b).name);
+    const Unit& in = unit.symbol.empty() ? of_b : unit;
+    if (!AreConvertible(of_a, in) || !AreConvertible(of_b, in)) continue;
+    const ColumnValues& taken_off = table.At(b).values;
+    CsvColumn column =
+        Mapped(table.At(a), name, [&](std::size_t row, double value) {
+          return Converted(value, of_a, in) -
+                 Converted(taken_off[row], of_b, in);
+        });
+    // A cell that either lacks.
+    std::set<std::size_t> lacking;
+    for (const auto& cell : column.exceptions) lacking.insert(cell.first);
+    for (const auto& [row, text] : table.At(b).exceptions) {
+      if (!lacking.insert(row).second) continue;
+      column.exceptions.emplace_back(row, column.texts.size());
+      column.texts.push_back(table.At(b).texts[text]);
+    }
+    std::ranges::sort(column.exceptions);
+    return column;
   }
-  return column;
+  return std::nullopt;
 }
 
-CsvColumn Negative(const CsvColumn& column) {
-  CsvColumn negative = column;
-  negative.name = "-" + column.name;
-  std::vector<double> values(column.values.begin(), column.values.end());
-  for (double& value : values) value = -value;
-  negative.values = std::move(values);
-  return negative;
+}  // namespace
+
+std::optional<CsvColumn> DerivedTarget(const CsvTable& table,
+                                       const std::string& name) {
+  if (table.Find(name) >= 0) return std::nullopt;
+  const bool is_negative = name.starts_with('-');
+  std::string_view of = name;
+  if (is_negative) of.remove_prefix(1);
+  Unit unit;
+  if (table.Find(of) < 0 && of.ends_with(']')) {
+    const std::size_t open = of.rfind('[');
+    const Unit stated = UnitOfColumn(of);
+    if (open != of.npos && table.Find(Trimmed(of.substr(0, open))) >= 0) {
+      unit = stated;
+      of = Trimmed(of.substr(0, open));
+    } else if (auto column = Difference(table, of, name, {})) {
+      return column;
+    } else if (open != of.npos) {
+      unit = stated;
+      of = Trimmed(of.substr(0, open));
+    }
+  }
+  const std::ptrdiff_t found = table.Find(of);
+  if (found < 0) return Difference(table, of, name, unit);
+  const Header given = ReadHeader(table.At(found).name);
+  // A unit that the name states is kept; one that it lacks is told.
+  const bool converts = !unit.symbol.empty() &&
+                        given.source == UnitSource::kStated &&
+                        AreConvertible(given.unit, unit);
+  return Mapped(table.At(found), name, [&](std::size_t, double value) {
+    const double in_unit =
+        converts ? Converted(value, given.unit, unit) : value;
+    return is_negative ? -in_unit : in_unit;
+  });
+}
+
+std::optional<ReadBeside> FindReadBeside(const CsvTable& table) {
+  constexpr std::size_t kMostColumns = 200;
+  constexpr double kSmallPart = 0.02;  // of the range
+  const std::size_t count = std::min(table.columns.size(), kMostColumns);
+  std::vector<std::size_t> positions;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!table.columns[i].is_text() &&
+        IsLengthOrAngle(UnitOfColumn(table.columns[i].name))) {
+      positions.push_back(i);
+    }
+  }
+  const auto values_of = [&](std::size_t i) {
+    const auto& values = table.columns[i].values;
+    return std::set<double>(values.begin(), values.end()).size();
+  };
+  for (const std::size_t b : positions) {
+    for (const std::size_t a : positions) {
+      const Unit of_a = UnitOfColumn(table.columns[a].name);
+      const Unit of_b = UnitOfColumn(table.columns[b].name);
+      if (a == b || !AreConvertible(of_a, of_b)) continue;
+      double low = INFINITY;
+      double high = -INFINITY;
+      double most = 0.0;
+      for (std::size_t row = 0; row < table.num_rows; ++row) {
+        const double sent = table.columns[b].values[row];
+        const double away =
+            Converted(table.columns[a].values[row], of_a, of_b) - sent;
+        if (std::isnan(away)) continue;
+        low = std::min(low, sent);
+        high = std::max(high, sent);
+        most = std::max(most, std::abs(away));
+      }
+      if (most > 0.0 && most < kSmallPart * (high - low) &&
+          values_of(a) > 2 * values_of(b)) {
+        return ReadBeside{.read = a, .commanded = b};
+      }
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace errmap::data

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,15 +18,20 @@ CsvTable Borrowed(const CsvTable& table);
 /// line of the file.
 CsvTable InOrder(const CsvTable& table, const std::vector<Eigen::Index>& order);
 
-/// A column of numbers; NaN is an empty cell.
-CsvColumn NumberColumn(const std::string& name, std::vector<double> values);
+/// A target that the table has under another name: "-correction_um", its values
+/// with the other sign; "actual_mm-nominal_mm", a difference in the unit of
+/// what is taken off; "Error [um]" of a column "Error" without a unit. Each may
+/// end in a unit in brackets. Nothing where the table has the name itself, or
+/// not what it is made of.
+std::optional<CsvColumn> DerivedTarget(const CsvTable& table,
+                                       const std::string& name);
 
-/// A column that has words[code] in each row.
-CsvColumn WordColumn(const std::string& name,
-                     const std::vector<int>& codes,
-                     std::vector<std::string> words);
-
-/// "-correction_um" of a correction: its values with the other sign.
-CsvColumn Negative(const CsvColumn& column);
+/// Columns of which one was read where the other was commanded: they agree but
+/// for a small part of their range, and the values of the second come again.
+struct ReadBeside {
+  std::size_t read;
+  std::size_t commanded;
+};
+std::optional<ReadBeside> FindReadBeside(const CsvTable& table);
 
 }  // namespace errmap::data

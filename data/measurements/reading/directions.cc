@@ -1,11 +1,10 @@
 #include "data/measurements/reading/directions.h"
 
 #include <algorithm>
-#include <numeric>
-#include <set>
 
+#include "data/column_words.h"
+#include "data/columns.h"
 #include "data/measurements/reading/axis.h"
-#include "data/measurements/reading/column_words.h"
 #include "data/measurements/reading/derived_columns.h"
 #include "data/text.h"
 #include "data/units.h"
@@ -26,12 +25,33 @@ std::ptrdiff_t NamedDirection(const CsvTable& table,
         !UnitOfColumn(column.name).symbol.empty()) {
       continue;
     }
-    std::set<std::string> values;
-    for (const Index row : rows) {
-      values.insert(table.CellText(column, static_cast<std::size_t>(row)));
-      if (values.size() > 2) break;
+    const std::vector<std::string> labels =
+        LabelsOf(table, column, rows, 2).labels;
+    // One word alone has to be one for a direction.
+    const bool tells = labels.size() == 2
+                           ? std::ranges::count(labels, "") == 0
+                           : labels.size() == 1 && IsUpwards(labels[0]);
+    if (tells) return static_cast<std::ptrdiff_t>(i);
+  }
+  return -1;
+}
+
+std::ptrdiff_t DirectionByValues(const CsvTable& table,
+                                 std::size_t target,
+                                 const std::vector<Index>& rows,
+                                 const Motion& motion) {
+  constexpr std::size_t kFewestPercent = 90;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    if (i == target) continue;
+    const CsvColumn& column = table.columns[i];
+    const auto [labels, codes] = LabelsOf(table, column, rows, 2);
+    std::size_t agree = 0;
+    for (std::size_t k = 0; k < codes.size(); ++k) {
+      const bool goes_alike = motion.directions[k] == motion.directions[0];
+      agree += (codes[k] == 0) == goes_alike ? 1 : 0;
     }
-    if (values.size() == 2 && !values.contains("")) {
+    if (labels.size() == 2 && std::ranges::count(labels, "") == 0 &&
+        100 * agree >= kFewestPercent * rows.size()) {
       return static_cast<std::ptrdiff_t>(i);
     }
   }
@@ -54,13 +74,22 @@ std::vector<ColumnFilter> DirectionsOf(const Reading& reading,
   return filters;
 }
 
+CsvColumn DirectionColumn(const CsvTable& table,
+                          const std::vector<Index>& rows,
+                          const Motion& motion) {
+  std::vector<Index> codes(table.num_rows, 2);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    codes[static_cast<std::size_t>(rows[i])] = motion.directions[i] > 0 ? 0 : 1;
+  }
+  return WordColumn(kDirectionColumn, codes, {"up", "down", ""});
+}
+
 void AddDerivedColumns(const std::vector<ColumnFilter>& filters,
                        const std::string& position,
                        const std::string& target,
                        CsvTable* table) {
-  if (target.starts_with('-') && table->Find(target) < 0) {
-    const std::ptrdiff_t of = table->Find(target.substr(1));
-    if (of >= 0) table->columns.push_back(Negative(table->At(of)));
+  if (std::optional<CsvColumn> derived = DerivedTarget(*table, target)) {
+    table->columns.push_back(*std::move(derived));
   }
   const bool needs_direction =
       std::ranges::any_of(filters, [&](const ColumnFilter& filter) {
@@ -68,14 +97,11 @@ void AddDerivedColumns(const std::vector<ColumnFilter>& filters,
                table->Find(kDirectionColumn) < 0;
       });
   if (!needs_direction) return;
-  std::vector<Index> rows(table->num_rows);
-  std::iota(rows.begin(), rows.end(), Index{0});
+  const std::vector<Index> rows = AllRows(table->num_rows);
   constexpr auto kNoTarget = static_cast<std::size_t>(-1);
   const Axis axis = FindAxis(*table, {.position = position}, kNoTarget, rows);
   if (axis.column < 0 || axis.motion.directions.empty()) return;
-  std::vector<int> codes;
-  for (const int way : axis.motion.directions) codes.push_back(way > 0 ? 0 : 1);
-  table->columns.push_back(WordColumn(kDirectionColumn, codes, {"up", "down"}));
+  table->columns.push_back(DirectionColumn(*table, rows, axis.motion));
 }
 
 }  // namespace errmap::data

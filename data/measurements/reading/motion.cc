@@ -212,7 +212,12 @@ Motion MotionThrough(const Levels& levels) {
       if (jumps || turns) ++pass;
     }
     motion.passes[i] = pass;
-    if (now >= 0) before = now;
+    if (now < 0) continue;
+    before = now;
+    // What was logged before a pass, without a position, belongs to it.
+    for (std::size_t k = i; k-- > 0 && levels.codes[k] < 0;) {
+      motion.passes[k] = pass;
+    }
   }
   motion.num_passes = pass + 1;
   return motion;

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <vector>
 
+#include "data/measurements/date_time.h"
+#include "data/measurements/sessions.h"
+
 namespace errmap::data {
 namespace {
 
 using Eigen::Index;
 
-constexpr double kShortestNight = 3.5 * 3600.0;
 constexpr double kOtherOrder = 3.0;  // a night per pause between passes
 
 }  // namespace
@@ -28,9 +30,8 @@ Nights FindNights(const Eigen::VectorXd& time,
     const bool is_between =
         !by_passes || motion.passes[at] != motion.passes[at - 1];
     (is_between ? between : within).push_back(step);
-    constexpr double kDay = 86400.0;
-    if (is_between &&
-        std::floor(time[i] / kDay) != std::floor(time[i - 1] / kDay)) {
+    if (is_between && std::floor(time[i] / kSecondsOfDay) !=
+                          std::floor(time[i - 1] / kSecondsOfDay)) {
       ++other_dates;
     }
   }

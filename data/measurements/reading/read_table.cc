@@ -4,17 +4,17 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <set>
 #include <utility>
 
 #include "data/argument_name.h"
+#include "data/column_words.h"
+#include "data/columns.h"
 #include "data/files/shown_path.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/faults/row_faults.h"
-#include "data/measurements/reading/column_words.h"
 #include "data/measurements/reading/derived_columns.h"
-#include "data/measurements/reading/describe_sessions.h"
+#include "data/measurements/reading/describe_reading.h"
 #include "data/measurements/reading/directions.h"
 #include "data/measurements/reading/pass_counter.h"
 #include "data/measurements/row_filters.h"
@@ -28,28 +28,20 @@ using Eigen::Index;
 constexpr std::size_t kNoTarget = static_cast<std::size_t>(-1);
 constexpr Index kFewestRowsInOrder = 12;
 
-std::vector<Index> AllRows(std::size_t count) {
-  std::vector<Index> rows(count);
-  std::iota(rows.begin(), rows.end(), Index{0});
-  return rows;
-}
-
-Index TimesBack(const Clock& clock) {
-  Index count = 0;
-  for (Index i = 1; i < clock.time.size(); ++i) {
-    count += clock.time[i] < clock.time[i - 1] ? 1 : 0;
-  }
-  return count;
-}
-
-double GapOf(const DatasetSelection& selection, const Nights& nights) {
-  if (selection.gap.empty()) return nights.gap;
+// What parts sessions: nights in the clock, or a pause that somebody gave.
+Nights NightsOf(const Clock& clock,
+                const Motion& motion,
+                const DatasetSelection& selection) {
+  Nights nights = FindNights(clock.time, motion, clock.dated);
+  if (!clock.is_found()) nights.gap = INFINITY;
+  if (selection.gap.empty()) return nights;
   const std::optional<double> gap = ParseInterval(selection.gap);
   if (!gap) {
     throw InputError(ArgumentName("gap", selection.gap) +
                      ": is no length of time; give 2h, 90min or 30s");
   }
-  return *gap;
+  nights.gap = *gap;
+  return nights;
 }
 
 class TableReader {
@@ -76,7 +68,7 @@ class TableReader {
     }
     TakeRows();
     if (selection_.with_log) FindSessionsOfRows();
-    Describe();
+    DescribeReading(given_, selection_, clock_, nights_, &read_);
     return std::move(read_);
   }
 
@@ -90,14 +82,13 @@ class TableReader {
     return table().columns[column].name;
   }
 
-  // "-correction_um": the error that a correction is against.
+  // "-correction_um": the error that a correction is against; or a difference.
   void TakeTarget() {
     const std::string& target = selection_.target;
-    if (!target.starts_with('-') || given_.Find(target) >= 0) return;
-    const std::ptrdiff_t of = given_.Find(target.substr(1));
-    if (of < 0) return;  // to be refused by its name
-    AddColumn(Negative(given_.At(of)));
-    read_.reading.target.sign = -1;
+    std::optional<CsvColumn> derived = DerivedTarget(given_, target);
+    if (!derived) return;  // a column, or to be refused by its name
+    AddColumn(*std::move(derived));
+    if (target.starts_with('-')) read_.reading.target.sign = -1;
   }
 
   // A study names the cycles that were found by the column that they then got.
@@ -120,9 +111,26 @@ class TableReader {
     for (const ColumnFilter& filter : selection_.where) {
       if (!IsDerived(filter)) filters.push_back(filter);
     }
-    const std::vector<bool> passes = RowsThatPass(table(), filters);
+    std::vector<bool> passes = RowsThatPass(table(), filters);
+    LeaveOutWords(&passes);
     for (std::size_t row = 0; row < passes.size(); ++row) {
       if (passes[row]) base_rows_.push_back(static_cast<Index>(row));
+    }
+  }
+
+  // Rows of totals and remarks.
+  void LeaveOutWords(std::vector<bool>* passes) {
+    std::vector<bool> numbering;
+    for (const CsvColumn& column : table().columns) {
+      numbering.push_back(KeepsRecord(column.name));
+    }
+    if (read_.roles.group != kNoColumn) {
+      numbering[static_cast<std::size_t>(read_.roles.group)] = true;
+    }
+    for (const Index row :
+         LeaveOutRowsOfWords(table(), numbering, selection_.missing, passes)) {
+      read_.reading.rows_left_out.push_back(
+          {.row = row, .why = "holds words where the others have numbers"});
     }
   }
 
@@ -135,32 +143,67 @@ class TableReader {
   void FindOrder() {
     FindClockAndAxis();
     const auto n = static_cast<Index>(base_rows_.size());
-    const Index back = TimesBack(clock_);
+    const Index back = TimesBack(clock_.time);
     const bool sorted = read_.axis.motion.is_sorted && n >= kFewestRowsInOrder;
-    const bool disorder =
-        clock_.is_found() && (4 * back > n || (sorted && back > 0));
+    // Dates go back hardly ever; hours, and what begins anew, each day.
+    const bool often =
+        4 * back > n || (clock_.dated && back >= 3 && 50 * back > n);
+    const bool disorder = clock_.is_found() && (often || (sorted && back > 0));
+    const bool mixed = !clock_.is_found() && CyclesAreMixed();
     if (disorder && SortByTime()) {
       read_.reading.order = "time";
       FindClockAndAxis();
-    } else if (sorted || disorder) {
-      // What was sorted by position tells no history.
-      ordered_ = !sorted;
-      if (sorted) read_.reading.order = "none";
+    } else if (sorted || mixed) {
+      // What was sorted by position, or shuffled, tells no history.
+      ordered_ = false;
+      read_.reading.order = "none";
     }
     if (ordered_) {
-      GoOnOverMidnight(&clock_);
+      GoOnOverMidnight(table(), base_rows_, &clock_);
     } else {
       clock_ = {};
       clock_.known.assign(base_rows_.size(), true);
       clock_.time.resize(n);
-      for (Index i = 0; i < n; ++i) {
-        clock_.time[i] =
-            static_cast<double>(base_rows_[static_cast<std::size_t>(i)]);
-      }
+      std::ranges::copy(base_rows_, clock_.time.begin());
     }
-    nights_ = FindNights(clock_.time, Passes(), clock_.dated);
-    if (!clock_.is_found()) nights_.gap = INFINITY;
-    nights_.gap = GapOf(selection_, nights_);
+    nights_ = NightsOf(clock_, Passes(), selection_);
+  }
+
+  // Whether the number of the cycle changes every few rows, and not to the next
+  // one or to the first, or at one position.
+  bool CyclesAreMixed() const {
+    std::ptrdiff_t column = read_.roles.group;
+    if (column == kNoColumn) column = FirstCalled(Word::kRun);
+    if (column == kNoColumn) return false;
+    const ColumnValues& values = table().At(column).values;
+    const std::vector<Index>& codes = read_.axis.levels.codes;
+    Index changes = 0;
+    Index odd = 0;
+    double first = INFINITY;
+    for (const Index row : base_rows_) {
+      first = std::min(first, values[static_cast<std::size_t>(row)]);
+    }
+    for (std::size_t i = 1; i < base_rows_.size(); ++i) {
+      const double now = values[static_cast<std::size_t>(base_rows_[i])];
+      const double before = values[static_cast<std::size_t>(base_rows_[i - 1])];
+      if (now == before || std::isnan(now - before)) continue;
+      ++changes;
+      const bool stays =
+          codes.size() == base_rows_.size() && codes[i] == codes[i - 1];
+      odd += stays || (now != before + 1.0 && now != first) ? 1 : 0;
+    }
+    constexpr Index kFewRows = 6;  // of a cycle in one piece
+    return std::ssize(base_rows_) >= kFewestRowsInOrder && 2 * odd > changes &&
+           kFewRows * changes > std::ssize(base_rows_);
+  }
+
+  // -1: none.
+  std::ptrdiff_t FirstCalled(Word word) const {
+    const auto found = std::ranges::find_if(
+        table().columns,
+        [&](const CsvColumn& column) { return IsCalled(column.name, word); });
+    return found == table().columns.end() ? -1
+                                          : found - table().columns.begin();
   }
 
   const Motion& Passes() const {
@@ -186,8 +229,8 @@ class TableReader {
       span->second.second = std::max(span->second.second, at);
     }
     std::ranges::sort(moments);
-    const auto [first, last] = std::ranges::unique(moments);
-    const auto distinct = static_cast<Index>(first - moments.begin());
+    const auto distinct = static_cast<Index>(
+        std::unique(moments.begin(), moments.end()) - moments.begin());
     if (10 * distinct < 9 * std::ssize(base_rows_)) return false;
     // One clock for all, or one for each session in its order of appearance.
     std::vector<std::pair<double, double>> in_order;
@@ -235,15 +278,8 @@ class TableReader {
   std::vector<std::string> SessionLabels() const {
     std::vector<std::string> labels(base_rows_.size());
     std::ptrdiff_t column = table().Find(selection_.session);
-    for (std::size_t i = 0;
-         column < 0 && selection_.session.empty() && i < table().columns.size();
-         ++i) {
-      if (IsCalled(Name(i), Word::kSession)) {
-        column = static_cast<std::ptrdiff_t>(i);
-      }
-    }
-    if (column < 0) return labels;
-    for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (selection_.session.empty()) column = FirstCalled(Word::kSession);
+    for (std::size_t i = 0; column >= 0 && i < labels.size(); ++i) {
       labels[i] = table().CellText(table().At(column),
                                    static_cast<std::size_t>(base_rows_[i]));
     }
@@ -254,12 +290,17 @@ class TableReader {
 
   void FindDirection() {
     Reading::Direction& direction = read_.reading.direction;
-    const std::ptrdiff_t named =
-        NamedDirection(table(), selection_, base_rows_);
+    std::ptrdiff_t named = NamedDirection(table(), selection_, base_rows_);
+    const bool tells = read_.axis.motion.both_ways && ordered_;
+    if (named < 0 && tells) {
+      named = DirectionByValues(
+          table(), read_.roles.target, base_rows_, read_.axis.motion);
+    }
+    read_.roles.direction = named;
     if (named >= 0) {
       ReadDirectionColumn(table().At(named));
-    } else if (read_.axis.motion.both_ways && ordered_) {
-      AddDirectionColumn();
+    } else if (tells) {
+      AddColumn(DirectionColumn(table(), base_rows_, read_.axis.motion));
       direction = {.column = kDirectionColumn,
                    .by = "position",
                    .values = {"up", "down"},
@@ -276,72 +317,85 @@ class TableReader {
     FilterByDirection();
   }
 
-  // Which of its two values is upwards: by the positions, else by the words.
+  // Which of its two values is upwards, by words that say it of the positions
+  // ("up" and "down", "+" and "-"). Others ("forward", "A") say nothing of
+  // them, and the order of the rows tells. Where it contradicts the words it
+  // may be another than that of measurement: the file's words are kept, unsure.
   void ReadDirectionColumn(const CsvColumn& column) {
     Reading::Direction& direction = read_.reading.direction;
     direction.column = column.name;
     direction.by = "column";
     direction.evidence = Evidence::kName;
     direction.sure = true;
-    std::vector<Index> ups;
-    const std::vector<int>& ways = Passes().directions;
-    for (std::size_t i = 0; i < base_rows_.size(); ++i) {
-      std::string label =
-          table().CellText(column, static_cast<std::size_t>(base_rows_[i]));
-      const auto at =
-          std::ranges::find(direction.labels, label) - direction.labels.begin();
-      if (at == std::ssize(direction.labels)) {
-        direction.labels.push_back(std::move(label));
-        ups.push_back(0);
-      }
-      if (!ways.empty()) ups[static_cast<std::size_t>(at)] += ways[i];
-    }
+    const std::vector<Index> ups = CountUps(column, &direction.labels);
     if (direction.labels.size() != 2) {
       direction.values = direction.labels;
+      if (direction.labels.size() != 1) return;
+      if (const auto up = IsUpwards(direction.labels[0])) {
+        direction.values = {*up ? "up" : "down"};
+      }
       return;
     }
     std::optional<bool> first_is_up;
     if (ups[0] != ups[1]) first_is_up = ups[0] > ups[1];
-    if (!read_.axis.motion.both_ways || !ordered_) {
-      if (const auto said = IsUpwards(direction.labels[0])) first_is_up = said;
+    const bool moves = read_.axis.motion.both_ways && ordered_;
+    bool contradicts = false;
+    if (const auto said = FirstIsUp(direction.labels[0], direction.labels[1])) {
+      contradicts = moves && first_is_up == !*said;
+      first_is_up = said;
+    } else if (!moves) {
+      if (const auto way = IsUpwards(direction.labels[0])) first_is_up = way;
     }
-    direction.sure = first_is_up.has_value();
+    direction.sure = first_is_up.has_value() && !contradicts;
     if (first_is_up && !*first_is_up) {
       std::swap(direction.labels[0], direction.labels[1]);
     }
     direction.values = {"up", "down"};
   }
 
-  void AddDirectionColumn() {
-    std::vector<int> codes(table().num_rows, 2);
-    for (std::size_t i = 0; i < base_rows_.size(); ++i) {
-      codes[static_cast<std::size_t>(base_rows_[i])] =
-          read_.axis.motion.directions[i] > 0 ? 0 : 1;
+  // Of each label, in order of appearance: rows that go up less those that go
+  // down.
+  std::vector<Index> CountUps(const CsvColumn& column,
+                              std::vector<std::string>* labels) const {
+    const LabelsOfRows found = LabelsOf(table(), column, base_rows_, kNoLimit);
+    *labels = found.labels;
+    std::vector<Index> ups(labels->size(), 0);
+    const std::vector<int>& ways = Passes().directions;
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      ups[found.codes[i]] += ways[i];
     }
-    AddColumn(WordColumn(kDirectionColumn, codes, {"up", "down", ""}));
+    return ups;
   }
 
-  // --direction up.
+  // --direction up: the rows that the file calls so, else those that go so.
+  static std::size_t PlaceOfWay(const Reading::Direction& found,
+                                const std::string& wanted) {
+    const auto label = std::ranges::find(found.labels, wanted);
+    if (label != found.labels.end()) {
+      return static_cast<std::size_t>(label - found.labels.begin());
+    }
+    const std::optional<bool> upwards = IsUpwards(wanted);
+    const auto value =
+        std::ranges::find_if(found.values, [&](const std::string& way) {
+          return EqualsIgnoringCase(way, wanted) ||
+                 (upwards && IsUpwards(way) == upwards);
+        });
+    return static_cast<std::size_t>(value - found.values.begin());
+  }
+
   void FilterByDirection() {
     const std::string& wanted = selection_.direction;
     if (wanted.empty() || table().Find(wanted) >= 0) return;
     const Reading::Direction& found = read_.reading.direction;
-    const std::optional<bool> upwards = IsUpwards(wanted);
-    std::string values;
-    for (std::size_t i = 0; i < found.values.size(); ++i) {
-      const std::string& value = found.values[i];
-      values += (values.empty() ? "" : ", ") + value;
-      const bool same =
-          (i < found.labels.size() && found.labels[i] == wanted) ||
-          EqualsIgnoringCase(value, wanted) ||
-          (upwards && IsUpwards(value) && *IsUpwards(value) == *upwards);
-      if (!same) continue;
+    const std::size_t way = PlaceOfWay(found, wanted);
+    if (way < found.values.size()) {
       if (found.column) {  // else all rows go this way
         read_.where.push_back(
-            {.column = *found.column, .value = found.labels[i]});
+            {.column = *found.column, .value = found.labels[way]});
       }
       return;
     }
+    const std::string values = JoinWords(found.values, ", ");
     ThrowUnusable(given_,
                   "no rows go " + QuotedText(wanted) +
                       (values.empty() ? "; no direction was found"
@@ -396,14 +450,9 @@ class TableReader {
 
   void TakeRows() {
     read_.passes = RowsThatPass(table(), read_.where);
-    std::vector<bool> numbering;
-    for (const CsvColumn& column : table().columns) {
-      numbering.push_back(KeepsRecord(column.name));
+    for (const Reading::RowLeftOut& row : read_.reading.rows_left_out) {
+      read_.passes[static_cast<std::size_t>(row.row)] = false;
     }
-    if (read_.roles.group != kNoColumn) {
-      numbering[static_cast<std::size_t>(read_.roles.group)] = true;
-    }
-    RefuseRowsOfWords(table(), numbering, read_.passes);
     if (!selection_.only_to_judge) {
       // Rows are compared as given, but for rows put in order and for a target
       // that is the negative of a column given.
@@ -478,62 +527,6 @@ class TableReader {
     }
   }
 
-  // ---- The reading as plain data.
-
-  void Describe() {
-    Reading& reading = read_.reading;
-    const CsvColumn& target = table().columns[read_.roles.target];
-    reading.target.column = target.name;
-    reading.target.unit = UnitOfColumn(target.name).symbol;
-    reading.target.evidence =
-        selection_.target.empty() ? Evidence::kName : Evidence::kUser;
-    reading.target.sure = true;
-    const Axis& axis = read_.axis;
-    if (axis.column >= 0) {
-      read_.position = table().At(axis.column).name;
-      reading.position = {.column = read_.position,
-                          .evidence = axis.evidence,
-                          .sure = axis.sure,
-                          .alternative = axis.alternative};
-    } else {
-      reading.position.sure = true;
-    }
-    DescribeTime();
-    if (!read_.found.sessions.labels.empty()) {
-      DescribeSessions(table(), clock_, nights_, &read_);
-    }
-    for (const Index row : read_.repeated_rows) {
-      reading.rows_left_out.push_back(
-          {.row = row, .why = "repeats another value for value"});
-    }
-    reading.files = {ShownPath(given_.file)};
-    if (!given_.parts.empty()) {
-      reading.files.clear();
-      for (const auto& part : given_.parts)
-        reading.files.push_back(ShownPath(part.second));
-    }
-  }
-
-  void DescribeTime() {
-    Reading::Time& time = read_.reading.time;
-    time.unit = clock_.unit;
-    time.origin = clock_.origin;
-    time.evidence = clock_.evidence;
-    time.sure = clock_.sure;
-    time.alternative = clock_.alternative;
-    if (!clock_.is_found()) return;
-    time.column = table().At(clock_.column).name;
-    if (clock_.date_column >= 0) {
-      *time.column = table().At(clock_.date_column).name + " + " + *time.column;
-    }
-    std::vector<double> steps;
-    for (Index i = 1; i < clock_.time.size(); ++i) {
-      steps.push_back(clock_.time[i] - clock_.time[i - 1]);
-    }
-    const double step = MedianStep(std::move(steps));
-    if (std::isfinite(step)) time.step_s = step;
-  }
-
   const CsvTable& given_;
   const DatasetSelection& selection_;
   std::vector<Index> base_rows_;
@@ -559,16 +552,10 @@ FoundSessions FindSessions(const CsvTable& table,
                selection,
                target < 0 ? kNoTarget : static_cast<std::size_t>(target),
                rows);
-  if (!axis.motion.is_sorted) GoOnOverMidnight(&clues.clock);
+  if (!axis.motion.is_sorted) GoOnOverMidnight(table, rows, &clues.clock);
   if (axis.motion.is_commanded) clues.passes = axis.motion.passes;
-  clues.nights = FindNights(clues.clock.time, axis.motion, clues.clock.dated);
-  if (!clues.clock.is_found()) clues.nights.gap = INFINITY;
-  clues.nights.gap = GapOf(selection, clues.nights);
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    if (IsCalled(table.columns[i].name, Word::kCycle)) {
-      clues.cycle = static_cast<std::ptrdiff_t>(i);
-    }
-  }
+  clues.nights = NightsOf(clues.clock, axis.motion, selection);
+  clues.cycle = CycleColumn(table);
   return FindSessions(table, selection, rows, std::move(clues));
 }
 

@@ -1,11 +1,13 @@
 #include "data/measurements/reading/reading.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/rounded.h"
+#include "data/measurements/row_filters.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -65,26 +67,18 @@ std::string StepText(const Reading& reading) {
 }  // namespace
 
 std::string_view ToString(Evidence evidence) {
-  switch (evidence) {
-    case Evidence::kNone:
-      return "none";
-    case Evidence::kUser:
-      return "user";
-    case Evidence::kName:
-      return "name";
-    case Evidence::kValues:
-      return "values";
-    case Evidence::kNameAndValues:
-      return "name+values";
-  }
-  return "";
+  constexpr auto kNames = std::to_array<std::string_view>(
+      {"none", "user", "name", "values", "name+values"});
+  return NameOf(kNames, evidence);
 }
 
 OpenQuestion::OpenQuestion(const std::string& file, Reading::Question question)
     : InputError([&] {
         std::string text = file + ": " + question.question;
+        // What asks nothing has named its answers.
+        const bool asks = question.question.ends_with('?');
         for (const Reading::Answer& answer : question.answers) {
-          text += " " + answer.option + ": " + answer.means + ".";
+          if (asks) text += " " + answer.option + ": " + answer.means + ".";
         }
         return text;
       }()),
@@ -104,10 +98,10 @@ std::vector<std::string> ReadingLines(const Reading& reading) {
         "The rows were not in order of time and were put in it, by " +
         NameInRemark(reading.time.column.value_or("")) + ".");
   } else if (reading.order == "none") {
-    lines.push_back("The rows are sorted by " +
-                    NameInRemark(reading.position.column.value_or("")) +
-                    " and no clock tells their order, so no map gets a memory. "
-                    "Give the rows as measured, or a column of times.");
+    lines.push_back(
+        "The rows do not stand in the order in which they were measured and no "
+        "clock tells it, so no map gets a memory. "
+        "Give the rows as measured, or a column of times.");
   }
   if (reading.position.column && !reading.position.sure) {
     lines.push_back("Unsure: " + NameInRemark(*reading.position.column) +
@@ -117,18 +111,32 @@ std::vector<std::string> ReadingLines(const Reading& reading) {
                          : "") +
                     "; " + ArgumentName("position") + " names it.");
   }
+  const std::vector<std::string>& labels = reading.direction.labels;
+  if (!reading.direction.sure && labels.size() == 2 &&
+      FirstIsUp(labels[0], labels[1])) {
+    lines.push_back("Unsure: the rows that " +
+                    NameInRemark(reading.direction.column.value_or("")) +
+                    " calls " + NameInRemark(labels[0]) + " go to lower " +
+                    NameInRemark(reading.position.column.value_or("")) +
+                    ", those called " + NameInRemark(labels[1]) +
+                    " to higher. The words are taken; swap them where up is to "
+                    "mean higher positions.");
+  }
   if (!reading.sessions.sure) {
     lines.push_back("Unsure: " + SessionsText(reading) + "; or " +
                     reading.sessions.alternative.value_or("") + ": " +
-                    ArgumentName("gap") + " parts them.");
+                    ArgumentName(reading.sessions.column ? "session" : "gap") +
+                    " parts them.");
   }
   if (reading.time.column && !reading.time.sure) {
-    lines.push_back("Unsure: " + NameInRemark(*reading.time.column) +
-                    " is in " + reading.time.unit +
-                    (reading.time.alternative
-                         ? ", or in " + *reading.time.alternative
-                         : "") +
-                    "; " + ArgumentName("time_unit") + " says it.");
+    const bool is_date = reading.time.unit == "date";
+    lines.push_back(
+        "Unsure: " + NameInRemark(*reading.time.column) +
+        (is_date ? " is the time" : " is in " + reading.time.unit) +
+        (reading.time.alternative ? (is_date ? ", or " : ", or in ") +
+                                        NameInRemark(*reading.time.alternative)
+                                  : "") +
+        "; " + ArgumentName(is_date ? "time" : "time_unit") + " says it.");
   }
   return lines;
 }

@@ -12,6 +12,7 @@
 #include "models/export/program/run_program.h"
 #include "models/history/view.h"
 #include "models/map_experience.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
@@ -28,11 +29,11 @@ constexpr double kDeadValues[] = {0.0, -127.0, 85.0, 850.0};  // degC
 // further days brought beyond two or three days was up to 6 K and 4 ranges.
 constexpr double kFar = 0.5;
 constexpr double kFarKelvin = 8.0;
-// The limits of relations flag days that are merely new, most so where they
-// were set by cycles held out; a sensor that failed is far beyond. Of 20 maps
-// of few sensors of four simulated machines, two further days went up to 7.8
-// limits beyond two days, 6.1 beyond three, and to 2.2 beyond four, from which
-// on whole days are held out.
+// The limits of relations flag days that are merely new, mostly if held-out
+// cycles set them; a failed sensor is far beyond. For 20 maps of few sensors
+// of four simulated machines, two further days reached 7.8 limits after two
+// days, 6.1 after three, and 2.2 after four, from which on whole days are held
+// out.
 struct Contradiction {
   double limits;
   double kelvin;
@@ -132,7 +133,7 @@ void SetBounds(const FittedModel& fitted, MapProgram* program) {
   }
 }
 
-// What training told of sensors that hang (models/promise/standing_still.h).
+// Limits from training for sensors that hang (models/sensors/standing_still.h).
 void WatchForStandingStill(const std::vector<const FittedModel*>& maps,
                            MapProgram* program) {
   constexpr double kFinest = 2.0;  // steps of its resolution
@@ -148,7 +149,7 @@ void WatchForStandingStill(const std::vector<const FittedModel*>& maps,
           program->forms[k].readings[column])];
       reading.others_move = std::max(reading.others_move, still.others_move[i]);
       reading.finest = std::max(reading.finest, kFinest * still.resolution[i]);
-      // Where one of two maps saw no noise there is none to go by.
+      // If one of two maps saw no noise, there is no limit.
       const double quiet = still.quiet[i] > 0.0 ? still.quiet[i] : kHuge;
       reading.quiet = std::max(reading.quiet, quiet);
       if (!(still.jump[i] > 0.0)) continue;
@@ -168,7 +169,7 @@ void WatchForStandingStill(const std::vector<const FittedModel*>& maps,
   }
 }
 
-// As MeasureStates in models/promise/applicability.cc: x_j less its mean given
+// As MeasureStates in models/sensors/applicability.cc: x_j less its mean given
 // the others is (P x)_j / P_jj with variance 1 / P_jj. The inverse of
 // diag(rest) + W W' is taken by way of the few directions (Woodbury), so that a
 // step costs sensors times directions.
@@ -297,8 +298,8 @@ std::vector<VectorXd> TrainedStates(const FittedModel& fitted,
   return states;
 }
 
-// Errors along one position, in one thermal state, at even steps; NaN where
-// they are no numbers.
+// Errors along one position, in one thermal state, at even steps; NaN if not
+// finite.
 using Profile = std::vector<double>;
 constexpr int kProfileSteps = 64;
 
@@ -317,8 +318,7 @@ Profile ProfileOf(const MapProgram& program,
     state[static_cast<Index>(position)] =
         reading.trained_min + Range(reading) * k / kProfileSteps;
     const bool is_number = (run.Step(0.0, state, &error) & kMapInvalid) == 0;
-    profile.push_back(is_number ? error
-                                : std::numeric_limits<double>::quiet_NaN());
+    profile.push_back(is_number ? error : stats::kNaN);
   }
   return profile;
 }

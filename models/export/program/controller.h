@@ -1,9 +1,7 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "data/units.h"
@@ -12,43 +10,41 @@
 
 namespace errmap::models {
 
-/// What is to be said of a step beside its error; the exported maps return the
-/// same bits.
+/// Status bits of a step, reported with its error; the exported maps return
+/// the same bits.
 enum MapStatus : int {
   kMapOutside = 1,       // a reading left its trained range
-  kMapFar = 2,           // a sensor reads what this machine cannot be at
+  kMapFar = 2,           // a sensor reads what this machine cannot reach
   kMapClipped = 4,       // a guard clipped an input of the form, or the error
-  kMapInvalid = 8,       // a reading, the time or the error is no number
-  kMapDead = 16,         // a sensor reads as one that is not connected does
+  kMapInvalid = 8,       // a reading, the time or the error is not finite
+  kMapDead = 16,         // a sensor reads like a disconnected one
   kMapFrozen = 32,       // a sensor stands still while the others move
-  kMapContradicts = 64,  // a sensor is not where the others tell
+  kMapContradicts = 64,  // a sensor differs from what the others suggest
   kMapFaded = 128,       // no good step for so long that the error goes to 0
   kMapLimited = 256,     // the error is the largest allowed
-  kMapRamping = 512,     // the error is on its way, at the largest rate
-  // As `predict` says, beside kMapOutside, why a row is unlike training.
-  kMapRelation = 1024,    // a sensor does not go with the others as in training
+  kMapRamping = 512,     // the error moves to its value at the largest rate
+  // The reasons that `predict` gives, besides kMapOutside, why a row is unlike
+  // training.
+  kMapRelation = 1024,    // a sensor does not fit the others as in training
   kMapDistance = 2048,    // a thermal state far from every trained one
-  kMapLeverage = 4096,    // far from the middle of them
-  kMapSettling = 8192,    // begun inside a session
-  kMapGap = 16384,        // readings were missing not long ago
-  kMapParameter = 32768,  // a limit was set to what is none
-  kMapUnhealthy = 65536,  // what a control must not go on with
-  kMapJumped = 131072,    // a sensor changed faster than it can, and stays so
+  kMapLeverage = 4096,    // far from the mean of the trained states
+  kMapSettling = 8192,    // started in the middle of a session
+  kMapGap = 16384,        // readings were missing a short time ago
+  kMapParameter = 32768,  // a limit was set to an invalid value
+  kMapUnhealthy = 65536,  // a control must not continue with this
+  kMapJumped = 131072,    // a sensor changed too fast, and has not come back
 };
-/// `predict` says inside = 0.
-inline constexpr int kMapUnlike = kMapOutside | kMapRelation | kMapDistance |
-                                  kMapLeverage | kMapSettling | kMapGap;
-/// A step with one of these is not taken: the filters keep their state, and the
-/// last good readings are held, where the axis is now.
+/// A step with one of these bits is not taken. The filters keep their state,
+/// and the last good readings are used with the current position.
 inline constexpr int kMapNotTaken = kMapFar | kMapInvalid | kMapDead |
                                     kMapFrozen | kMapContradicts | kMapJumped;
-/// Each of these makes it kMapUnhealthy; so does kMapRelation together with one
-/// of the others, since then a sensor is wrong sooner than the day is new.
+/// Each of these sets kMapUnhealthy. So does kMapRelation together with one of
+/// kMapBesideRelation: a wrong sensor is then likelier than a new state.
 inline constexpr int kMapAlarms =
     kMapNotTaken | kMapFaded | kMapSettling | kMapGap | kMapParameter;
 inline constexpr int kMapBesideRelation = kMapOutside | kMapClipped;
 
-/// A bit of the status as languages name and explain it.
+/// A status bit with its name and explanation for exported code.
 struct StatusBit {
   int bit;
   const char* name;  // "OUTSIDE"
@@ -56,38 +52,39 @@ struct StatusBit {
 };
 std::span<const StatusBit> StatusBits();
 
-/// What a user sets of a controller's limits (target's unit); what he does not
-/// set follows from the map.
+/// Limits set by the user (target's unit); the others are derived from the
+/// map.
 struct LimitOptions {
   std::optional<double> max_error = std::nullopt;
   std::optional<double> max_rate = std::nullopt;  // per s
 };
 
-/// Adds to a program of `maps`, as many as its forms, what a controller needs
-/// around its arithmetic: limits, which readings are not to be believed, and
-/// the routines that see to it. Throws std::invalid_argument where a limit is
-/// not above 0 and finite.
+/// Adds a controller to a program of `maps` (one for each of its
+/// forms): limits, checks of readings, and the routines that enforce
+/// them. Throws std::invalid_argument if a limit is not finite and
+/// above 0.
 void AddController(const std::vector<const FittedModel*>& maps,
                    const LimitOptions& options,
                    MapProgram* program);
 
-/// What a cell that is kept holds before all steps.
+/// Returns the value of a kept cell before the first step.
 double InitialValue(const MapProgram& program, Cell cell);
-/// The cells that are 0 where a session is known to begin.
+/// The cells that are 0 at the known start of a session.
 inline constexpr Cell kOfSession[] = {
     Cell::kBegun, Cell::kFresh, Cell::kSettling, Cell::kLeapt};
 constexpr bool IsOfSession(Cell cell) {
   return cell == Cell::kBegun || cell == Cell::kFresh ||
          cell == Cell::kSettling || cell == Cell::kLeapt;
 }
-/// A largest error set while it runs is one up to so many times the map's own.
+/// A limit set at run time may be up to this multiple of the map's own limit.
 inline constexpr double kMostTimesOwn = 10.0;
 
-/// Counts and times have no sensor, and go on beyond what was trained.
+/// True for counts and times: no sensor, and they grow beyond the trained
+/// range.
 bool IsCount(const data::Unit& unit);
 
-/// Heat moves no machine so fast: 10 um/s, 10 urad/s; of an error in another
-/// unit, `max_error` in 10 s.
+/// Returns the fastest plausible change by heat: 10 um/s or 10 urad/s. In any
+/// other unit: `max_error` in 10 s.
 double DefaultMaxRate(const data::Unit& unit, double max_error);
 
 }  // namespace errmap::models

@@ -17,7 +17,7 @@ constexpr double kLongestStep = 1e9;
 constexpr double kFrozenSteps = 5.0;
 constexpr double kQuietSteps = 10.0;
 
-// What `of_form` says of the map that acts in this direction of motion.
+// Applies `of_form` to the map that acts in this direction of motion.
 template <typename OfForm>
 Routine OfTheForm(const MapProgram& program, const OfForm& of_form) {
   Routine first = of_form(0);
@@ -53,7 +53,7 @@ Routine CheckReadings(const MapProgram& program) {
   const Expression x{Cell::kReading};
   if (readings.empty()) return {};
   Routine checks = CheckRanges(program, true);
-  // One that is no number is not within.
+  // A value that is not a number is not within.
   Statement far = EachReading({If(
       !(x >= Cell::kFarLow && x <= Cell::kFarHigh),
       {If(x > -kHuge && x < kHuge, {Flag(kMapFar)}, {Flag(kMapInvalid)})})});
@@ -122,8 +122,8 @@ Routine WatchChanged(int at, bool has_others, bool jumps, bool has_silence) {
   return changed;
 }
 
-// Of each watched reading what `of_one` says of its place: few of them one by
-// one, since a loop takes longer than what it does.
+// Applies `of_one` to the index of each watched reading. A few are written one
+// by one, since a loop takes longer than its body.
 template <typename OfOne>
 Routine OfTheWatched(const MapProgram& program, const OfOne& of_one) {
   constexpr int kFew = 4;
@@ -230,8 +230,8 @@ Routine MeasureFrom(const MapForm& of, const Coordinate& coordinate) {
   return measure;
 }
 
-// Where the thermal state stands among those of training. The one that was
-// close by in the step before is asked first, since heat takes its time.
+// The position of the thermal state among the trained ones. The one that was
+// near in the previous step is tried first, since heat moves slowly.
 Routine MeasureState(const MapForm& of, int form) {
   const Expression known{Cell::kKnown};
   const Expression away{Cell::kAway};
@@ -282,8 +282,8 @@ Routine Settle(const MapProgram& program) {
   return settle;
 }
 
-// Where the axis is, at the end of its travel where it is beyond. What its
-// motion may change the error by is room for it.
+// The position of the axis, or the end of its range if it is beyond. The axis'
+// motion lets the error change by more.
 Routine FollowPositions(const std::vector<ProgramReading>& readings) {
   Routine follow;
   for (std::size_t i = 0; i < readings.size(); ++i) {
@@ -386,7 +386,7 @@ Statement TidyTime(bool says_so) {
             std::move(not_passed));
 }
 
-// `to` is what was set, where `is_one`; else the map's own.
+// `to` is the value set if `is_one` holds; else the map's own.
 Routine UseLimit(Cell to, Cell set, double own, Expression is_one) {
   // A map without an error has nothing to set, but the parameter.
   if (!(own > 0.0))
@@ -467,8 +467,8 @@ Routine MoveRoutine(const ControllerLimits& limits) {
                  {Set(Cell::kGiven, given - room), Flag(kMapRamping)},
                  {Set(Cell::kGiven, target)})}),
           Set(Cell::kRoom, 0.0),
-          // The last word, whatever came before: also where the limit was
-          // lowered, and of what is no number.
+          // The last check, in any case: the limit may have been lowered, or
+          // the value may not be a number.
           If(!(given >= -limit && given <= limit),
              {Flag(kMapLimited),
               If(given > limit,

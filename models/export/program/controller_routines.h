@@ -4,8 +4,8 @@
 
 namespace errmap::models {
 
-/// MapProgram::read and MapProgram::move, of a program whose readings have
-/// their bounds and slopes, and whose judgement is known.
+/// Return MapProgram::read and MapProgram::move. The bounds and slopes of the
+/// program's readings, and its judgement, must already be set.
 Routine ReadRoutine(const MapProgram& program);
 Routine MoveRoutine(const ControllerLimits& limits);
 

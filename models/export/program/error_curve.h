@@ -17,32 +17,32 @@ namespace errmap::models {
 using HeldReading = std::pair<std::string, double>;
 
 /// A map's error as a function of position (and of one other input), all else
-/// held: at a thermal state that is given, steady, or left by a session.
+/// held. The thermal state is given, steady, or that after a session.
 class ErrorCurve {
  public:
-  /// Steady at the trained means and what of `held` the map reads, the zero
-  /// taken there. Throws std::invalid_argument where the map reads no position.
+  /// A steady state at the trained means and the values `held`; the zero is
+  /// taken there. Throws std::invalid_argument if the map reads no position.
   ErrorCurve(const MapProgram& program,
              const std::vector<TrainedInput>& inputs,
              const std::vector<HeldReading>& held);
 
-  /// Goes on from the state of `run`, after its readings; all else as above.
+  /// Continues from the state of `run`, after its readings; otherwise as above.
   ErrorCurve(const MapProgram& program,
              ProgramRun run,
              Eigen::VectorXd readings);
 
-  /// The error at a position (input's unit). Throws std::domain_error where it
-  /// is not finite.
+  /// Returns the error at a position (input's unit). Throws std::domain_error
+  /// if it is not finite.
   double operator()(double position) const;
-  /// The same with the reading `input` moved, and held until every filter has
-  /// arrived; the zero stays where it was taken.
+  /// As above, with the reading `input` changed and held until every filter has
+  /// settled. The zero stays as taken.
   double operator()(double position, int input, double value) const;
 
-  /// Whether this error of the map is the largest that it may give.
+  /// True if this error of the map is the largest that it may give.
   bool IsAtLimit(double error) const;
 
   const MapProgram& program() const { return *program_; }
-  /// The reading that is the position.
+  /// Returns the reading that is the position.
   const ProgramReading& position() const;
   int position_index() const { return position_; }
   const Eigen::VectorXd& readings() const { return readings_; }
@@ -56,7 +56,7 @@ class ErrorCurve {
   int position_ = 0;
 };
 
-/// The points of a table at which a map's error is the largest allowed.
+/// The points of a table at which a map's error is at its limit.
 struct AtLimit {
   int points = 0;
   double low = std::numeric_limits<double>::infinity();  // position
@@ -65,25 +65,25 @@ struct AtLimit {
   void Add(double position);
 };
 
-/// Index of the reading that is the position; -1 where there is none.
+/// Index of the reading that is the position; -1 if there is none.
 int PositionOf(const MapProgram& program);
 
-/// The number without its last digits, which no table needs: 12 of them.
+/// Rounds to 12 significant digits, which are enough for any table.
 double Tidied(double value);
 
-/// A function of position that is linear between knots.
+/// A function of position, to be interpolated linearly between knots.
 using Curve = std::function<double(double)>;
 
 struct Knots {
   std::vector<double> positions;  // ascending
-  /// The largest difference between the curves and the lines through them,
-  /// over a grid much finer than the knots.
+  /// Largest difference between the curves and their interpolants, on a grid
+  /// much finer than the knots.
   double interpolation_error = 0.0;
 };
 
-/// At least 2 and at most `most` positions from `low` to `high`, shared by the
-/// curves, placed so that the largest interpolation error is about as small as
-/// it can be: no more of them than make it `enough`.
+/// Chooses from 2 to `most` positions in `low` .. `high`, shared by the curves,
+/// so that the largest interpolation error is nearly minimal. Uses no more of
+/// them than make it `enough`.
 Knots ChooseKnots(const std::vector<Curve>& curves,
                   double low,
                   double high,

@@ -7,18 +7,20 @@
 
 namespace errmap::models {
 
-/// What a sensor that fails, and stays so until every filter has arrived, does
-/// to the error given in the middle of what was trained; target's unit.
+/// Largest effect of a failed sensor on the error given, once every filter has
+/// settled; target's unit. Before it, positions and sensors are at the ends or
+/// in the middle of their trained range: what MeasureSensitivity
+/// (models/sensors/sensitivity.h) finds over the rows of training.
 struct FailingSensor {
   std::string name;
-  double without = 0.0;  // it reads 0, and the map is left to itself
-  /// The largest of anything that it may read, checks and limits at work; to
-  /// lose the compensation, since the reading is not believed, is one of these.
+  double zero = 0.0;     // it reads 0, without any checks
+  double without = 0.0;  // it reads anything, without any checks
+  /// It reads anything, with checks and limits. It includes the loss of the
+  /// compensation if the reading is not trusted.
   double with = 0.0;
 };
 
-/// Of every sensor, the one that does most by itself first. `program` with its
-/// controller.
+/// Returns all sensors, sorted by falling `zero`. `program` has its controller.
 std::vector<FailingSensor> WorstOfFailing(const MapProgram& program);
 
 }  // namespace errmap::models

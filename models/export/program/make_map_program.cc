@@ -46,12 +46,12 @@ PolynomialForm WithHeldInputs(const PolynomialForm& form) {
 
 // ---- From readings to what the form reads ----
 
-// What linear filters need of the input that they lag.
+// What linear filters need from the input that they lag.
 struct Course {
   Operand source = {};
   Operand last = {};             // state: the input a step before
   Operand change = {};           // by this step
-  bool source_has_zero = false;  // which leaps where a zero is taken
+  bool source_has_zero = false;  // which jumps when a zero is taken
 };
 
 // A derived input with the places of its numbers.

@@ -4,16 +4,16 @@
 
 namespace errmap::models {
 
-/// One program of two maps of one axis and error: the first where its position
-/// increases, the second where it decreases. Readings of one name are one; the
-/// filters of both always run. Throws std::invalid_argument where a map reads
-/// no position, they read different ones, or a column or the error has not the
-/// same unit in both.
+/// Joins two maps of one axis and error into one program: the first acts while
+/// its position increases, the second while it decreases. Readings of the same
+/// name are shared; the filters of both always run. Throws
+/// std::invalid_argument if a map reads no position, if they read different
+/// ones, or if a column or the error differs in unit.
 MapProgram JoinedPrograms(const MapProgram& increasing,
                           const MapProgram& decreasing);
 
-/// Readings of the map `form` of a program as those of the program; what only
-/// the other map reads is at its mean.
+/// Converts readings of the map `form` to those of the program; readings that
+/// only the other map uses are at their means.
 Eigen::VectorXd ReadingsOfProgram(const MapProgram& program,
                                   std::size_t form,
                                   const Eigen::VectorXd& of_map);

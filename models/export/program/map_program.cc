@@ -92,6 +92,14 @@ bool MapProgram::Uses(Op op) const {
   });
 }
 
+std::vector<double> TableValues(const MapProgram& program, Cell cell) {
+  std::vector<double> values;
+  for (const ProgramReading& reading : program.readings) {
+    values.push_back(TableValue(reading, cell));
+  }
+  return values;
+}
+
 Eigen::VectorXd MeanReadings(const MapProgram& program) {
   Eigen::VectorXd mean(std::ssize(program.readings));
   for (Index i = 0; i < mean.size(); ++i) {

@@ -4,9 +4,9 @@
 
 namespace errmap::models {
 
-/// Instructions that leave the polynomial's value in kTerm 0, from its inputs
-/// scaled in kScaled 0, 1, ...: nested (Horner) in the input that most terms
-/// have, then likewise within, so that no power is ever formed.
+/// Returns instructions that compute the polynomial in kTerm 0 from its scaled
+/// inputs in kScaled 0, 1, .... They nest it (Horner's scheme) by the input
+/// that most terms contain, then recursively, so that no power is computed.
 Instructions NestedPolynomial(const PolynomialForm& form);
 
 }  // namespace errmap::models

@@ -4,7 +4,7 @@
 
 namespace errmap::models {
 
-/// Where a number of a program lives.
+/// Where a program stores a value.
 enum class Space {
   kReading,   // an input as the sensor gives it
   kTime,      // seconds since the step before
@@ -16,15 +16,15 @@ enum class Space {
   kHidden,    // hidden nodes of a net
   kTerm,      // partial sums of a polynomial, output of a net
   kError,     // the predicted error
-  kStanding,  // sensors less their trained means
-  kScore,     // of the thermal state that they tell together
-  kDoubt,     // how far each reading is from what others tell
+  kStanding,  // sensors minus their trained means
+  kScore,     // coordinates of their joint thermal state
+  kDoubt,     // how far each reading is from what the others suggest
 };
 inline constexpr std::size_t kNumSpaces = 13;
 
-/// Time, gains, states and what is derived from them stay double where all else
-/// is single: in single precision a slow filter stands still. So do the checks,
-/// which must not depend on it.
+/// Time, gains, states and values derived from them stay double even in a
+/// single-precision program: in single precision a slow filter stops moving.
+/// The checks stay double too, since they must not depend on the precision.
 constexpr bool IsAlwaysDouble(Space space) {
   return space == Space::kTime || space == Space::kState ||
          space == Space::kGain || space == Space::kDerived ||

@@ -5,45 +5,45 @@
 
 #include "models/export/program/operand.h"
 
-// A small language of numbers, conditions and loops over the readings. What a
-// controller does around the arithmetic of a map is written in it once
-// (controller.cc); C, Python and structured text print it, ControllerRun runs
+// A small language of numbers, conditions and loops over the readings. It
+// describes once what a controller does around a map's arithmetic
+// (controller.cc). C, Python and structured text print it; ControllerRun runs
 // it.
 
 namespace errmap::models {
 
-/// The numbers of a routine.
+/// The variables of a routine.
 enum class Cell {
   kDt,       // s since the call before
-  kCommon,   // where the watched readings stand together
+  kCommon,   // the common position of the watched readings
   kAway,     // squared distance between thermal states
   kTarget,   // kWanted within the limit
-  kBound,    // kMostError where that is a limit
-  kPace,     // kMostRate where that is a limit
-  kSpan,     // s that a reading had to change in
+  kBound,    // kMostError if that is a valid limit
+  kPace,     // kMostRate if that is a valid limit
+  kSpan,     // s in which a reading could change
   kReading,  // array
   kDoubt,    // array
   kError,    // of the map, before any limit
   // Kept from step to step.
-  kBegun,      // 1 from the first step taken on
-  kZeroDue,    // 1: the zero is taken in the next step taken
+  kBegun,      // 1 after the first step taken
+  kZeroDue,    // 1: the next step taken takes the zero
   kWaited,     // s since the last step taken
   kMissed,     // s since the last good error
-  kWanted,     // the error that is moved to
+  kWanted,     // the error that kGiven moves to
   kGiven,      // the error given
-  kRoom,       // what it may still change by
+  kRoom,       // how far it may still change
   kMostError,  // limits
   kMostRate,
-  kFresh,     // 1: begun inside a session, as far as is known
-  kSettling,  // s until what filters remember is good again
+  kFresh,     // 1: started inside a session, or unknown
+  kSettling,  // s until the filters have settled again
   kPending,   // s of them that have passed, less than one
   kStood,     // s since one of the watched readings changed
   kLeapt,     // 1: a reading jumped, and has not come back
-  kKnown,     // which map's state kNear is, from 1; 0: of none
-  kDown,      // 1: the map of decreasing positions acts
+  kKnown,     // map whose state kNear is, from 1; 0: none
+  kDown,      // 1: the map for decreasing positions acts
   kTurn,      // the furthest position in the direction of motion
-  kLast,      // array: of each reading, the one last believed
-  kSince,     // array: of each reading, kCommon when it last changed
+  kLast,      // array: each reading when last trusted
+  kSince,     // array: kCommon at each reading's last change
   kAlike,     // array: steps since then
   kHeld,      // array: s since then
   kNear,      // array: a trained thermal state close by
@@ -60,12 +60,12 @@ enum class Cell {
 };
 inline constexpr int kNumCells = static_cast<int>(Cell::kBelieved) + 1;
 
-/// Where the number of a cell lives.
+/// The storage of a cell.
 enum class CellKind { kLocal, kKept, kTable };
 
 struct CellInfo {
   Cell cell;
-  const char* name;  // as C and Python call it
+  const char* name;  // in C and Python
   CellKind kind;
   bool is_array;
 };
@@ -78,9 +78,9 @@ struct Expression {
   enum class Kind {
     kNumber,
     kCell,
-    kPlace,    // a number of the program
+    kPlace,    // a value of the program
     kTrained,  // a coordinate, `index`, of the loop's trained state of `form`
-    kAny,      // whether the status has a bit of `mask`
+    kAny,      // true if the status has a bit of `mask`
     kNot,
     kNegative,
     kAbsolute,
@@ -95,7 +95,7 @@ struct Expression {
     kMinus,
     kTimes,
   };
-  /// Index of an array's cell: the loop's own.
+  /// Index of an array's cell: the loop's index.
   static constexpr int kLoop = -1;
 
   Expression(double value) : number(value) {}  // NOLINT: reads as a number
@@ -129,12 +129,13 @@ struct Statement {
 };
 using Routine = std::vector<Statement>;
 
-/// Whether some statement reads or writes the cell.
+/// True if some statement reads or writes the cell.
 bool Uses(const Routine& routine, Cell cell);
 
 // ---- To write routines with ----
 
-/// Operators look at nothing but enumerations where no side is an Expression.
+/// These operators are not found for enumerations unless one side is an
+/// Expression.
 inline Expression Read(Cell cell) { return {cell}; }
 inline Expression Any(int mask) {
   Expression any(Expression::Kind::kAny, {});

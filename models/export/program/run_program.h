@@ -12,24 +12,24 @@ namespace errmap::models {
 
 enum class Precision { kDouble, kSingle };
 
-/// Runs the arithmetic of a program as the exported map does, without what a
-/// controller needs around it.
+/// Runs the arithmetic of a program as the exported map does, without the
+/// controller around it.
 class ProgramRun {
  public:
   /// `program` must outlive the run.
   ProgramRun(const MapProgram& program, Precision precision, int form = 0);
 
-  /// Begins a session; kMapInvalid, and nothing begun, where a reading is not
-  /// finite.
+  /// Starts a session. Returns kMapInvalid, and starts nothing, if a reading is
+  /// not finite.
   int Begin(const Eigen::VectorXd& readings);
-  /// On by `dt` seconds (at least 0; without meaning where the map has no
-  /// memory). `error` is left alone where the status says kMapInvalid; the
-  /// other bit is kMapClipped.
+  /// Advances by `dt` seconds (at least 0; ignored if the map has no memory).
+  /// Leaves `error` unchanged if the returned status is kMapInvalid; the other
+  /// possible bit is kMapClipped.
   int Step(double dt, const Eigen::VectorXd& readings, double* error);
   /// Takes the zero at these readings.
   int Zero(const Eigen::VectorXd& readings);
 
-  // The machine by itself.
+  // The steps of the machine, one by one.
   void Load(const Eigen::VectorXd& readings);
   void Execute(const Instructions& instructions);
   double& At(Operand operand);
@@ -42,32 +42,32 @@ class ProgramRun {
 
   const MapProgram* program_;
   Precision precision_;
-  int form_;  // of the program, which gives the error
+  int form_;  // the program's form that gives the error
   std::array<std::vector<double>, kNumSpaces> values_;
   bool clipped_ = false;
 };
 
-/// Runs the routines of a program, so that an export is checked, and knows what
-/// it must say, before anything is written.
+/// Runs the routines of a program. An export is so checked, and its expected
+/// results computed, before anything is written.
 class ControllerRun {
  public:
   /// `program` must outlive the run.
   ControllerRun(const MapProgram& program, Precision precision);
 
-  /// The next step taken begins a session; the error given goes on from where
-  /// it is.
+  /// The next step taken starts a session; the error given continues from its
+  /// value.
   void Begin() {
     for (const Cell cell : kOfSession) Value(cell) = 0.0;
   }
   /// The next step taken takes the zero.
   void Zero() { Value(Cell::kZeroDue) = 1.0; }
-  /// Sets the limits anew.
+  /// Sets new limits.
   void SetLimits(double max_error, double max_rate) {
     Value(Cell::kMostError) = max_error;
     Value(Cell::kMostRate) = max_rate;
   }
-  /// Reads and moves, `dt` seconds after the call before: the error given, and
-  /// the status.
+  /// Reads and moves, `dt` seconds after the previous call. Sets the error
+  /// given and returns the status.
   int Step(double dt, const Eigen::VectorXd& readings, double* error);
 
  private:

@@ -37,7 +37,7 @@ class Hash {
 }  // namespace
 
 double Fingerprint(const MapProgram& program) {
-  // Of what is kept; another one where that changes.
+  // The layout of the saved state; change it with the layout.
   constexpr double kLayout = 2.0;
   Hash hash;
   hash.Add(kLayout);

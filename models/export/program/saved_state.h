@@ -7,18 +7,18 @@
 
 namespace errmap::models {
 
-/// A number that tells the programs of maps apart, small enough to be the same
-/// in single precision: a saved state goes with one of them.
+/// Returns a number that identifies the program of a map; a saved state belongs
+/// to one of them. It is small enough to be exact in single precision.
 double Fingerprint(const MapProgram& program);
 
-/// The same of an export: of all that its files hold, its `name`, the version
+/// The same for an export: all that its files contain, its `name`, the version
 /// that wrote it and their `precision`.
 double ExportId(const MapProgram& program,
                 std::string_view name,
                 Precision precision);
 
-/// How old a saved state may be (s) for a map to go on from it: an hour, or as
-/// long as its filters remember.
+/// Returns the largest age (s) of a saved state from which a map may continue:
+/// an hour, or the memory of its filters if longer.
 double LongestAge(const MapProgram& program);
 
 }  // namespace errmap::models

@@ -9,6 +9,7 @@
 #include "models/history/history.h"
 #include "models/history/history_state.h"
 #include "models/map_experience.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
@@ -139,7 +140,6 @@ constexpr int kNumHealthy = 14;
 // A row in which a sensor, or without one the position, fails; the last one is
 // so long after the others that the error fades.
 void Fail(const MapProgram& program, int failure, SelfTestRow* row) {
-  constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Index at = 0;
   for (std::size_t i = 0; i < program.readings.size(); ++i) {
@@ -152,7 +152,7 @@ void Fail(const MapProgram& program, int failure, SelfTestRow* row) {
       reading = 0.0;
       return;
     case 1:
-      reading = kNotANumber;
+      reading = stats::kNaN;
       return;
     case 2:
       row->dt = kInfinity;

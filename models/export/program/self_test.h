@@ -9,36 +9,36 @@
 
 namespace errmap::models {
 
-/// A made-up reading of all inputs and what is to be said of it.
+/// A made-up reading of all inputs and the expected result.
 struct SelfTestRow {
-  double dt = 0.0;  // s since the row before; 0 in the first
+  double dt = 0.0;  // s since the previous row; 0 in the first
   Eigen::VectorXd readings;
   double error = 0.0;
-  int status = 0;  // MapStatus; in rows of the map itself kMapOutside alone
+  int status = 0;  // MapStatus; in rows of the map itself only kMapOutside
 };
 
-/// One session through the trained range, across it and beyond, the same for
-/// the same map. `error` comes from the map itself, as `errmap predict` gives
-/// it, not from its program: against it the arithmetic is held.
+/// A session through the trained range, across it and beyond; always the same
+/// for the same map. `error` comes from the map itself, as in `errmap predict`,
+/// not from its program: the arithmetic is checked against it.
 std::vector<SelfTestRow> SelfTestRows(const FittedModel& fitted,
                                       const MapProgram& program);
 
-/// One session of readings that go together as in training, then fail in
-/// several ways and come back, with what a controller must say of each row: for
-/// an exported file to test itself. `program` with its controller, whose first
-/// map tells how sensors go together.
+/// A session whose readings fit together as in training, then fail in several
+/// ways and recover, with the controller's expected result for each row.
+/// Exported files test themselves with it. `program` has its controller;
+/// `first`, its first map, tells how sensors relate.
 std::vector<SelfTestRow> ControllerSession(const FittedModel& first,
                                            const MapProgram& program,
                                            Precision precision);
 
-/// max - min of the errors that a map is about: of its training where its
-/// guards know, else of the rows within the trained range; at least the
-/// smallest normal number.
+/// Returns the range, max - min, of a map's errors: in training if its guards
+/// know it, else over the rows within the trained range. A constant map's own
+/// size serves instead. At least the smallest normal number.
 double ErrorRange(const FittedModel& fitted,
                   const std::vector<SelfTestRow>& rows);
 
-/// The largest differences between a program and its map `form`, over their
-/// error range.
+/// The largest differences between a program and its map `form`, divided by
+/// their error range.
 struct Deviations {
   double inside = 0.0;    // of rows within the trained range
   double anywhere = 0.0;  // of all rows
@@ -49,7 +49,7 @@ Deviations FindDeviations(const MapProgram& program,
                           double error_range,
                           int form = 0);
 
-/// What it may be within the trained range.
+/// The deviation allowed within the trained range.
 constexpr double AllowedDeviation(Precision precision) {
   return precision == Precision::kDouble ? 1e-12 : 1e-5;
 }

@@ -10,13 +10,13 @@
 
 namespace errmap::models {
 
-/// Version of errmap and, where it can be had, the start of the SHA-256 of the
-/// running program: another build may give other bits.
+/// The version of errmap and, if available, the start of the SHA-256 of the
+/// running program: another build may compute other bits.
 const std::string& ProgramIdentity();
 
-/// Keys of the fits of one component's study: SHA-256 of all that an outcome
-/// depends on, so that two fits of one key have the same outcome, wherever they
-/// stand. `holdouts` must outlive them. Each row is hashed once.
+/// Keys of the fits of one component's study: the SHA-256 of everything that an
+/// outcome depends on. Fits with the same key have the same outcome in any
+/// study. `holdouts` must outlive them. Each row is hashed once.
 class FitLabels {
  public:
   FitLabels(std::string component,
@@ -28,7 +28,7 @@ class FitLabels {
 
   const std::string& component() const { return component_; }
   std::string KeyOf(const StudyTask& task) const;
-  /// Of all fits, as StudyTasks orders them.
+  /// Returns the keys of all fits, in the order of StudyTasks.
   std::vector<std::string> Keys() const;
 
  private:

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of a database: its first bytes, and where it says whose it is.
+// The first bytes of a database, and the place of its owner.
 constexpr std::string_view kBegin{"SQLite format 3", 16};
 constexpr std::size_t kOwnerAt = 68;
 constexpr std::string_view kOwner = "ErMp";  // application_id 1165118832
@@ -89,7 +89,7 @@ KeptFits::KeptFits(std::string path, std::optional<std::int64_t> most_bytes)
   try {
     Open();
   } catch (const data::DamagedDatabase&) {
-    // Of a database that is none any more nothing is lost but time.
+    // A damaged database loses nothing but time.
     database_.reset();
     fs::remove(path_);
     Open();
@@ -99,7 +99,7 @@ KeptFits::KeptFits(std::string path, std::optional<std::int64_t> most_bytes)
 KeptFits::KeptFits(const std::string& folder, Opening opening) try
     : KeptFits(PathIn(folder), std::nullopt) {
   if (opening == Opening::kAnew && database_) {
-    // It was had for this process alone; a full disk can still be removed from.
+    // This process had it alone; even on a full disk it can be removed.
     database_.reset();
     fs::remove(path_);
     Open();

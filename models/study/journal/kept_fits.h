@@ -16,32 +16,32 @@
 namespace errmap::models {
 
 /// Finished fits by their keys, in one SQLite table: fit (key, used, outcome).
-/// Each fit is a transaction, so a process that is killed loses none that was
-/// recorded. Safe to use from several threads.
+/// Each fit is one transaction, so a killed process loses no recorded fit. Safe
+/// to use from several threads.
 class KeptFits {
  public:
   enum class Opening {
-    kAnew,    // empties it
-    kResume,  // goes on with what there is
+    kAnew,    // empties it first
+    kResume,  // continues with its fits
   };
   static constexpr const char* kName = "fits.sqlite";
-  /// A longer record is not kept: 64 MiB, predictions of 6e6 rows.
+  /// Longer records are not kept: 64 MiB, the predictions of 6e6 rows.
   static constexpr std::size_t kLongestRecord = std::size_t{64} << 20U;
 
-  /// Throws data::InputError where FOLDER/fits.sqlite is there and is not
-  /// errmap's: never where it is no plain file; `force` lets it be replaced.
+  /// Throws data::InputError if FOLDER/fits.sqlite exists and is not errmap's.
+  /// `force` allows it to be replaced, unless it is not a plain file.
   static void RequireNoOther(const std::string& folder, bool force);
 
-  /// FOLDER/fits.sqlite, for this process alone. Throws std::system_error
-  /// naming the path that cannot be written, and std::runtime_error where
-  /// another process has it open. Where the file system knows no locks (NFS)
-  /// nothing is kept, and Remarks says so.
+  /// Opens FOLDER/fits.sqlite for this process alone. Throws std::system_error
+  /// naming a path that cannot be written, and std::runtime_error if another
+  /// process has it open. If the file system has no locks (NFS), nothing is
+  /// kept, and Remarks says so.
   KeptFits(const std::string& folder, Opening opening);
 
-  /// The fits of all studies of a user, shared with other processes: those used
-  /// longest ago go until `most_bytes` are left, and one process adds at most a
-  /// quarter of that. Null where `folder` is "" or cannot be written: then fits
-  /// are made again, and nobody need know.
+  /// Opens the fits of all studies of a user, shared with other processes. The
+  /// least recently used are removed beyond `most_bytes`; one process adds at
+  /// most a quarter of that. Null if `folder` is "" or cannot be written: fits
+  /// are then repeated, without a message.
   static std::unique_ptr<KeptFits> OpenCache(
       const std::string& folder,
       std::int64_t most_bytes = std::int64_t{512} << 20U);
@@ -51,22 +51,22 @@ class KeptFits {
   KeptFits& operator=(const KeptFits&) = delete;
 
   bool Has(const std::string& key);
-  /// Empty where there is none or it cannot be read.
+  /// Returns nothing if there is none or it cannot be read.
   std::optional<FitOutcome> Find(const std::string& key);
-  /// Adds a fit. What cannot be written (a full disk) is given up and counted:
-  /// it costs a repetition later, not the results now.
+  /// Adds a fit. If it cannot be written (disk full), it is skipped and
+  /// counted: a later run repeats it, and the results are unaffected.
   void Record(const std::string& key, const FitOutcome& outcome);
-  /// An outcome of the right key that is not of its fit: counted for the
-  /// remarks; the fit is made again.
+  /// Counts an outcome that has the right key but belongs to another fit, for
+  /// the remarks; the fit is repeated.
   void CountUnfit() { ++unfit_; }
 
-  /// What people should know of what could not be kept or used, a line each.
+  /// Returns one line for each thing that could not be kept or used.
   std::vector<std::string> Remarks() const;
 
  private:
   KeptFits(std::string path, std::optional<std::int64_t> most_bytes);
   void Open();
-  /// Whether `work` with the database could be done; why not is noted.
+  /// True if `work` with the database succeeded; else notes the reason.
   template <typename Work>
   bool Try(Work&& work);
   bool IsCache() const { return most_bytes_.has_value(); }
@@ -74,7 +74,7 @@ class KeptFits {
   std::string path_;
   std::optional<std::int64_t> most_bytes_;  // of a cache
   std::atomic<std::size_t> unfit_ = 0;
-  mutable std::mutex mutex_;  // of all that follows
+  mutable std::mutex mutex_;  // protects all members below
   std::optional<data::Database> database_;
   std::vector<std::string> used_;  // keys found in a cache
   std::int64_t added_ = 0;         // bytes
@@ -84,15 +84,15 @@ class KeptFits {
   std::string why_;  // of the first failure
 };
 
-/// Where the last fits are kept: errmap in $XDG_CACHE_HOME or else in
-/// $HOME/.cache; "" where neither is an absolute path.
+/// Returns the folder of the last fits: errmap in $XDG_CACHE_HOME, else in
+/// $HOME/.cache; "" if neither is an absolute path.
 std::string DefaultCacheFolder();
 
-/// Kept fits of one component's study, in one place or in several: what one
-/// has, those before it are given.
+/// Kept fits of one component's study in one or several files. A fit found in
+/// one is copied to the files before it.
 class ComponentJournal final : public FitJournal {
  public:
-  /// All must outlive it; null files are left out.
+  /// All arguments must outlive it; null files are skipped.
   ComponentJournal(std::vector<KeptFits*> files,
                    const FitLabels* labels,
                    const data::Dataset* dataset,
@@ -104,8 +104,8 @@ class ComponentJournal final : public FitJournal {
     std::erase(files_, nullptr);
   }
 
-  /// The map found must predict what stands beside it, bit for bit, on the rows
-  /// that it is judged by: sums keep damage out, and forgers not.
+  /// The map found must give the stored predictions, bit for bit, on the rows
+  /// that judge it: checksums stop damage but not forgery.
   std::optional<FitOutcome> Find(const StudyTask& task) override;
   void Record(const StudyTask& task, const FitOutcome& outcome) override {
     for (KeptFits* file : files_) file->Record(labels_.KeyOf(task), outcome);
@@ -120,7 +120,7 @@ class ComponentJournal final : public FitJournal {
   const std::vector<Holdout>& holdouts_;
 };
 
-/// How many fits of a study are at hand, and how many are to be made.
+/// Says how many fits of a study are already done, and how many remain.
 std::string DescribeResume(KeptFits* fits, const FitLabels& labels);
 
 }  // namespace errmap::models

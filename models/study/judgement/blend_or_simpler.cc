@@ -1,22 +1,21 @@
 #include "models/study/judgement/blend_or_simpler.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <variant>
 #include <vector>
 
+#include "stats/error_metrics.h"
+
 namespace errmap::models {
 namespace {
 
-// The geometric mean over sessions: one that errs far more than the others, as
-// the first may that were foretold from few, does not decide alone.
+// The geometric mean over sessions, so that one extreme session does not decide
+// alone, such as the first one, which is predicted from few.
 double TypicalRmse(const HoldoutComparison& comparison, std::size_t model) {
-  const auto of_units = comparison.unit_rmse.col(*comparison.PlaceOf(model));
-  return std::exp(
-      of_units.array().max(std::numeric_limits<double>::min()).log().mean());
+  return stats::GeometricMean(
+      comparison.unit_rmse.col(*comparison.PlaceOf(model)));
 }
 
 // The model of least typical error.

@@ -8,21 +8,21 @@
 
 namespace errmap::models {
 
-/// The average of maps, or what is simpler.
+/// The average of maps, or a simpler map.
 struct BlendOrSimpler {
   std::size_t model = 0;  // index into StudyResult::models
-  const HoldoutComparison* vetoed_by = nullptr;  // null: by none
+  const HoldoutComparison* vetoed_by = nullptr;  // null: no veto
 };
 
-/// One choice among near-equals is a gamble, which an average of maps that
-/// see the inputs differently is not: it is used unless a single map is
-/// established to be better by days that are separate. An average that a
-/// baseline beats, in the later sessions as well where these were foretold, is
-/// no map at all. Folds lack sessions, so that a map of many columns looks
-/// worse there than it is: a veto takes twice the error.
+/// An average of maps with different input views is safer than one choice
+/// among near-equals. It is used unless separate days establish that a
+/// single map is better. It is not used if a baseline beats it, in later
+/// sessions too if these were predicted. Folds lack sessions, so a map of
+/// many columns looks worse there than it is: a veto needs more than twice
+/// the error.
 ///
-/// `decides` chooses among the models that `is_map` accepts; `strictest` and
-/// `forward`, which may be null, veto.
+/// `decides` chooses among the models that `is_map` accepts. `strictest` and
+/// `forward` (which may be null) can veto.
 BlendOrSimpler ChooseBlendOrSimpler(std::size_t blend,
                                     const HoldoutComparison& decides,
                                     const HoldoutComparison& strictest,

@@ -9,7 +9,7 @@
 
 namespace errmap::models {
 
-/// What a hold-out speaks for. kGiven: predictions without a map.
+/// What a hold-out favours. kGiven: predictions without a map.
 enum class Choice {
   kPolynomial,
   kNeural,
@@ -23,30 +23,30 @@ enum class Choice {
 /// "given".
 std::string_view ToString(Choice choice);
 
-/// The class of a model by what it is; never kNoPracticalDifference.
+/// Returns the class of a model; never kNoPracticalDifference.
 Choice ChoiceOf(const ModelResult& model);
 
-/// Accepts a model: index into StudyResult::models.
+/// True for an accepted model: index into StudyResult::models.
 using Wanted = std::function<bool(std::size_t)>;
 
-/// The RMSE of a model that was judged; target's unit.
+/// Returns the RMSE of a judged model; target's unit.
 double RmseOf(const HoldoutComparison& comparison, std::size_t model);
 
-/// The model of lowest RMSE among those that `wanted` accepts, if any.
+/// Returns the model of lowest RMSE among those that `wanted` accepts, if any.
 std::optional<std::size_t> BestWhere(const HoldoutComparison& comparison,
                                      const Wanted& wanted);
 
-/// The model of lowest RMSE of that class, if any.
+/// Returns the model of lowest RMSE in that class, if any.
 std::optional<std::size_t> BestOf(const HoldoutComparison& comparison,
                                   const StudyResult& study,
                                   Choice choice);
 
-/// What does not matter beside the lowest error of all; target's unit.
+/// The difference that does not matter, from the lowest error; target's unit.
 double MarginOf(const HoldoutComparison& comparison, double indifference);
 
-/// That no model is better than `baseline` by more than the margin. A baseline
-/// of the lowest error may owe that to chance, so the bound is asked for there
-/// too. Without another model there is nothing to hold it against.
+/// Tells if no model is better than `baseline` by more than the margin. Even a
+/// baseline of lowest error may owe that to chance, so the bound is checked
+/// too. Without another model nothing can be established.
 Confidence ThatNothingIsBetter(const HoldoutComparison& comparison,
                                const StudyResult& study,
                                std::size_t baseline,

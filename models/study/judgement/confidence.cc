@@ -41,10 +41,6 @@ bool IsInReach(Index units, const PairComparison& pair) {
   return IsSignificant(smallest * static_cast<double>(pair.num_adjusted));
 }
 
-double ExcessAtMost(const stats::Bounds95& bounds, bool is_first) {
-  return is_first ? bounds.at_most : -bounds.at_least;
-}
-
 }  // namespace
 
 std::string_view ToString(Confidence confidence) {
@@ -113,7 +109,10 @@ Confidence ThatTheyDiffer(const stats::Comparison& tests,
       !IsInReach(tests.num_units, pair)) {
     return Confidence::kOutOfReach;
   }
-  if (!IsSignificant(pair.p_holm) || !pair.bounds.ExcludeZero()) {
+  const bool bounded =
+      pair.one_sided ? pair.bounds.at_most < 0.0 || pair.bounds.at_least > 0.0
+                     : pair.bounds.ExcludeZero();
+  if (!IsSignificant(pair.p_holm) || !bounded) {
     return pair.correlated && IsSignificant(pair.sign_flip.test.p)
                ? Confidence::kUnitsCorrelated
                : Confidence::kNotShown;
@@ -137,11 +136,11 @@ Confidence ThatItLosesAtMost(double margin,
   }
   const PairComparison& pair = tests.Pair(model, than);
   const bool is_first = pair.a == model;
-  if (!(ExcessAtMost(pair.bounds, is_first) <= margin)) {
+  if (!(pair.bounds.ExcessAtMost(is_first) <= margin)) {
     return Confidence::kNotShown;
   }
   if (pair.correlated) return Confidence::kUnitsCorrelated;
-  return ExcessAtMost(pair.memory.bounds, is_first) <= margin
+  return pair.memory.bounds.ExcessAtMost(is_first) <= margin
              ? Confidence::kEstablished
              : Confidence::kMemoryNotExcluded;
 }

@@ -8,42 +8,42 @@
 
 namespace errmap::models {
 
-/// Whether a statement about two models is more than chance, "established",
-/// and else the first thing that it lacks. This is the only place that decides
-/// so: tables, sentences and JSON show what is found here.
+/// Result of the significance checks on two models: established, or the first
+/// check that failed. This is the only place that decides it: tables, sentences
+/// and JSON show the result found here.
 enum class Confidence {
   kEstablished,
   kOutOfReach,         // see Obstacle
   kNotShown,           // the test or a bound does not show it
-  kUnitsCorrelated,    // shown as if units were independent, which they are not
-  kMemoryNotExcluded,  // ... which few units cannot tell from memory
-  kBlocksDisagree,     // ... and runs of neighbouring units differ too much
+  kUnitsCorrelated,    // shown, but only for independent units
+  kMemoryNotExcluded,  // shown, but so few units do not exclude memory
+  kBlocksDisagree,     // shown, but runs of neighbouring units differ
 };
 
 /// "established", "out of reach", "not shown", "units correlated",
 /// "memory not excluded", "blocks disagree".
 std::string_view ToString(Confidence confidence);
 
-/// Fewer units establish nothing: with 5, the two of 2^5 sign patterns that
-/// are most extreme already have p = 0.0625.
+/// Fewer units establish nothing: with 5, the two most extreme of the 2^5 sign
+/// patterns already have p = 0.0625.
 inline constexpr Eigen::Index kFewestUnits = 6;
-/// Fewer units establish nothing unless each is a session of its own: too few
-/// to see whether they resemble their neighbours.
+/// The same for units that are not known to be separate sessions: fewer are too
+/// few to see whether neighbours resemble each other.
 inline constexpr Eigen::Index kFewestUnitsOfOneSession = 12;
 
-/// Why of the pairs that Holm's adjustment counts not even the clearest
-/// difference could be established.
+/// Why not even the clearest difference could be established among the pairs
+/// that Holm's adjustment counts.
 struct Obstacle {
   enum class Kind {
     kNone,
-    kTooFewUnits,         // kFewestUnits are needed
-    kPerhapsOneSession,   // kFewestUnitsOfOneSession are needed
+    kTooFewUnits,         // needs kFewestUnits
+    kPerhapsOneSession,   // needs kFewestUnitsOfOneSession
     kTooManyPairs,        // for so few units, after Holm's adjustment
-    kTooFewSignPatterns,  // drawn, for so many pairs
+    kTooFewSignPatterns,  // drawn, for this number of pairs
   };
   Kind kind = Kind::kNone;
   Eigen::Index units = 0;
-  Eigen::Index needed = 0;  // units that would do; 0 for kTooFewSignPatterns
+  Eigen::Index needed = 0;  // enough units; 0 for kTooFewSignPatterns
   Eigen::Index pairs = 0;
 
   bool exists() const { return kind != Kind::kNone; }
@@ -53,23 +53,23 @@ struct Obstacle {
 /// "too few sign patterns".
 std::string_view ToString(Obstacle::Kind kind);
 
-/// `separate_sessions`: every unit is known to be a session of its own (a day,
-/// a shift), so that nothing but chance makes neighbours alike.
+/// `separate_sessions`: each unit is known to be a session of its own (a day, a
+/// shift), so that neighbours are alike only by chance.
 Obstacle FindObstacle(const stats::Comparison& tests, bool separate_sessions);
 
-/// That the models of `pair`, one of tests.pairs, differ: in its turn
-/// (stats::ComparisonOptions::first) p is at most 5 %, and so is that of the t
-/// with the memory that cannot be excluded (memory_bounds.h); the interval of
-/// the RMSE difference lies wholly on one side of 0; no sign that neighbours
-/// resemble each other; units enough. Where they may be of one session, the
-/// corrected resampled t on runs of neighbouring units has to agree.
+/// Tells if the models of `pair`, one of tests.pairs, differ. In its turn
+/// (stats::ComparisonOptions::first) p is at most 5 %, also for the t with the
+/// memory that cannot be excluded (memory_bounds.h). The interval of the RMSE
+/// difference excludes 0, or its bound where one direction was tested.
+/// Neighbours show no resemblance, and units suffice. If they may be of one
+/// session, the corrected resampled t on runs of neighbouring units must agree.
 Confidence ThatTheyDiffer(const stats::Comparison& tests,
                           const stats::PairComparison& pair,
                           bool separate_sessions);
 
-/// That the RMSE of `model` is above that of `than` by at most `margin`: the
-/// one-sided 95 % upper bounds, resampled and with memory, are within it, there
-/// is no sign that neighbours resemble each other, and there are enough units.
+/// Tells if the RMSE of `model` exceeds that of `than` by at most `margin`.
+/// Both one-sided 95 % upper bounds, resampled and with memory, must be within
+/// it. Neighbours must show no resemblance, and units must suffice.
 Confidence ThatItLosesAtMost(double margin,
                              const stats::Comparison& tests,
                              Eigen::Index model,

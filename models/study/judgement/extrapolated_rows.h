@@ -8,7 +8,7 @@
 
 namespace errmap::models {
 
-/// An input in the rows that a fold trains on and in those it holds out.
+/// An input in a fold's training rows and in its held-out rows.
 struct FoldValues {
   Eigen::VectorXd trained;
   Eigen::VectorXd tested;
@@ -18,8 +18,8 @@ FoldValues ValuesOfFold(const data::Dataset& dataset,
                         const stats::Fold& fold,
                         Eigen::Index input);
 
-/// Of the rows that each fold holds out, in its order, whether an input of the
-/// map lies outside what the fold was trained on: there it extrapolates.
+/// Tells for each fold's held-out rows, in their order, if an input of the map
+/// lies outside the fold's training range: the fold extrapolates there.
 std::vector<Eigen::Array<bool, Eigen::Dynamic, 1>> ExtrapolatedRows(
     const data::Dataset& dataset,
     const Holdout& holdout,

@@ -22,7 +22,8 @@ std::string_view ToString(GoalStanding standing) {
 
 GoalJudgement JudgeGoal(double goal,
                         const stats::ErrorMetrics& test,
-                        bool complete) {
+                        bool complete,
+                        bool rezeroed) {
   GoalJudgement judged{.goal = goal,
                        .rmse = test.rmse,
                        .sd = test.residuals.sd,
@@ -34,7 +35,7 @@ GoalJudgement JudgeGoal(double goal,
     judged.standing = GoalStanding::kNotJudged;
   } else if (judged.rmse <= goal) {
     judged.standing = GoalStanding::kMet;
-  } else if (judged.sd <= goal) {
+  } else if (!rezeroed && judged.sd <= goal) {
     judged.standing = GoalStanding::kMetAfterRezeroing;
   } else {
     judged.standing = GoalStanding::kMissed;

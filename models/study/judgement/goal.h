@@ -1,44 +1,47 @@
 #pragma once
 
-#include <limits>
 #include <string_view>
 
 #include "stats/error_metrics.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 
-/// How a held-out error stands to what the user needs.
+/// How a held-out error compares with the user's goal.
 enum class GoalStanding {
-  kNone,               // no goal was set
-  kNotJudged,          // too few rows, an interrupted run, or a failed fit
-  kMet,                // the RMSE is at most the goal
-  kMetAfterRezeroing,  // only the sd is: an offset, taken off, would do
+  kNone,       // no goal was set
+  kNotJudged,  // too few rows, an interrupted run, or a failed fit
+  kMet,        // the RMSE is at most the goal
+  /// Only the sd is at most the goal, so re-zeroing may do. Never where the
+  /// errors are those of a map that is re-zeroed already.
+  kMetAfterRezeroing,
   kMissed,
 };
 
 /// "no goal", "not judged", "met", "met after re-zeroing", "not met".
 std::string_view ToString(GoalStanding standing);
 
-/// A goal with what was held against it, in the target's unit.
+/// A goal with the error compared with it, in the target's unit.
 struct GoalJudgement {
-  static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
   GoalStanding standing = GoalStanding::kNone;
-  double goal = kNaN;
-  double rmse = kNaN;
-  double sd = kNaN;      // n - 1
-  double offset = kNaN;  // mean of target - predicted
+  double goal = stats::kNaN;
+  double rmse = stats::kNaN;
+  double sd = stats::kNaN;      // n - 1
+  double offset = stats::kNaN;  // mean of target - predicted
 };
 
-/// Rows held out that a goal asks for: chance lets a poor map meet it on fewer.
+/// Fewest held-out rows to judge a goal: on fewer, a poor map may meet it by
+/// chance.
 inline constexpr Eigen::Index kFewestRowsForGoal = 24;
 
-/// Holds `test`, a model's held-out errors, against `goal` (target's unit; NaN:
-/// none). `complete`: every fold was fitted and the study ran to its end; what
-/// an interrupted one leaves may be what was easy, and is not judged. Nor are
-/// fewer than kFewestRowsForGoal rows.
+/// Compares `test`, a model's held-out errors, with `goal` (target's unit; NaN:
+/// none). `complete`: every fold was fitted and the study ran to its end. An
+/// interrupted study is not judged, since its folds may be the easy ones;
+/// neither are fewer than kFewestRowsForGoal rows. `rezeroed`: the errors are
+/// what re-zeroing left.
 GoalJudgement JudgeGoal(double goal,
                         const stats::ErrorMetrics& test,
-                        bool complete);
+                        bool complete,
+                        bool rezeroed = false);
 
 }  // namespace errmap::models

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "models/study/judgement/choice.h"
 
 namespace errmap::models {
@@ -34,8 +32,8 @@ stats::FoldLosses GatherFolds(const Holdout& holdout,
   return losses;
 }
 
-// Folds come cut by cut; each cut has a winner by its pooled RMSE. A tie counts
-// for the model that stands first.
+// Folds come split by split; the lowest pooled RMSE wins each split. A tie
+// counts for the earlier model.
 std::vector<WinShare> CountWins(const stats::FoldLosses& folds,
                                 Index repeats,
                                 const std::vector<std::size_t>& models) {

@@ -14,41 +14,42 @@
 
 namespace errmap::models {
 
-/// A model and the share of the repeats in which it had the lowest error.
+/// A model and the share of repeats in which it had the lowest error.
 struct WinShare {
   std::size_t model = 0;  // index into StudyResult::models
   double share = 0.0;
 };
 
-/// All models that could be judged under one hold-out, against each other.
+/// All judged models of one hold-out, compared with each other.
 struct HoldoutComparison {
   std::string holdout;
   UnitsOfAnalysis units;
   std::vector<std::size_t> models;  // (m) index into StudyResult::models
   Eigen::MatrixXd unit_rmse;        // (units x m) target's unit
-  stats::Comparison tests;          // its indices count `models`
+  stats::Comparison tests;          // its indices refer to `models`
   Obstacle obstacle;                // to establishing any difference
-  std::vector<Confidence> differ;   // (pairs) as tests.pairs: that they do
+  std::vector<Confidence> differ;   // (pairs) as tests.pairs: if they differ
   std::vector<WinShare> wins;       // falling; empty without repeats
 
-  /// Place of a model of the study in `models`, or nothing if it failed.
+  /// Index of a study's model in `models`, or nothing if it failed.
   std::optional<Eigen::Index> PlaceOf(std::size_t model) const;
-  /// 1-based tier of a model of the study, 0 if it failed.
+  /// 1-based tier of a study's model, 0 if it failed.
   int TierOf(std::size_t model) const;
-  /// That one model of the study has less error than another. Both must have
-  /// been judged.
+  /// Tells if one model of the study has a lower error than another. Both must
+  /// have been judged.
   Confidence ThatItIsBetter(std::size_t model, std::size_t than) const;
-  /// That one model of the study has at most `margin` more RMSE than another.
-  /// Both must have been judged.
+  /// Tells if the RMSE of one model exceeds that of another by at most
+  /// `margin`. Both must have been judged.
   Confidence ThatItLosesAtMost(double margin,
                                std::size_t model,
                                std::size_t than) const;
 };
 
-/// Compares the models of a study hold-out by hold-out, on one mean squared
-/// residual per unit (stats/comparison/paired_comparison.h): units are the
+/// Compares the models of a study in each hold-out, on one mean squared
+/// residual per unit (stats/comparison/paired_comparison.h). Units are the
 /// sessions or groups of the held-out rows, or blocks of them in order.
-/// `indifference` (target's unit) is the difference in RMSE that never matters.
+/// `indifference` (target's unit) is the difference in RMSE that does not
+/// matter.
 std::vector<HoldoutComparison> CompareHoldouts(
     const data::Dataset& dataset,
     const std::vector<Holdout>& holdouts,

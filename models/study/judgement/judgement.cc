@@ -22,8 +22,10 @@ Judgement JudgeStudy(const data::Dataset& dataset,
   for (const ModelResult& model : study.models) {
     std::vector<GoalJudgement>& goals = judgement.goals.emplace_back();
     for (const HoldoutResult& result : model.holdouts) {
-      goals.push_back(JudgeGoal(
-          options.goal, result.test, result.ok() && !study.interrupted));
+      goals.push_back(JudgeGoal(options.goal,
+                                result.test,
+                                result.ok() && !study.interrupted,
+                                options.rezeroed));
     }
   }
   return judgement;

@@ -8,16 +8,16 @@
 
 namespace errmap::models {
 
-/// Everything that the hold-outs say together.
+/// The judgement from all hold-outs together.
 struct Judgement {
   std::vector<HoldoutComparison> comparisons;    // one per hold-out
-  std::vector<std::optional<Verdict>> verdicts;  // nothing where all failed
-  std::optional<InterpolationGap> gap;  // where both kinds of hold-out are
+  std::vector<std::optional<Verdict>> verdicts;  // empty if all failed
+  std::optional<InterpolationGap> gap;  // if both kinds of hold-out exist
   std::optional<Recommendation> recommendation;
   std::vector<std::vector<GoalJudgement>> goals;  // (models x hold-outs)
 };
 
-/// Judges a study: each hold-out by itself, then the map to use (Recommend).
+/// Judges a study: each hold-out alone, then the map to use (Recommend).
 Judgement JudgeStudy(const data::Dataset& dataset,
                      const std::vector<Holdout>& holdouts,
                      const StudyResult& study,

@@ -45,8 +45,8 @@ std::vector<std::size_t> NearTheBest(const HoldoutComparison& comparison,
   return near;
 }
 
-// The first tier that holds a map: predictions alone cannot be run. Nothing is
-// left in advice->first_tier where there is none.
+// Takes the first tier that holds a map: predictions alone cannot be run.
+// Leaves advice->first_tier empty if there is none.
 void TakeFirstTier(const HoldoutComparison& comparison,
                    const Wanted& is_map,
                    double indifference,
@@ -74,8 +74,8 @@ void TakeFirstTier(const HoldoutComparison& comparison,
   }
 }
 
-// Of a tier, its baselines if it has some: fewest sensors, then fewest
-// parameters, then the lowest error.
+// Chooses from a tier's baselines, or from all if there are none: fewest
+// sensors, then fewest parameters, then lowest error.
 std::size_t SimplestOf(const std::vector<std::size_t>& tier,
                        const HoldoutComparison& comparison,
                        const StudyResult& study) {
@@ -110,10 +110,6 @@ void WeighAgainstOthers(const HoldoutComparison& comparison,
     advice->against_baseline =
         comparison.ThatItIsBetter(advice->model, *best_baseline);
   }
-  if (advice->model != advice->first_tier.front()) {
-    advice->within_tier = comparison.ThatItLosesAtMost(
-        margin, advice->model, advice->first_tier.front());
-  }
   const auto in_tier = [&](Choice choice) {
     return std::ranges::any_of(advice->first_tier, [&](std::size_t model) {
       return ChoiceOf(study.models[model]) == choice;
@@ -125,8 +121,8 @@ void WeighAgainstOthers(const HoldoutComparison& comparison,
   }
 }
 
-// The cheapest map that loses at most the margin to `model`, which it is where
-// that can be said of no other: fewest sensors, then fewest parameters.
+// The cheapest map that is proven to lose at most the margin to `model`, or
+// `model` itself if there is none: fewest sensors, then fewest parameters.
 std::size_t CheapestNear(std::size_t model,
                          const HoldoutComparison& comparison,
                          const StudyResult& study,
@@ -137,8 +133,8 @@ std::size_t CheapestNear(std::size_t model,
   std::vector<std::size_t> near{model};
   for (const std::size_t other : comparison.models) {
     if (other != model && is_map(other) &&
-        comparison.tests.ExcessAtMost(*comparison.PlaceOf(other),
-                                      *comparison.PlaceOf(model)) <= margin) {
+        comparison.ThatItLosesAtMost(margin, other, model) ==
+            Confidence::kEstablished) {
       near.push_back(other);
     }
   }
@@ -219,12 +215,9 @@ std::optional<Recommendation> Recommend(
     }
   }
   if (is_blend(advice.model)) {
-    // Alone in its tier: the best of the others.
-    advice.single = !is_blend(simplest)
-                        ? simplest
-                        : BestWhere(decides, [&](std::size_t model) {
-                            return is_map(model) && !is_blend(model);
-                          });
+    advice.single = BestWhere(decides, [&](std::size_t model) {
+      return is_map(model) && !is_blend(model);
+    });
   } else if (blend && decides.units.separate_sessions &&
              decides.ThatItIsBetter(advice.model, *blend) ==
                  Confidence::kEstablished) {

@@ -10,37 +10,35 @@
 #include "models/study/judgement/goal.h"
 #include "models/study/judgement/holdout_comparison.h"
 #include "models/study/study.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 
-/// The map to use.
+/// The recommended map.
 struct Recommendation {
-  /// The strictest that was measured: every figure, goal and promise is its.
+  /// The strictest hold-out: source of all errors, goals and intervals.
   std::size_t holdout = 0;
-  std::size_t decided_by = 0;  // the hold-out that the map was chosen by
+  std::size_t decided_by = 0;  // the hold-out that chose the map
   std::size_t model = 0;
   Choice choice = Choice::kBaseline;
-  /// By RMSE; where there is one unit only, the models within the margin.
+  /// By RMSE; with only one unit, the models within the margin.
   std::vector<std::size_t> first_tier;
   std::size_t best_baseline = 0;  // by RMSE, under that hold-out
   bool has_baseline = false;
-  /// That the map is better than the best baseline; of a baseline, that it
+  /// Tells if the map is better than the best baseline. For a baseline: if it
   /// loses at most the margin to the best of all others.
   Confidence against_baseline = Confidence::kOutOfReach;
-  /// That it loses at most the margin to the lowest error of its tier.
-  Confidence within_tier = Confidence::kOutOfReach;
-  /// Where a blend is to be used, the simplest single map of the first tier,
-  /// or the best one where there is none.
+  /// If a blend is recommended: the single map of lowest error.
   std::optional<std::size_t> single;
-  /// Of a single map, the blend than which separate days prove it better.
+  /// For a single map: the blend that it beats, established by separate days.
   std::optional<std::size_t> proven_better_than;
-  /// Of a simple map, the hold-out where the blend errs more than twice as
-  /// much; "" where it does not.
+  /// For a simple map: the hold-out in which the blend errs more than twice as
+  /// much; "" if there is none.
   std::string fails_in;
-  /// Predictions without a map that were better than every map, if any.
+  /// Predictions without a map that beat every map, if any.
   std::optional<std::size_t> better_but_no_map;
-  /// Of the held-out rows, those with an input of the model outside what the
-  /// fold trained on (0 to 1).
+  /// Share of held-out rows (0 to 1) with an input of the model outside the
+  /// fold's training range.
   double extrapolated_share = 0.0;
 };
 
@@ -48,12 +46,12 @@ struct Recommendation {
 enum class Choose {
   kAuto,   // the blend, unless a baseline errs less or a map is proven better
   kBest,   // the lowest error
-  kBlend,  // the blend wherever there is one
+  kBlend,  // the blend if there is one
 };
 
 std::string_view ToString(Choose choose);  // "auto", "best", "blend"
 
-/// What a map is to have besides little error.
+/// What counts besides the lowest error.
 enum class Prefer {
   kLeastError,
   kSmall,  // the cheapest map that loses at most the margin to the one chosen
@@ -61,35 +59,36 @@ enum class Prefer {
 std::string_view ToString(Prefer prefer);  // "least-error", "small"
 
 struct JudgeOptions {
-  /// The difference in RMSE that never matters; target's unit, at least 0.
+  /// The difference in RMSE that does not matter; target's unit, at least 0.
   double indifference = 0.0;
-  double goal = GoalJudgement::kNaN;  // target's unit; NaN: none
+  double goal = stats::kNaN;  // target's unit; NaN: none
   std::uint64_t seed = 1;
   Choose choose = Choose::kAuto;
   Prefer prefer = Prefer::kLeastError;
+  bool rezeroed = false;  // the study's errors are those of re-zeroed maps
 };
 
-/// Rows that a recommendation asks for: a parabola goes through three whatever
-/// they are.
+/// Fewest rows for a recommendation: a parabola fits any three rows
+/// exactly.
 inline constexpr Eigen::Index kFewestRowsToRecommend = 12;
 
-/// The map to use, or nothing where no map could be judged: too few rows, or no
-/// hold-out with a fit of every fold.
+/// Returns the map to use, or nothing if no map could be judged: too few rows,
+/// or no hold-out with a fit of every fold.
 ///
-/// What is promised follows the first hold-out of two or more whole sessions,
-/// else of whole unseen groups, else of another file, else of blocks, else the
-/// first; the map is chosen by the same, but by fewer than
-/// kFewestSessionsToDecide sessions only where nothing else is. Where there is
-/// a blend it is recommended, unless the best baseline's RMSE is lower, and its
-/// typical error in later sessions where these were foretold (forward:K), or a
-/// single map is established to be better by separate sessions, or a simple one
-/// (a baseline, a plane) typically errs less than half as much by the first of
-/// these hold-outs or in later sessions. Else the
-/// simplest map of the first tier: fewest sensors (data::IsSensor),
-/// then fewest parameters, then the lower RMSE; the simplest baseline where one
-/// is there: nothing better is known. Whatever is chosen so must be worth its
-/// sensors by what is promised (BetterWithoutSensors), else the best baseline
-/// without any is recommended.
+/// Errors come from the first hold-out of at least two whole sessions, else of
+/// whole unseen groups, else of another file, else of blocks, else the first.
+/// The same one chooses the map; fewer than kFewestSessionsToDecide sessions
+/// choose only if there is nothing else. By default a blend is recommended if
+/// there is one, with three exceptions. One is a baseline with lower RMSE (and
+/// lower typical error in later sessions, if forward:K predicted these).
+/// Another is a single map that separate sessions establish to be better. The
+/// third is a simple map (a baseline, a plane) that typically errs less than
+/// half as much, in the first hold-out or in later sessions. Without a blend it
+/// is the simplest map of the first tier: fewest sensors
+/// (data::IsReadBySensor), then fewest parameters, then lowest RMSE. A baseline
+/// in that tier comes first, since nothing better is known. The choice must be
+/// worth its sensors (BetterWithoutSensors), or the best baseline without
+/// sensors is recommended.
 std::optional<Recommendation> Recommend(
     const data::Dataset& dataset,
     const std::vector<Holdout>& holdouts,
@@ -97,7 +96,8 @@ std::optional<Recommendation> Recommend(
     const std::vector<HoldoutComparison>& comparisons,
     const JudgeOptions& options);
 
-/// Inputs of the model that are sensors (data::IsSensor), in its order.
+/// Returns the model's inputs that are sensors (data::IsReadBySensor), in
+/// order.
 std::vector<std::string> SensorsOf(const FittedModel& fitted);
 
 }  // namespace errmap::models

@@ -13,8 +13,8 @@
 
 namespace errmap::models {
 
-/// Residuals in measured order and what is known of each; a column name of ""
-/// means that there is no such column.
+/// Residuals in measured order with their columns; a column name of "" means
+/// that there is no such column.
 struct ResidualInputs {
   Eigen::VectorXd values;  // (n)
   std::string order = "file order";
@@ -34,16 +34,16 @@ struct NamedBias {
   stats::BiasByLevel bias;
 };
 
-/// Every statistic of one set of residuals: text and JSON are written from
-/// this and nothing else.
+/// All statistics of one set of residuals; text and JSON are written from this
+/// alone.
 struct ResidualReport {
   std::string order;
   stats::Normality normality;
-  stats::MonteCarloP monte_carlo;            // draws = 0: not asked for
+  stats::MonteCarloP monte_carlo;            // draws = 0: not requested
   stats::SerialTests whole;                  // over the whole order
   std::string group_column;                  // "": no groups
   std::optional<stats::SerialTests> within;  // within groups
-  stats::SerialShuffles whole_shuffles;      // draws = 0: not asked for
+  stats::SerialShuffles whole_shuffles;      // draws = 0: not requested
   stats::SerialShuffles within_shuffles;
   stats::TestResult halves;
   std::optional<NamedBias> by_group;
@@ -52,8 +52,8 @@ struct ResidualReport {
   std::optional<stats::TestResult> breusch_pagan;
 };
 
-/// Assesses the residuals; `monte_carlo` simulated samples and shuffles (0:
-/// none) with this seed.
+/// Assesses the residuals, with `monte_carlo` simulated samples and shuffles
+/// (0: none) from this seed.
 ResidualReport AssessResiduals(const ResidualInputs& inputs,
                                Eigen::Index monte_carlo = 0,
                                std::uint64_t seed = 1);

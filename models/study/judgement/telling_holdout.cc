@@ -8,10 +8,10 @@ namespace {
 
 using Eigen::Index;
 
-// How much a hold-out tells of another day, from 0: whole sessions, whole
-// groups, another file, whole blocks, few sessions, rows, a file that holds
-// rows of training. Of the same kind one that judges all sessions comes before
-// one that judges the later ones alone. Sessions count as such from `fewest`
+// Ranks how much a hold-out tells of another day, from 0: whole sessions,
+// whole groups, another file, whole blocks, few sessions, rows, a file that
+// holds training rows. Within a kind, one that judges all sessions comes
+// before one that judges only later ones. Sessions count as such from `fewest`
 // on.
 std::pair<int, bool> RankOf(const Holdout& holdout,
                             const HoldoutComparison& comparison,

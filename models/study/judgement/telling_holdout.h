@@ -8,20 +8,21 @@
 
 namespace errmap::models {
 
-/// What a promise is made by, index into `holdouts`: two sessions say more of a
-/// third than any number of groups of the same days. Nothing where all failed.
+/// Returns the hold-out for predicted errors, as an index into `holdouts`. Two
+/// sessions say more of a third than any number of groups of the same days.
+/// Nothing if all failed.
 std::optional<std::size_t> StrictestHoldout(
     const std::vector<Holdout>& holdouts,
     const std::vector<HoldoutComparison>& comparisons);
 
-/// What a map is chosen by: with fewer than kFewestSessionsToDecide sessions a
-/// fold lacks too much of what all rows have, and its errors tell maps apart
-/// less well than groups do.
+/// Returns the hold-out that chooses a map. With fewer than
+/// kFewestSessionsToDecide sessions a fold lacks too much of the data, and
+/// groups tell maps apart better.
 std::optional<std::size_t> DecisiveHoldout(
     const std::vector<Holdout>& holdouts,
     const std::vector<HoldoutComparison>& comparisons);
 
-/// Null where no later sessions were foretold.
+/// Returns null if no later sessions were predicted.
 const HoldoutComparison* ForwardOverSessions(
     const std::vector<Holdout>& holdouts,
     const std::vector<HoldoutComparison>& comparisons);

@@ -31,7 +31,6 @@ bool TakeUnits(const HeldOutRows& held,
   for (const Index code : found) unit_of[code] = 0;
   if (unit_of.size() < 2) return false;
   units->name = data::WordFor(grouping);
-  units->are_groups = true;
   for (auto& [code, unit] : unit_of) {
     unit = std::ssize(units->labels);
     units->labels.push_back(grouping.labels[static_cast<std::size_t>(code)]);

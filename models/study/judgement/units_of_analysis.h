@@ -10,15 +10,14 @@
 
 namespace errmap::models {
 
-/// Name of the unit where there are no groups.
+/// Name of the unit if there are no groups.
 inline constexpr const char* kBlockOfRows = "block of rows";
 
-/// What is met as a whole and so counts as one observation in every test.
+/// The units that occur as a whole: one observation each in every test.
 struct UnitsOfAnalysis {
-  std::string name;         // "cycle", "day", ...; "session"; kBlockOfRows
-  bool are_groups = false;  // groups or sessions, else blocks of held-out rows
-  bool are_sessions = false;        // what is held out whole is sessions
-  bool separate_sessions = false;   // units are, by a column; confidence.h
+  std::string name;           // "cycle", "day", ...; "session"; kBlockOfRows
+  bool are_sessions = false;  // whole sessions are held out
+  bool separate_sessions = false;   // known from a column; confidence.h
   std::vector<std::string> labels;  // (units) group, or "rows 0-16"
 };
 
@@ -30,12 +29,12 @@ struct HeldOutRows {
 };
 HeldOutRows GatherHeldOut(const data::Dataset& dataset, const Holdout& holdout);
 
-/// (n) target less prediction of those rows.
+/// Returns target minus prediction (n) of those rows.
 Eigen::VectorXd ResidualsOf(const HeldOutRows& held,
                             const HoldoutResult& result);
 
-/// (n) the unit of each of those rows, an index into `units->labels`; `units`
-/// is filled. Groups and sessions that are never held out are no units.
+/// Returns the unit of each of those rows (n), an index into `units->labels`;
+/// fills `units`. Groups and sessions that are never held out are not units.
 std::vector<Eigen::Index> AssignUnits(const Holdout& holdout,
                                       const HeldOutRows& held,
                                       UnitsOfAnalysis* units);

@@ -10,47 +10,48 @@
 
 namespace errmap::models {
 
-/// What one hold-out says.
+/// The conclusion from one hold-out.
 struct Verdict {
   std::string holdout;
   Choice choice = Choice::kBaseline;
   std::size_t best = 0;  // lowest RMSE: index into StudyResult::models
-  /// The best model of another class, or the best baseline where the table has
-  /// no other class: what the choice was made against.
+  /// The model that the best one is compared with: the best of another class,
+  /// never a blend, or the best baseline if there is none.
   std::optional<std::size_t> rival;
   std::optional<std::size_t> best_baseline;  // by RMSE
-  /// kPolynomial, kNeural, kGiven: that the best is better than its rival and
-  /// than the best baseline. kBaseline: that the best baseline loses at most
-  /// the margin to the best of all others. kNoPracticalDifference: that the
-  /// best polynomial and the best net lose at most the margin to each other.
+  /// kPolynomial, kNeural, kGiven: if the best is better than its rival and
+  /// than the best baseline. kBaseline: if the best baseline loses at most the
+  /// margin to the best of all others. kNoPracticalDifference: if the best
+  /// polynomial and the best net lose at most the margin to each other.
   Confidence confidence = Confidence::kOutOfReach;
 
   bool established() const { return confidence == Confidence::kEstablished; }
 };
 
-/// The error of each model among neighbours beside that on unseen groups.
+/// Each model's error among neighbours and its error on unseen groups.
 struct InterpolationGap {
   struct Row {
     std::size_t model = 0;
     double neighbours_rmse = 0.0;
     double unseen_rmse = 0.0;
     double ratio() const { return unseen_rmse / neighbours_rmse; }
-    /// The first flatters: unseen groups are met with twice the error.
+    /// True if neighbours flatter: the error on unseen groups is twice as
+    /// large.
     bool flatters() const { return ratio() >= kFlatteringRatio; }
   };
   static constexpr double kFlatteringRatio = 2.0;
 
   std::size_t neighbours = 0;  // index of the hold-out
   std::size_t unseen = 0;
-  std::vector<Row> rows;  // models that both could judge
+  std::vector<Row> rows;  // models judged in both
 };
 
-/// Judges one hold-out under which some model could be judged.
+/// Judges one hold-out in which at least one model could be judged.
 Verdict JudgeHoldout(const HoldoutComparison& comparison,
                      const StudyResult& study,
                      double indifference);
 
-/// Nothing where one of both kinds of hold-out is missing.
+/// Returns nothing unless both kinds of hold-out are present.
 std::optional<InterpolationGap> MeasureGap(
     const std::vector<Holdout>& holdouts,
     const std::vector<HoldoutComparison>& comparisons);

@@ -9,16 +9,16 @@
 
 namespace errmap::models {
 
-/// To do nothing, or to go by the position alone, is a map, too: the baseline
-/// without sensors (zero, mean, a curve over the position) that a map with
-/// sensors is not worth its sensors beside; nothing where it is, or has none.
+/// Compares a map with the baselines without sensors (zero, mean, a curve over
+/// the position). Returns the best of these if the map is not worth its
+/// sensors; nothing if it is, or has none.
 ///
-/// It is worth them where its error is lower by a tenth than that of each such
-/// baseline, and the logarithm of its unit's error over the baseline's is below
-/// zero by more than its standard error over the units. On 139 sets of noise,
+/// A map is worth its sensors if it passes two checks against each such
+/// baseline. Its error is a tenth lower. The mean log ratio of the units'
+/// errors is below zero by more than its standard error. Of 139 sets of noise,
 /// or of noise about a curve over the position, one map passes; without the
 /// tenth and the standard error 21 do. Maps of real machines and instruments
-/// pass by far: their errors are 0.1 to 0.7 times as large
+/// pass easily: their errors are 0.1 to 0.7 times as large
 /// (tests/benchmarks/worth_of_sensors.py).
 std::optional<std::size_t> BetterWithoutSensors(
     std::size_t model,

@@ -15,25 +15,25 @@
 
 namespace errmap::models {
 
-/// One component's study with all that its outputs need.
+/// One component's study with everything its outputs need.
 struct ComponentStudy {
   std::string name;                    // of the component
-  std::vector<InputFileRecord> files;  // of the measurements, in their order
+  std::vector<InputFileRecord> files;  // of the measurements, in order
   double goal = 0.0;                   // target's unit; NaN: none
   double indifference = 0.0;           // target's unit
-  /// How maps are re-zeroed where they are judged; nothing: not.
+  /// The rule by which maps are re-zeroed when judged; empty: they are not.
   std::optional<RezeroRule> rezero = {};
   Choose choose = Choose::kAuto;
   Prefer prefer = Prefer::kLeastError;
   data::PreparedDataset data;
   std::vector<Holdout> holdouts;
   StudyResult study;
-  /// Models of the study that nobody asked for, baselines, from `first_added`.
+  /// Baselines that were added to the models asked for: `num_added` from here.
   std::size_t first_added = 0;
   std::size_t num_added = 0;
   Judgement judgement;
   std::optional<RezeroWorth> rezero_worth = {};
-  // Of the recommended map:
+  // For the recommended map:
   std::optional<SessionWorth> session_worth = {};
   std::optional<SensorImportance> importance = {};
 };

@@ -10,12 +10,12 @@
 #include "models/study/record/record.h"
 #include "models/study/record/record_values.h"
 
-// The data of a component, the unit in which people see it, and how its rows
-// are held out.
+// The data of a component, the unit of display, and how its rows are held
+// out.
 
 namespace errmap::models {
 
-/// Readings that no machine made; data::ColumnFault.
+/// Implausible readings: not made by the machine; data::ColumnFault.
 struct FaultRecord {
   data::FaultKind kind = data::FaultKind::kOutlying;
   std::string column;
@@ -33,6 +33,7 @@ struct DataRecord {
   std::string target;
   std::string unit;  // "": none
   std::vector<std::string> inputs;
+  std::int64_t sensors = 0;  // how many of these are read by a sensor
   std::optional<std::string> group;
   std::int64_t groups = 0;
   std::optional<std::string> session;
@@ -43,11 +44,11 @@ struct DataRecord {
   std::vector<data::DroppedColumn> dropped;
   std::vector<FaultRecord> faults;
   std::vector<std::string> remarks;  // on columns and rows, one line each
-  std::vector<std::string> doubts;   // of these, what no answer goes without
+  std::vector<std::string> doubts;   // of these, shown with every answer
   data::Reading reading;
 };
 
-/// What people see is value * scale, in this unit.
+/// The displayed value is value * scale, in this unit.
 struct DisplayRecord {
   std::string unit;
   double scale = 1.0;
@@ -62,9 +63,9 @@ struct HoldoutRecord {
   bool whole_sessions = false;
   bool among_neighbours = false;
   bool another_file = false;
-  LeftOut<std::int64_t> rows_of_training = {};  // that the other file holds
+  LeftOut<std::int64_t> rows_of_training = {};  // in the test file
   std::int64_t repeats = 1;
-  /// Of each fold: how its training rows are held out for choices in a fit.
+  /// For each fold: how its training rows are held out for choices in a fit.
   std::vector<std::string> inner;
   RowsOfFolds train_rows;
   RowsOfFolds test_rows;

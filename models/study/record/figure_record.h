@@ -16,8 +16,8 @@ struct FigureInputRecord {
   std::string unit;
 };
 
-/// Rows of a data set, which may be of several files, thinned evenly where they
-/// are more than 5000; `file` is what messages call it.
+/// Rows of a data set, which may come from several files; thinned evenly beyond
+/// 5000. `file` is its name in messages.
 struct FigureTableRecord {
   std::string file;
   std::int64_t rows_total = 0;
@@ -25,18 +25,18 @@ struct FigureTableRecord {
   std::vector<std::string> labels;
   std::vector<std::int64_t> groups;  // index into labels
   std::vector<double> target;
-  std::vector<std::vector<double>> inputs;  // one list per input
+  std::vector<std::vector<double>> inputs;  // one list for each input
   LeftOut<std::vector<std::string>> session_labels;
   LeftOut<std::vector<std::int64_t>> sessions;  // index into them
-  LeftOut<std::vector<double>> time;  // in data.time_unit, where that is s
+  LeftOut<std::vector<double>> time;  // in data.time_unit, if that is s
 };
 
 struct FigureHoldoutRecord {
   std::string name;
   std::int64_t table = 0;
   ByName<std::vector<double>> predictions;  // NaN: not held out
-  /// Entries of the table where an input of the recommended map lay outside
-  /// what its fold was trained on.
+  /// Table entries with an input of the recommended map outside its fold's
+  /// training range.
   LeftOut<std::vector<std::int64_t>> outside;
 };
 
@@ -52,7 +52,8 @@ struct FiguresRecord {
   std::optional<std::string> group;
   std::vector<FigureTableRecord> tables;
   std::vector<FigureHoldoutRecord> holdouts;
-  /// Of the recommended map, fitted to all rows, of the first table.
+  /// Predictions of the recommended map, fitted to all rows, for the first
+  /// table.
   LeftOut<std::vector<double>> fitted;
 };
 

@@ -10,7 +10,7 @@
 #include "models/study/record/record.h"
 #include "models/study/record/record_values.h"
 
-// The judgement: what hold-outs say of models beside each other.
+// The judgement: the models compared with each other on held-out rows.
 
 namespace errmap::models {
 
@@ -41,7 +41,7 @@ struct MeanTestRecord {
   double p = kNotKnown;
 };
 
-/// With the memory from unit to unit that is not excluded (memory_bounds.h).
+/// Allows for the memory between units that is not excluded (memory_bounds.h).
 struct MemoryTestRecord {
   double statistic = kNotKnown;
   double df = kNotKnown;
@@ -69,14 +69,14 @@ struct PairRecord {
   IntervalRecord ci95 = {kNotKnown, kNotKnown};  // of the difference
   double p = kNotKnown;
   double p_holm = kNotKnown;
-  std::int64_t holm_pairs = 0;  // that the adjustment counts; 1: its own turn
+  std::int64_t holm_pairs = 0;  // in Holm's adjustment; 1: its own turn
   std::string test;
   bool exact = false;
   double smallest_p = kNotKnown;
   std::string unit_of_analysis;
   std::int64_t units = 0;
   double lag1 = kNotKnown;
-  double memory = kNotKnown;  // from unit to unit, that p and ci95 allow for
+  double memory = kNotKnown;  // between units, which p and ci95 allow for
   bool correlated = false;
   bool established = false;
   Confidence confidence = Confidence::kNotShown;
@@ -88,7 +88,7 @@ struct WinRecord {
   double share = kNotKnown;
 };
 
-/// Who wins when the groups are cut anew.
+/// Share of wins over repeated splits of the groups.
 struct StabilityRecord {
   std::string holdout;
   std::int64_t repeats = 0;
@@ -100,7 +100,7 @@ struct VerdictRecord {
   Choice choice = Choice::kBaseline;
   std::string model;
   std::optional<std::string> rival;
-  std::optional<Confidence> against_rival;  // that the model is better
+  std::optional<Confidence> against_rival;  // if the model is better
   std::optional<std::string> best_baseline;
   std::optional<Obstacle> obstacle;
   bool established = false;

@@ -5,9 +5,9 @@
 
 namespace errmap::models {
 
-/// What a component's study found, its held-out residuals assessed and its
-/// judgement carried over; only the sentences are left to whoever writes them.
-/// So many models are assessed at a time; the record is the same for any
+/// Makes the record of a component's study, with its held-out residuals
+/// assessed and its judgement copied. Only the sentences are left to the
+/// caller. Assesses `jobs` models at a time; the record is the same for any
 /// `jobs`.
 ComponentRecord MakeComponentRecord(const ComponentStudy& study, int jobs = 1);
 

@@ -17,7 +17,7 @@
 #include "models/study/record/regression_record.h"
 #include "models/study/record/residual_record.h"
 
-// A model: its fits, and its figures under each hold-out.
+// A model: its fits, and its metrics under each hold-out.
 
 namespace errmap::models {
 
@@ -33,7 +33,7 @@ struct MetricsRecord {
   double r2 = kNotKnown;
 };
 
-/// Of the final costs that are finite.
+/// Statistics of the finite final costs.
 struct CostSpreadRecord {
   std::int64_t finite = 0;
   double min = kNotKnown;
@@ -47,7 +47,7 @@ struct StartsRecord {
   CostSpreadRecord spread;
 };
 
-/// How a fit went.
+/// The outcome of a fit.
 struct SummaryRecord {
   fitting::Termination stop = fitting::Termination::kFailed;
   bool converged = false;
@@ -72,7 +72,7 @@ struct FitRecord {
   Inline<SummaryRecord> summary;
   std::vector<std::string> remarks;
   LeftOut<ByName<OptionValue>> choices;  // made by the fit, such as wfactor=cv
-  LeftOut<StartsRecord> starts;          // where there were several
+  LeftOut<StartsRecord> starts;          // if there were several
 };
 
 struct FoldRecord {
@@ -93,19 +93,19 @@ struct MemorisationRecord {
 
 /// A model under one hold-out.
 struct ResultRecord {
-  MetricsRecord train;  // each figure averaged over the folds
+  MetricsRecord train;  // metrics averaged over the folds
   MetricsRecord test;   // of the pooled residuals of all folds
   std::vector<FoldRecord> folds;
   NormalityRecord normality;
   RandomnessRecord randomness;
   IntervalRecord ci95 = {kNotKnown, kNotKnown};
   std::int64_t tier = 0;           // 1-based
-  std::optional<bool> meets_goal;  // nothing where it was not judged
+  std::optional<bool> meets_goal;  // empty if not judged
   GoalStanding goal_standing = GoalStanding::kNotJudged;
   std::vector<double> unit_rmse;
 };
 
-/// Of one step of the exported map; ProgramCost.
+/// Operations of one step of the exported map; ProgramCost.
 struct StepCostRecord {
   std::int64_t additions = 0;
   std::int64_t multiplications = 0;
@@ -113,7 +113,7 @@ struct StepCostRecord {
   std::int64_t exponentials = 0;
   std::int64_t state_bytes = 0;
 
-  /// All of them, an exponential as one.
+  /// Returns all operations; an exponential counts as one.
   std::int64_t operations() const {
     return additions + multiplications + divisions + exponentials;
   }
@@ -134,12 +134,12 @@ struct ModelRecord {
   std::optional<std::vector<std::string>> inputs_used;
   LeftOut<std::string> file;  // of the map, beside results.json
   LeftOut<StepCostRecord> step_cost;
-  LeftOut<bool> counts_rows;  // its memory does, not seconds: true, or left out
+  LeftOut<bool> counts_rows;       // true if memory counts rows, not seconds
   std::optional<FitRecord> final;  // the fit to all rows
   std::optional<RegressionRecord> regression;
   std::optional<MemorisationRecord> memorisation;
   ModelStatus status = ModelStatus::kFailed;
-  std::optional<std::string> why;  // it failed
+  std::optional<std::string> why;  // reason for the failure
   ByName<ResultRecord> results;    // by hold-out
   double predict_ns = kNotKnown;
 };

@@ -11,21 +11,20 @@
 #include "models/study/judgement/goal.h"
 #include "models/study/record/record.h"
 #include "models/study/record/record_values.h"
-#include "models/study/record/remark_record.h"
 
-// The recommended map: its error, what it costs and promises, and what its
-// sensors and sessions are worth.
+// The recommended map: its error, its cost, its predicted error, and the value
+// of its sensors and sessions.
 
 namespace errmap::models {
 
-/// What a map remembers.
+/// The memory of a map.
 struct MemoryRecord {
-  double longest = 0.0;  // time constant; 0: of none
+  double longest = 0.0;  // time constant; 0: no memory
   std::string time_unit;
   bool zeroed = false;  // at the start of a session
 };
 
-/// A share of the errors on a unit never seen lies within half_width;
+/// A share of the errors on an unseen unit lies within half_width;
 /// PredictionInterval.
 struct PromiseLevelRecord {
   double coverage = kNotKnown;
@@ -38,14 +37,14 @@ struct PromiseRecord {
   std::string unit;
   std::int64_t units = 0;
   std::vector<PromiseLevelRecord> levels;
-  // Where neighbouring units' mean errors go together: PredictionInterval.
+  // Set if mean errors of neighbouring units correlate: PredictionInterval.
   LeftOut<double> lag1;
   LeftOut<std::int64_t> good_for;
 };
 PromiseRecord MakeRecord(const PredictionInterval& interval);
 
 /// Held-out residuals from `from` to before `until` seconds after the first row
-/// of their session (NaN: to its end).
+/// of their session (NaN: to the session's end).
 struct SinceStartRecord {
   double from = 0.0;
   double until = kNotKnown;
@@ -54,40 +53,48 @@ struct SinceStartRecord {
   double rmse = kNotKnown;
 };
 
-/// What sessions of measurements are worth to a map.
+/// The value of further sessions of measurements to a map.
 struct SessionWorth {
-  std::int64_t sessions = 0;  // that the map was fitted to
-  std::int64_t folds = 0;     // that could be compared
-  /// Held-out error with one session fewer in training over that without,
+  std::int64_t sessions = 0;  // in the map's training data
+  std::int64_t folds = 0;     // compared
+  /// Held-out error with one training session fewer, divided by that with all;
   /// geometric mean over folds.
   double ratio_of_one_fewer = kNotKnown;
-  /// What a power law through both makes of one session more: its error over
-  /// today's, at most 1.
+  /// Predicted error with one more session, divided by today's, by a power law
+  /// through both; at most 1.
   double ratio_of_one_more = kNotKnown;
 };
 
-/// What a map is without some of its sensors, on rows that it was not fitted
-/// to.
+/// The error of a map without some of its sensors, on rows that it was not
+/// fitted to.
 struct SensorImportance {
   struct Without {
-    std::vector<std::string> sensors;  // taken away
+    std::vector<std::string> sensors;  // removed
     double rmse = 0.0;                 // target's unit
   };
   std::int64_t rows = 0;  // held out and judged
   double rmse = 0.0;      // with every sensor, on these rows
-  /// Sensors whose readings correlate at least so are taken to be alike.
+  /// Least correlation at which sensors count as alike.
   double alike = kNotKnown;
   std::vector<Without> one_by_one;  // the largest error first
-  /// Those that are alike, two or more, then all of them: sensors that stand in
-  /// for one another look needless one by one.
+  /// Groups of at least two alike sensors, then all sensors. Sensors that can
+  /// replace each other look unnecessary one by one.
   std::vector<Without> together;
+};
+
+/// Limits of a fold's training range beyond which rows of an input were held
+/// out, in its unit; NaN: none on this side.
+struct BeyondRecord {
+  std::string column;
+  double below = kNotKnown;
+  double above = kNotKnown;
 };
 
 struct RecommendationRecord {
   Choice choice = Choice::kBaseline;
   std::string model;
-  std::string holdout;     // the strictest, of which all figures are
-  std::string decided_by;  // the one that the map was chosen by
+  std::string holdout;     // the strictest; all errors refer to it
+  std::string decided_by;  // the hold-out that chose the map
   double rmse = kNotKnown;
   IntervalRecord ci95 = {kNotKnown, kNotKnown};
   std::vector<std::string> first_tier;
@@ -99,21 +106,30 @@ struct RecommendationRecord {
   std::optional<bool> meets_goal;
   GoalStanding goal_standing = GoalStanding::kNotJudged;
   double extrapolated_share = kNotKnown;
-  /// Of the error without compensation, 1 - RMSE / RMSE; below 0: it adds.
+  /// Share of the uncompensated error, 1 - RMSE / RMSE; below 0: error added.
   double removed_share = kNotKnown;
   PredictionCost cost;
   std::optional<MemoryRecord> memory;
   LeftOut<PromiseRecord> promise;
-  /// Under `holdout`; empty without times in seconds.
+  /// Residuals under `holdout`; empty without times in seconds.
   std::vector<SinceStartRecord> since_start;
   LeftOut<SessionWorth> session_worth;
   LeftOut<SensorImportance> importance;  // of its sensors
-  std::vector<RemarkRecord> grounds;
-  std::vector<RemarkRecord> doubts;
+  /// For a blend: the single map of lowest error.
+  LeftOut<std::string> single;
+  /// For a single map: the blend that it beats, established by separate days.
+  LeftOut<std::string> proven_better_than;
+  /// For a simple map: the hold-out in which the blend errs more than twice as
+  /// much.
+  LeftOut<std::string> fails_in;
+  /// Predictions without a map that are better.
+  LeftOut<std::string> better_without_map;
+  /// Its inputs that hardly ever return to earlier values.
+  LeftOut<std::vector<std::string>> only_grow;
+  /// If many held-out rows lie beyond: its inputs, the most rows first.
+  LeftOut<std::vector<BeyondRecord>> beyond;
   std::string sentence;
-  std::string why;
-  // The texts of the grounds and of the doubts, for who reads results.json;
-  // the program itself reads those with the remarks.
+  std::string why;  // the sentence and the reasons
   std::vector<std::string> reasons;
   std::vector<std::string> caveats;
 };

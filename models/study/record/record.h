@@ -15,10 +15,10 @@
 
 namespace errmap::models {
 
-// What a record's members may be besides numbers, texts, truths, enumerators
-// with ToString, records, and vectors and optionals (null) of them.
+// Member types of a record, besides numbers, texts, truths, enumerators with
+// ToString, records, and vectors and optionals (null) of them.
 
-/// A key that is left out where there is nothing.
+/// A key that is left out if it has no value.
 template <typename T>
 struct LeftOut : std::optional<T> {
   using std::optional<T>::optional;
@@ -28,12 +28,18 @@ struct LeftOut : std::optional<T> {
 template <typename T>
 using ByName = std::vector<std::pair<std::string, T>>;
 
-/// A record whose keys stand among those of the record around it; those of an
-/// optional one are left out where there is nothing.
+/// A record whose keys are stored among those of the enclosing record; the keys
+/// of an empty optional one are left out.
 template <typename T>
 struct Inline {
   T value = {};
 };
+
+/// Keys of the object around it that are none of its record's, in order: what
+/// slices add, as JSON in one line. They are kept and written as they are.
+struct OtherKeys : ByName<std::string> {};
+template <>
+inline constexpr bool kIsRecord<OtherKeys> = false;
 
 template <typename T>
 struct IsLeftOut : std::false_type {};
@@ -46,7 +52,7 @@ struct IsInline<Inline<T>> : std::true_type {};
 template <typename T>
 inline constexpr bool kIsRecord<Inline<T>> = false;
 
-/// Whether all that two records hold is the same; NaN is the same as NaN.
+/// True if two records hold the same values; NaN equals NaN.
 template <typename T>
 bool Same(const T& a, const T& b) {
   if constexpr (Record<T>) {

@@ -1,5 +1,7 @@
 #include "models/study/record/record_json.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -8,15 +10,6 @@
 #include "data/text.h"
 
 namespace errmap::models::record_json {
-
-namespace {
-
-// Bytes that are no UTF-8 are replaced, as in the file.
-std::string OneLine(const RecordJson& json) {
-  return json.dump(-1, ' ', false, RecordJson::error_handler_t::replace);
-}
-
-}  // namespace
 
 void SetNull(RecordJson* json) { *json = nullptr; }
 void Set(double value, RecordJson* json) {
@@ -28,6 +21,9 @@ void Set(std::uint64_t value, RecordJson* json) { *json = value; }
 void Set(std::string_view value, RecordJson* json) { *json = value; }
 void SetObject(RecordJson* json) { *json = RecordJson::object(); }
 void SetArray(RecordJson* json) { *json = RecordJson::array(); }
+void SetText(std::string_view text, RecordJson* json) {
+  *json = RecordJson::parse(text);
+}
 
 RecordJson* Member(std::string_view key, RecordJson* object) {
   return &(*object)[std::string(key)];
@@ -56,6 +52,10 @@ void ForMembers(const RecordJson& object,
   for (const auto& [name, value] : object.items()) {
     visit(data::AsUtf8(name), value);
   }
+}
+
+std::string OneLine(const RecordJson& json) {
+  return json.dump(-1, ' ', false, RecordJson::error_handler_t::replace);
 }
 
 void ForText(const RecordJson& json,
@@ -108,7 +108,7 @@ std::string PlaceOf(std::string_view key) {
 std::string PlaceOf(std::size_t i) { return fmt::format("[{}]", i); }
 
 void ParseAs(std::string_view text,
-             std::string_view schema,
+             std::initializer_list<std::string_view> schemas,
              std::string_view remedy,
              Tree* json) {
   data::RequireShallowJson(text);
@@ -116,13 +116,18 @@ void ParseAs(std::string_view text,
     throw data::InputError(fmt::format("is no JSON; {}", remedy));
   }
   const RecordJson* found = Find(*json->root(), "schema");
-  if (found != nullptr && IsWord(*found, schema)) return;
+  if (found != nullptr &&
+      std::ranges::any_of(schemas, [&](std::string_view schema) {
+        return IsWord(*found, schema);
+      })) {
+    return;
+  }
   std::string other;
   throw data::InputError(fmt::format("schema is {}, this version reads {}; {}",
                                      found != nullptr && Get(*found, &other)
                                          ? data::QuotedText(other)
                                          : "not there",
-                                     schema,
+                                     *schemas.begin(),
                                      remedy));
 }
 

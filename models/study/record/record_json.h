@@ -1,11 +1,12 @@
 #pragma once
 
-// How records become JSON and back. Not for public headers. Only those who
-// touch a RecordJson themselves need nlohmann's library.
+// Converts records to JSON and back. Not for public headers: only code that
+// touches a RecordJson itself needs nlohmann's library.
 
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <string>
@@ -20,8 +21,8 @@ namespace errmap::models {
 
 using RecordJson = nlohmann::ordered_json;
 
-// What all records are written with and read by: one object of JSON each,
-// compiled once.
+// Functions that read and write one JSON value each, for all records; compiled
+// once.
 namespace record_json {
 
 void SetNull(RecordJson* json);
@@ -32,7 +33,9 @@ void Set(std::uint64_t value, RecordJson* json);
 void Set(std::string_view value, RecordJson* json);
 void SetObject(RecordJson* json);
 void SetArray(RecordJson* json);
-/// The member of that name, made where there is none.
+/// Sets what a text of JSON holds.
+void SetText(std::string_view text, RecordJson* json);
+/// Returns the member of that name; creates it if there is none.
 RecordJson* Member(std::string_view key, RecordJson* object);
 RecordJson* Append(RecordJson* array);
 
@@ -43,23 +46,25 @@ bool IsInteger(const RecordJson& json);
 bool IsNull(const RecordJson& json);
 std::size_t Size(const RecordJson& json);
 const RecordJson& At(const RecordJson& array, std::size_t i);
-/// Null where it is no object or has no such member.
+/// Returns null if it is not an object or has no such member.
 const RecordJson* Find(const RecordJson& json, std::string_view key);
 void ForMembers(const RecordJson& object,
                 const std::function<void(std::string name,
                                          const RecordJson& value)>& visit);
-/// The text in one line, piece by piece, without members that are not `kept`.
+/// Returns the text in one line; bytes that are no UTF-8 are replaced.
+std::string OneLine(const RecordJson& json);
+/// Passes on the same, in pieces, without members not `kept`.
 void ForText(const RecordJson& json,
              const std::function<bool(std::string_view key)>& kept,
              const std::function<void(std::string_view text)>& take);
-// Whether it is of the type; what is not leaves *value as it is.
+// Returns true if it has this type; else leaves *value unchanged.
 bool Get(const RecordJson& json, double* value);
 bool Get(const RecordJson& json, bool* value);
 bool Get(const RecordJson& json, std::int64_t* value);
 bool Get(const RecordJson& json, std::uint64_t* value);
 bool Get(const RecordJson& json, std::string* value);
 bool IsWord(const RecordJson& json, std::string_view word);
-/// ".key", "[3]": what leads there from what is around it.
+/// Returns ".key" or "[3]": the path from the enclosing value.
 std::string PlaceOf(std::string_view key);
 std::string PlaceOf(std::size_t i);
 
@@ -73,17 +78,17 @@ template <std::integral T>
 using Wide =
     std::conditional_t<std::is_signed_v<T>, std::int64_t, std::uint64_t>;
 
-/// A tree of JSON for those who do not know its type.
+/// A tree of JSON for code that does not see its type.
 class Tree {
  public:
   Tree();
   ~Tree();
   Tree(const Tree&) = delete;
   Tree& operator=(const Tree&) = delete;
-  /// False where it is no JSON.
+  /// Returns false if it is not JSON.
   bool Parse(std::string_view text);
-  /// Indented by so many spaces, or in one line (-1). Bytes that are no UTF-8
-  /// are replaced.
+  /// Returns the text with an indent of so many spaces, or in one line (-1).
+  /// Replaces bytes that are not UTF-8.
   std::string Text(int indent) const;
   RecordJson* root() { return root_.get(); }
 
@@ -98,7 +103,9 @@ template <typename T>
 void Add(const T& record, RecordJson* json) {
   VisitMembers(record, [&](std::string_view key, const auto& member) {
     using Held = std::decay_t<decltype(member)>;
-    if constexpr (IsInline<Held>::value) {
+    if constexpr (std::same_as<Held, OtherKeys>) {
+      for (const auto& [name, text] : member) SetText(text, Member(name, json));
+    } else if constexpr (IsInline<Held>::value) {
       if constexpr (requires { member.value.has_value(); }) {
         if (member.value) Add(*member.value, json);
       } else {
@@ -112,7 +119,7 @@ void Add(const T& record, RecordJson* json) {
   });
 }
 
-/// What is not finite becomes null.
+/// Writes values that are not finite as null.
 template <typename T>
 void Write(const T& value, RecordJson* json) {
   if constexpr (Record<T>) {
@@ -150,6 +157,16 @@ void Write(const T& value, RecordJson* json) {
 }
 
 template <typename T>
+bool HasKey(std::string_view name) {
+  bool has = false;
+  const T record{};
+  VisitMembers(record, [&](std::string_view key, const auto& /*member*/) {
+    has = has || key == name;
+  });
+  return has;
+}
+
+template <typename T>
 bool HasAnyKey(const RecordJson& json) {
   bool any = false;
   const T record{};
@@ -161,7 +178,7 @@ bool HasAnyKey(const RecordJson& json) {
 
 }  // namespace record_json
 
-/// What is not finite becomes null. Who calls it includes nlohmann's library.
+/// Values that are not finite become null. Callers include nlohmann's library.
 template <typename T, typename Json = RecordJson>
 Json ToJson(const T& value) {
   Json json;
@@ -169,7 +186,7 @@ Json ToJson(const T& value) {
   return json;
 }
 
-/// The text of the same.
+/// Returns ToJson as text.
 template <typename T>
 std::string JsonText(const T& value, int indent) {
   record_json::Tree tree;
@@ -177,16 +194,16 @@ std::string JsonText(const T& value, int indent) {
   return tree.Text(indent);
 }
 
-/// Reads what stands there and says whether all of it was of the right type;
-/// where it was not, `misfit` gets the place of the first that was not
-/// (".folds[2].stop"). What is missing stays as a new record has it, as older
-/// files lack later keys; so does null where there may be nothing, or a number.
+/// Reads a value; returns false if any part has the wrong type. `misfit` then
+/// gets the path of the first such part (".folds[2].stop"). Missing keys keep
+/// the values of a new record, since older files lack later keys. Null leaves
+/// an optional empty, and makes a floating-point number NaN.
 template <typename T>
 bool FromJson(const RecordJson& json, T* value, std::string* misfit = nullptr);
 
 namespace record_json {
 
-/// The part of that place; `misfit` gets its place before that within it.
+/// Reads a part; `misfit` gets its path before the path within it.
 template <typename T>
 bool FromPart(const RecordJson& json,
               const auto& place,
@@ -203,7 +220,12 @@ bool MembersFrom(const RecordJson& json, T* value, std::string* misfit) {
   bool fits = IsObject(json);
   VisitMembers(*value, [&](std::string_view key, auto& member) {
     using Held = std::decay_t<decltype(member)>;
-    if constexpr (!IsInline<Held>::value) {
+    if constexpr (std::same_as<Held, OtherKeys>) {
+      if (!IsObject(json)) return;
+      ForMembers(json, [&](std::string name, const RecordJson& other) {
+        if (!HasKey<T>(name)) member.emplace_back(name, OneLine(other));
+      });
+    } else if constexpr (!IsInline<Held>::value) {
       const RecordJson* found = Find(json, key);
       if (found != nullptr && !FromPart(*found, key, &member, misfit)) {
         fits = false;
@@ -223,7 +245,7 @@ bool MembersFrom(const RecordJson& json, T* value, std::string* misfit) {
 
 template <typename T>
 bool WordFrom(const RecordJson& json, T* value) {
-  // No enumeration has more; where ToString knows none it says "".
+  // No enumeration has more; ToString returns "" beyond its last.
   constexpr int kMostEnumerators = 256;
   for (int i = 0; i < kMostEnumerators; ++i) {
     const std::string_view word = ToString(static_cast<T>(i));
@@ -268,10 +290,10 @@ bool ListFrom(const RecordJson& json, T* value, std::string* misfit) {
   return true;
 }
 
-/// The text as JSON of that schema. Throws data::InputError, which says what
-/// the text is instead and then `remedy`.
+/// Parses the text as JSON of one of these schemas. Throws data::InputError
+/// saying what the text is instead, followed by `remedy`.
 void ParseAs(std::string_view text,
-             std::string_view schema,
+             std::initializer_list<std::string_view> schemas,
              std::string_view remedy,
              Tree* json);
 [[noreturn]] void RefuseMisfit(std::string_view misfit,
@@ -319,8 +341,8 @@ bool FromJson(const RecordJson& json, T* value, std::string* misfit) {
   }
 }
 
-/// The record that parsed JSON holds. Throws data::InputError where a key has a
-/// value that is not of the schema's type; the message ends with `remedy`.
+/// Returns the record in parsed JSON. Throws data::InputError if a key's value
+/// is not of the schema's type; the message ends with `remedy`.
 template <typename T>
 T RecordOf(const RecordJson& json,
            std::string_view schema,
@@ -333,13 +355,13 @@ T RecordOf(const RecordJson& json,
   return record;
 }
 
-/// The record that the text of a file holds; throws as ParseAs and RecordOf.
+/// Returns the record in the text of a file; throws as ParseAs and RecordOf.
 template <typename T>
 T RecordFromText(std::string_view text,
                  std::string_view schema,
                  std::string_view remedy) {
   record_json::Tree json;
-  record_json::ParseAs(text, schema, remedy, &json);
+  record_json::ParseAs(text, {schema}, remedy, &json);
   return RecordOf<T>(*json.root(), schema, remedy);
 }
 

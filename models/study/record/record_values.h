@@ -12,14 +12,14 @@
 
 #include "models/study/record/record.h"
 
-// What the records of results.json share: the value that is not known, values
-// of options, intervals, and the search by name.
+// Shared by the records of results.json: the value for unknown, values of
+// options, intervals, and search by name.
 
 namespace errmap::models {
 
 inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
-/// The entry of `list` that is called `name`, or null.
+/// Returns the entry of `list` with this `name`, or null.
 template <typename T>
 requires requires(const T& entry) { entry.name; }
 const T* FindNamed(const std::vector<T>& list, std::string_view name) {
@@ -36,7 +36,7 @@ const T* FindNamed(const ByName<T>& list, std::string_view name) {
 /// Value of an option.
 using OptionValue = std::variant<std::int64_t, double, std::string>;
 
-/// A 95 % interval; NaN where there is none.
+/// A 95 % interval; NaN if there is none.
 using IntervalRecord = std::array<double, 2>;
 
 }  // namespace errmap::models

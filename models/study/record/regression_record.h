@@ -8,13 +8,13 @@
 #include "models/study/record/record.h"
 #include "models/study/record/record_values.h"
 
-// A regression: the steps to its terms, its coefficients and what they are
-// worth.
+// A regression: its selection steps, its coefficients and their
+// statistics.
 
 namespace errmap::models {
 
 struct StepRecord {
-  std::optional<std::string> term;  // nothing at the start
+  std::optional<std::string> term;  // empty at the start
   bool entered = false;
   std::int64_t terms = 0;
   double f = kNotKnown;
@@ -29,7 +29,7 @@ struct StepRecord {
   double cv = kNotKnown;
 };
 
-/// What the intercept has not.
+/// Statistics that the intercept lacks.
 struct TermRecord {
   double standardised = kNotKnown;
   double vif = kNotKnown;
@@ -65,7 +65,7 @@ struct PenaltyChoiceRecord {
   std::vector<double> standard_error;
 };
 
-/// Of a penalised fit.
+/// For a penalised fit.
 struct PenaltyRecord {
   double penalty = kNotKnown;
   double effective_parameters = kNotKnown;
@@ -87,7 +87,7 @@ struct BootstrapRecord {
   std::string unit;
 };
 
-/// Of a fit by least squares.
+/// For a least-squares fit.
 struct LeastSquaresRecord {
   AnovaRecord anova;
   double s = kNotKnown;
@@ -115,7 +115,7 @@ struct RegressionRecord {
   std::vector<StepRecord> steps;
   std::int64_t chosen_step = 0;
   std::string ended;
-  /// The intercept first where there is one.
+  /// The intercept is first, if there is one.
   std::vector<CoefficientRecord> coefficients;
   ByName<double> centres;
   Inline<std::optional<PenaltyRecord>> penalised;

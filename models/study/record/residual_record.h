@@ -10,13 +10,13 @@
 #include "stats/normality/normality.h"
 #include "stats/randomness.h"
 
-// What the tests say of held-out residuals: their distribution, their order,
-// and what is left in them at the levels of a column.
+// Tests of held-out residuals: their distribution, their order, and remaining
+// biases at the levels of a column.
 
 namespace errmap::models {
 
-/// A test, and why it does not apply where it does not. The statistics have
-/// the names of their keys.
+/// A test, or the reason why it does not apply. The statistics are named as
+/// their keys.
 #define ERRMAP_TEST_RECORD(Struct, statistic) \
   struct Struct {                             \
     double statistic = kNotKnown;             \
@@ -53,8 +53,8 @@ struct PpccRecord {
   LeftOut<std::string> why;
 };
 
-/// p are cut off at 0.001 and 0.999 where they come from simulated tables; with
-/// a `step` they are shares of normal samples rounded alike.
+/// p-values are limited to 0.001 and 0.999 if they come from simulated tables.
+/// With a `step` they are shares of normal samples with the same rounding.
 struct NormalityRecord {
   KsRecord ks;
   DTestRecord lilliefors;
@@ -66,7 +66,7 @@ struct NormalityRecord {
   DipTestRecord dip;
   double skewness = kNotKnown;
   double kurtosis = kNotKnown;
-  LeftOut<double> step;  // of rounded readings, where it matters
+  LeftOut<double> step;  // of rounded readings, if it matters
   LeftOut<stats::MonteCarloP> monte_carlo;
 };
 

@@ -7,7 +7,7 @@
 #include "models/study/record/record.h"
 #include "models/study/record/record_values.h"
 
-// What re-zeroing at an interval makes of maps, and of no map at all.
+// The effect of re-zeroing on maps, and on no map.
 
 namespace errmap::models {
 
@@ -27,7 +27,7 @@ struct RezeroIntervalRecord {
 struct RezeroRecord {
   std::string rule;             // as given
   std::string when;             // "interval", "session", "probe"
-  double interval = kNotKnown;  // s; of "interval" alone
+  double interval = kNotKnown;  // s; only for "interval"
   double noise = kNotKnown;
   std::string holdout;
   std::int64_t probes = 0;
@@ -35,10 +35,10 @@ struct RezeroRecord {
   double no_map = kNotKnown;
   std::vector<RezeroedModelRecord> models;
   std::vector<RezeroIntervalRecord> curve;  // of the recommended map
-  /// What the map needs to do what no map does by the rule: "every" interval,
-  /// "session", "never"; "more": not even the rule will do.
+  /// Re-zeroing that the map needs to match no map under the rule: "every"
+  /// interval, "session", "never"; "more": even the rule is not enough.
   std::string needs;
-  double needs_interval = kNotKnown;  // s; of "every" alone
+  double needs_interval = kNotKnown;  // s; only for "every"
   std::string sentence;
 };
 

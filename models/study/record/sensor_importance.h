@@ -7,14 +7,14 @@
 
 namespace errmap::models {
 
-/// Takes the sensors of `fitted` (the map of all rows) away from the maps of
-/// the folds in `result`: in a sensor's place they read what the others that
-/// they read say of it, by linear regression over the fold's training rows.
-/// Nothing is fitted anew, so one that is fitted without the sensor may do
-/// better. Every so-manieth held-out row serves where all would take more than
-/// some seconds. None for a map without sensors, for results without maps, for
-/// readings whose squares overflow, where a memory would run through too long a
-/// log, and where `stop` is set.
+/// Removes the sensors of `fitted` (the map of all rows) from the folds'
+/// maps in `result`. A linear regression on the fold's training rows
+/// replaces a sensor's reading by its estimate from the map's other inputs.
+/// Nothing is refitted, so a map fitted without the sensor may do better.
+/// Uses every n-th held-out row if all would take more than some seconds.
+/// Returns nothing for a map without sensors, results without maps, readings
+/// whose squares overflow, or a memory over too long a log; nor if `stop` is
+/// set.
 std::optional<SensorImportance> ImportanceOfSensors(
     const data::Dataset& dataset,
     const Holdout& holdout,

@@ -7,12 +7,12 @@
 
 namespace errmap::models {
 
-/// Fits `recipe` anew to the training rows of every fold of `holdout`, which
-/// holds whole sessions out, less one of their sessions (another from fold to
-/// fold), and compares its error on the fold's test rows with that in `result`.
-/// None where there are fewer than four sessions or more than 50, of which one
-/// more is worth no fit, or where a fit fails or is interrupted. The fits run
-/// on options.jobs threads, which changes no bit.
+/// Refits `recipe` to the training rows of every fold of `holdout` less one of
+/// their sessions (another in each fold). Compares its error on the fold's test
+/// rows with that in `result`. Needs whole sessions held out, 4 to 50 of them
+/// (beyond, one more is not worth a fit), and fits that all succeed; else
+/// returns nothing. Fits run on options.jobs threads, without effect on the
+/// result.
 std::optional<SessionWorth> WorthOfASession(const data::Dataset& dataset,
                                             const Holdout& holdout,
                                             const ModelRecipe& recipe,

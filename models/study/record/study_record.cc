@@ -1,6 +1,7 @@
 #include "models/study/record/study_record.h"
 
 #include <algorithm>
+#include <initializer_list>
 
 #include <fmt/format.h>
 
@@ -34,6 +35,17 @@ LeftOut<Doubt> DoubtOf(const RecordJson& results) {
   if (stated == nullptr || !FromJson(*stated, &hash)) return Doubt::kNoHash;
   if (hash != HashOf(results)) return Doubt::kChanged;
   return {};
+}
+
+StudyRecord FromSchemas(std::string_view text,
+                        std::initializer_list<std::string_view> schemas) {
+  const std::string remedy = fmt::format(
+      "errmap compare with {} writes it anew", data::ArgumentName("out"));
+  record_json::Tree json;
+  record_json::ParseAs(text, schemas, remedy, &json);
+  auto record = RecordOf<StudyRecord>(*json.root(), kResultsSchema, remedy);
+  if (!record.doubt) record.doubt = DoubtOf(*json.root());
+  return record;
 }
 
 }  // namespace
@@ -76,13 +88,11 @@ std::string ToJsonLine(const StudyRecord& record) {
 }
 
 StudyRecord FromJsonText(std::string_view text) {
-  const std::string remedy = fmt::format(
-      "errmap compare with {} writes it anew", data::ArgumentName("out"));
-  record_json::Tree json;
-  record_json::ParseAs(text, kResultsSchema, remedy, &json);
-  auto record = RecordOf<StudyRecord>(*json.root(), kResultsSchema, remedy);
-  if (!record.doubt) record.doubt = DoubtOf(*json.root());
-  return record;
+  return FromSchemas(text, {kResultsSchema});
+}
+
+StudyRecord FromStoredJsonText(std::string_view text) {
+  return FromSchemas(text, {kResultsSchema, kStoredResultsSchema});
 }
 
 }  // namespace errmap::models

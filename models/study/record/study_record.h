@@ -9,7 +9,6 @@
 #include "models/study/record/data_record.h"
 #include "models/study/record/figure_record.h"
 #include "models/study/record/judgement_record.h"
-#include "models/study/record/machine_record.h"
 #include "models/study/record/model_record.h"
 #include "models/study/record/provenance_record.h"
 #include "models/study/record/recommendation_record.h"
@@ -17,12 +16,12 @@
 #include "models/study/record/record_values.h"
 #include "models/study/record/rezero_record.h"
 
-// What a study found, as plain data: these structs are results.json, schema
-// errmap-results-1, member by key in the same order. Lengths are in the data
-// file's own unit; NaN stands for what there is not (null in the file), and
-// nothing is infinite. Tables, pages and sentences are drawn from them.
+// The results of a study as plain data. These structs are results.json, schema
+// errmap-results-2: each member is a key, in the same order. Lengths are in the
+// data file's unit; NaN stands for a missing value (null in the file), and
+// nothing is infinite. Tables, pages and sentences are made from them.
 //
-// Here is the top; each part has a header beside this one:
+// This is the top; each part has a header in this folder:
 //
 //   data_record.h            data, unit of display, hold-outs
 //   model_record.h           fits, figures of a model under each hold-out
@@ -30,10 +29,8 @@
 //   residual_record.h        tests of held-out residuals
 //   judgement_record.h       pairs of models, verdicts
 //   recommendation_record.h  the recommended map
-//   remark_record.h          what speaks for it and bounds its worth
 //   rezero_record.h          maps that are re-zeroed
 //   figure_record.h          the rows behind the figures
-//   machine_record.h         the error at the tool
 //   provenance_record.h      configuration, program, files
 
 namespace errmap::models {
@@ -53,17 +50,19 @@ struct ComponentRecord {
   std::vector<StabilityRecord> stability;
   std::vector<VerdictRecord> verdict;
   std::optional<RecommendationRecord> recommendation;
-  /// Where it was asked for.
+  /// Set if requested.
   LeftOut<RezeroRecord> rezero;
   FiguresRecord figures;
 };
 
-inline constexpr std::string_view kResultsSchema = "errmap-results-1";
+inline constexpr std::string_view kResultsSchema = "errmap-results-2";
+/// The schema in older stores, with less on the recommended map.
+inline constexpr std::string_view kStoredResultsSchema = "errmap-results-1";
 
-/// Why a file is perhaps not what a run found.
+/// Why a file may not be what a run found.
 enum class Doubt {
-  kNoHash,   // an older program wrote it, or the hash was taken out
-  kChanged,  // its content is not that of its hash
+  kNoHash,   // written by an older program, or the hash was removed
+  kChanged,  // its content does not match its hash
 };
 /// "no hash", "changed".
 std::string_view ToString(Doubt doubt);
@@ -75,29 +74,31 @@ struct StudyRecord {
   bool interrupted = false;
   ProvenanceRecord provenance;
   std::vector<ComponentRecord> components;
-  LeftOut<MachineRecord> machine;  // where they were put together
-  LeftOut<Doubt> doubt;            // by who read it
+  OtherKeys others;      // what slices add
+  LeftOut<Doubt> doubt;  // set by the reader
 };
 
-/// Two models under a hold-out, either way round, or null.
+/// Returns the pair of two models under a hold-out, in either order, or null.
 const PairRecord* FindPair(const ComponentRecord& component,
                            std::string_view holdout,
                            std::string_view one,
                            std::string_view other);
 
-/// results.json; what is no UTF-8 in names is replaced. Its content_sha256, in
-/// provenance, is of all else but measured times (keys with "seconds" or that
-/// end in _ns): the same of the same study, however the file is indented.
+/// Returns results.json; replaces bytes in names that are not UTF-8. The
+/// content_sha256 in provenance covers all else except measured times (keys
+/// with "seconds" or ending in _ns). It is the same for the same study,
+/// whatever the indentation.
 std::string ToJsonText(const StudyRecord& record);
-/// In one line, as the record stands: with its doubt, without a hash of its
-/// own.
+/// Returns the record in one line, unchanged: with its doubt, without a new
+/// hash.
 std::string ToJsonLine(const StudyRecord& record);
 
-/// What ToJsonText wrote: Same(FromJsonText(ToJsonText(r)), r). Of a document
-/// that is older, incomplete or of a failed run what is missing, null or of
-/// another type is as in a new record; `doubt` says whether its hash agrees.
-/// Throws data::InputError where the text
-/// is no JSON or of another schema.
+/// Reads the text of ToJsonText: Same(FromJsonText(ToJsonText(r)), r). Missing
+/// keys, as in older, incomplete or failed results, keep the values of a new
+/// record. `doubt` tells if the hash matches. Throws data::InputError if the
+/// text is not JSON, has another schema, or a value of another type.
 StudyRecord FromJsonText(std::string_view text);
+/// Reads the results of a store, also of kStoredResultsSchema.
+StudyRecord FromStoredJsonText(std::string_view text);
 
 }  // namespace errmap::models

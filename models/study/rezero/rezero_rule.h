@@ -8,31 +8,31 @@
 
 namespace errmap::models {
 
-/// When a machine's offset is set anew.
+/// When the offset of a machine is reset.
 enum class RezeroKind {
-  kEvery,    // so long after the last time
-  kSession,  // where a session begins
-  kProbe,    // with each group of rows, each row where there are no groups
+  kEvery,    // after this time since the last one
+  kSession,  // at the start of a session
+  kProbe,    // at each group of rows, or each row without groups
 };
 
-/// How maps are re-zeroed where they are judged.
+/// How maps are re-zeroed when they are judged.
 struct RezeroRule {
   RezeroKind kind = RezeroKind::kSession;
-  /// Of kEvery, in the data's time unit (s), above 0; else infinite.
+  /// For kEvery, in the data's time unit (s), above 0; else infinite.
   double interval = std::numeric_limits<double>::infinity();
   double noise = 0.0;  // sd of a probe, target's unit, at least 0
-  std::string text;    // as it was given
+  std::string text;    // as given
 };
 
-/// Of "2h", "90min", "30s", "1d", "session", "probe"; a bare number counts in
-/// seconds, or in whatever a time column without a unit counts, such as cycles.
-/// Behind `:noise=` stands what the caller reads, who knows the target's unit:
-/// it goes to `noise` ("": nothing). Throws std::invalid_argument, to follow
-/// the name of what is given.
+/// Parses "2h", "90min", "30s", "1d", "session", "probe". A bare number is in
+/// seconds, or in the unit of a time column without a unit, such as cycles.
+/// Copies the text after `:noise=` to `noise` ("": none) for the caller, who
+/// knows the target's unit. Throws std::invalid_argument; its text continues
+/// after the argument's name.
 RezeroRule ParseRezero(std::string_view text, std::string* noise);
 
-/// Throws std::invalid_argument where the rows of `dataset` have no times for
-/// the rule to count in, or no order at all.
+/// Throws std::invalid_argument if the rows of `dataset` lack the times that
+/// the rule needs, or have no order.
 void RequireTimes(const RezeroRule& rule, const data::Dataset& dataset);
 
 }  // namespace errmap::models

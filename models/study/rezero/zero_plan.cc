@@ -1,26 +1,16 @@
 #include "models/study/rezero/zero_plan.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 
+#include "models/zero_walk.h"
 #include "stats/random.h"
 
 namespace errmap::models {
 namespace {
 
 using Eigen::Index;
-
-// Times are sums of steps: what is due to the last digit is due.
-constexpr double kRounding = 1e-9;
-
-// Box and Muller 1958.
-double DrawNormal(stats::Random* random) {
-  const double radius = std::sqrt(-2.0 * std::log1p(-random->Uniform()));
-  return radius * std::cos(2.0 * std::numbers::pi * random->Uniform());
-}
 
 class ZeroPlanner {
  public:
@@ -64,7 +54,7 @@ class ZeroPlanner {
   bool IsDue(Index zero, Index place) const {
     switch (rule_.kind) {
       case RezeroKind::kEvery:
-        return Age(zero, place) >= rule_.interval * (1.0 - kRounding);
+        return Age(zero, place) >= rule_.interval * (1.0 - kTimeRounding);
       case RezeroKind::kSession:
         return false;
       case RezeroKind::kProbe:
@@ -76,17 +66,25 @@ class ZeroPlanner {
   }
 
   void PlanRun(const std::vector<Index>& places) {
-    Index zero = -1;
-    for (const Index place : places) {
-      // The interval is infinite where none was given.
-      if (zero >= 0 && Age(zero, place) <= rule_.interval * (1.0 + kRounding)) {
-        plan_.zero_of[static_cast<std::size_t>(place)] = zero;
-      }
-      if (zero >= 0 && !IsDue(zero, place)) continue;
-      zero = place;
-      plan_.noise[place] = rule_.noise * DrawNormal(&random_);
-      ++plan_.probes;
+    const auto place_of = [&](Index row) {
+      return places[static_cast<std::size_t>(row)];
+    };
+    // The interval is infinite where none was given.
+    const double longest = rule_.interval * (1.0 + kTimeRounding);
+    const std::vector<Index> zeros = ForZeros(
+        std::ssize(places),
+        [&](Index row, Index zero) {
+          return IsDue(place_of(zero), place_of(row));
+        },
+        [&](Index row, Index zero) {
+          if (Age(place_of(zero), place_of(row)) > longest) return;
+          plan_.zero_of[static_cast<std::size_t>(place_of(row))] =
+              place_of(zero);
+        });
+    for (const Index zero : zeros) {
+      plan_.noise[place_of(zero)] = rule_.noise * random_.Normal();
     }
+    plan_.probes += std::ssize(zeros);
   }
 
   const HeldOutRows& held_;

@@ -99,6 +99,8 @@ TEST_F(CliOutputs, PlacesThatCannotBeWrittenToAreRefusedBeforeAnyWork) {
         {"fit", kDown, "--model", "mean", "-o", place},
         {"update", "m.json", kDown, "-o", place}};
     for (const std::vector<std::string>& words : commands) {
+      // fit writes a map for each way along the axis into a folder.
+      if (words[0] == "fit" && place == "folder.html") continue;
       SCOPED_TRACE(::testing::PrintToString(words));
       EXPECT_THAT(RefusalOf(Run(words), kFailure),
                   HasSubstr("cannot write " + place + ": "));

@@ -2,6 +2,7 @@
 // words, check, and predict --probes.
 
 #include <algorithm>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -100,6 +101,52 @@ TEST_F(CliPromise, EvaluateHoldsTheMapToItsPromise) {
               HasSubstr("what the other inputs tell"));
 }
 
+// What fit says of a sensor that fails to 0 is what export does.
+TEST_F(CliPromise, FitAndExportTellTheSameOfASensorThatFails) {
+  const Json fitted = RunJson({"fit",
+                               "train.csv",
+                               "--model",
+                               "poly:full:degree=1",
+                               "-o",
+                               "plane.json",
+                               "--format",
+                               "json"});
+  const std::string said =
+      OneLine(Run({"export", "plane.json", "--c", "-o", "control"}).err);
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(
+      said,
+      found,
+      std::regex("(t[123]_degC) failing to 0 would move it by up to ([0-9.]+) "
+                 "um, any failure of it by up to ([0-9.]+) um; with checks and "
+                 "limits by at most ([0-9.]+) um")))
+      << said;
+  const Json& sensitivity = fitted["sensitivity"];
+  EXPECT_EQ(found[1].str(), sensitivity["jump_of"]);
+  const double to_zero = std::stod(found[2]);
+  EXPECT_NEAR(
+      to_zero, sensitivity["largest_jump"].get<double>(), 0.03 * to_zero);
+  EXPECT_GE(std::stod(found[3]), to_zero);
+  EXPECT_LT(std::stod(found[4]), std::stod(found[3]));
+}
+
+// Any constant and any offset fits one row.
+TEST_F(CliPromise, EvaluateAdvisesNothingByTooFewRows) {
+  const std::string day = DaysInCliPromise(11, 11, 9.0);
+  const auto first = [&](int rows) {
+    std::size_t end = 0;
+    for (int line = 0; line <= rows; ++line) end = day.find('\n', end) + 1;
+    Write("few.csv", day.substr(0, end));
+    return OneLine(Run({"evaluate", "map.json", "few.csv"}).out);
+  };
+  EXPECT_THAT(first(1),
+              AllOf(HasSubstr("1 row cannot tell whether an offset explains"),
+                    Not(HasSubstr("a constant would do better")),
+                    Not(HasSubstr("re-zero, which leaves"))));
+  EXPECT_THAT(first(23), Not(HasSubstr("re-zero, which leaves")));
+  EXPECT_THAT(first(24), Not(HasSubstr("cannot tell")));
+}
+
 TEST_F(CliPromise, CheckTellsWhetherTheMapHolds) {
   Write("well.csv", DaysInCliPromise(11, 11, 0.0, 0.0, 3));
   const Outcome well = Run({"check", "map.json", "well.csv"});
@@ -114,6 +161,33 @@ TEST_F(CliPromise, CheckTellsWhetherTheMapHolds) {
                     HasSubstr("0 to 39 min after the session began")));
 }
 
+// A map of a temperature alone: where a probe was taken still tells a shape.
+TEST_F(CliPromise, CheckReadsPositionsThatTheMapDoesNot) {
+  const Outcome fit = Run({"fit",
+                           "train.csv",
+                           "--model",
+                           "poly:formula=t1_degC",
+                           "-o",
+                           "one.json"});
+  ASSERT_EQ(fit.status, 0) << fit.err;
+  const std::string day = DaysInCliPromise(11, 11, 0.0, 0.0, 3);
+  std::string elsewhere = "day,time_s,position_mm,t1_degC,t2_degC,t3_degC,";
+  elsewhere += day.substr(day.find("error_um"), 9);
+  for (const auto& row : Records(day)) {
+    elsewhere += row.at("day") + "," + row.at("time_s") + ",0," +
+                 row.at("t1_degC") + "," + row.at("t2_degC") + "," +
+                 row.at("t3_degC") + "," + row.at("error_um") + "\n";
+  }
+  Write("day.csv", day);
+  Write("elsewhere.csv", elsewhere);
+  const auto forecast = [&](const char* probes) {
+    const Outcome found =
+        Run({"check", "one.json", probes, "--format", "json", "--quiet"});
+    return nlohmann::json::parse(found.out).at("session_rmse_80");
+  };
+  EXPECT_NE(forecast("day.csv"), forecast("elsewhere.csv"));
+}
+
 // The first rows of a day tell nothing of its rest: no all-clear for scripts.
 TEST_F(CliPromise, CheckOfTheFirstMinutesIsNoAllClear) {
   const std::string day = DaysInCliPromise(11, 11);
@@ -124,6 +198,44 @@ TEST_F(CliPromise, CheckOfTheFirstMinutesIsNoAllClear) {
   EXPECT_EQ(found.status, kNothingJudged) << found.out;
   EXPECT_THAT(OneLine(found.out),
               Not(HasSubstr("The map holds in this session")));
+}
+
+// Days that are over tell nothing of this one.
+TEST_F(CliPromise, CheckJudgesTheLastSessionAndSaysSo) {
+  const std::string moved = DaysInCliPromise(11, 12, 9.0);
+  const std::string well = DaysInCliPromise(13, 13);
+  Write("three.csv", moved + well.substr(well.find('\n') + 1));
+  Write("last.csv", well);
+  const Outcome found = Run({"check", "map.json", "three.csv"});
+  EXPECT_EQ(found.status, 0) << found.out;
+  EXPECT_THAT(OneLine(found.out),
+              AllOf(HasSubstr("Judged is the last of 3 sessions, day '13'; "
+                              "errmap evaluate judges the others."),
+                    HasSubstr("on 40 probes of three.csv")));
+  const Json of_three =
+      RunJson({"check", "map.json", "three.csv", "--format", "json"});
+  const Json alone =
+      RunJson({"check", "map.json", "last.csv", "--format", "json"});
+  EXPECT_EQ(of_three["session"], "13");
+  EXPECT_EQ(of_three["other_sessions"], 2);
+  EXPECT_EQ(alone["other_sessions"], 0);
+  EXPECT_EQ(of_three["probes"], alone["probes"]);
+  EXPECT_EQ(of_three["session_rmse_80"], alone["session_rmse_80"]);
+}
+
+// Of one probe there is one time, and the next one lies after it.
+TEST_F(CliPromise, CheckOfOneProbeAsksForMoreOfThem) {
+  const std::string days = SetPath("turning_centre/six_days.csv");
+  const std::string later =
+      Process::TextOf(SetPath("turning_centre/later_days.csv"));
+  ASSERT_EQ(Run({"fit", days, "--model", "poly:eq8", "-o", "days.json"}).status,
+            0);
+  Write("one.csv", later.substr(0, later.find('\n', later.find('\n') + 1) + 1));
+  const std::string text = OneLine(Run({"check", "days.json", "one.csv"}).out);
+  EXPECT_THAT(text,
+              AllOf(HasSubstr("1 probe of one.csv, 0 s after the session"),
+                    HasSubstr("Take more probes, at other positions"),
+                    Not(HasSubstr("Probe again"))));
 }
 
 // A broken thermometer explains what the map errs by: no order is given.
@@ -200,6 +312,25 @@ TEST_F(CliPromise, CheckAndProbesKnowWhereTheSessionBegan) {
 
 // A filter that has seen nothing between two probes says something else than in
 // use: no alarm, and no all-clear, comes of it.
+// A pause that the user named parts the sessions of later files, too.
+TEST_F(CliPromise, TheMapKeepsThePauseThatPartsSessions) {
+  const std::string days = SetPath("turning_centre/six_days.csv");
+  ASSERT_EQ(Run({"fit",
+                 days,
+                 "--session",
+                 "none",
+                 "--gap",
+                 "2h",
+                 "--model",
+                 "poly:ridge:view=history",
+                 "--no-interval",
+                 "-o",
+                 "gap.json"})
+                .status,
+            0);
+  EXPECT_EQ(Json::parse(Read("gap.json"))["history"]["gap"], 7200.0);
+}
+
 TEST_F(CliPromise, CheckKnowsNothingWhereReadingsBetweenProbesAreMissing) {
   ASSERT_EQ(Run({"fit",
                  "train.csv",

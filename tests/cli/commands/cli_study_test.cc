@@ -1,5 +1,7 @@
 // Study files: read, overridden, planned, written and run by the program.
 
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -224,6 +226,55 @@ TEST_F(CliStudy, PathsAreRelativeToTheStudyFile) {
   EXPECT_EQ(component["data"]["file"], "sub/both.csv");
   EXPECT_EQ(component["holdouts"][0]["name"], "file:sub/both.csv");
   EXPECT_EQ(component["holdouts"][0]["test_rows"][0].size(), 60U);
+}
+
+// Each way in a file of its own: by the name of that file, whichever is first.
+TEST_F(CliStudy, NamesTheWaysByTheFilesOfTheirRows) {
+  std::map<std::string, std::string> files;
+  for (const std::string& line : SplitLines(BothWays())) {
+    for (const char* way : {"up", "down"}) {
+      const bool is_header = line.starts_with("cycle,");
+      if (is_header || line.find(std::string(",") + way) != line.npos) {
+        files[way] += line + "\n";
+      }
+    }
+  }
+  Write("forth.csv", files["up"]);
+  Write("back.csv", files["down"]);
+  const Json document = RunJson({"compare",
+                                 "back.csv",
+                                 "forth.csv",
+                                 "--models",
+                                 "mean",
+                                 "--format",
+                                 "json"});
+  std::set<std::string> names;
+  for (const Json& component : document["components"]) {
+    names.insert(component["name"]);
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"back", "forth"}));
+  ASSERT_EQ(Run({"fit",
+                 "back.csv",
+                 "forth.csv",
+                 "--model",
+                 "mean",
+                 "-o",
+                 "maps/",
+                 "--quiet"})
+                .status,
+            0);
+  // Up errs by 2 um more.
+  const auto mean = [&](const char* map) {
+    return RunJson({"evaluate",
+                    map,
+                    "forth.csv",
+                    "--format",
+                    "json"})["summary"]["mean"]
+        .get<double>();
+  };
+  EXPECT_NEAR(mean("maps/forth.json"), 0.0, 1e-9);
+  EXPECT_FALSE(Exists("maps/back_up.json"));
+  EXPECT_TRUE(Exists("maps/back.json"));
 }
 
 // ---- Overrides.

@@ -1,6 +1,8 @@
 // The program in the hands of a user: arguments, failures, interrupts, odd
 // data.
 
+#include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -88,6 +90,24 @@ TEST_F(Cli, HelpAndVersionGoToStdout) {
     EXPECT_EQ(help.err, "");
     EXPECT_THAT(help.out, HasSubstr("Usage: errmap"));
   }
+}
+
+TEST_F(Cli, EveryCommandHasAnExampleAndItsStatuses) {
+  const std::string help = Run({"--help"}).out;
+  std::istringstream lines(help);
+  int commands = 0;
+  for (std::string line; std::getline(lines, line);) {
+    static const std::regex kCommand("^  ([a-z0-9]+)  +[A-Z].*");
+    std::smatch found;
+    if (!std::regex_match(line, found, kCommand) || found[1] == "help") {
+      continue;
+    }
+    ++commands;
+    const std::string text = Run({"help", found[1]}).out;
+    EXPECT_THAT(text, HasSubstr("Example")) << found[1];
+    EXPECT_THAT(OneLine(text), HasSubstr("Exit status")) << found[1];
+  }
+  EXPECT_GT(commands, 20);
 }
 
 TEST_F(Cli, FailedFitsAreRowsAndTheOthersGoOn) {

@@ -204,7 +204,7 @@ class FleetQuery : public FleetTest {
 
 TEST_F(FleetQuery, TheTenQueriesOfTheReadmeAnswer) {
   const std::string text =
-      Process::TextOf(tests::SourceDir() + "/cli/fleet/README.md");
+      Process::TextOf(tests::SourceDir() + "/cli/fleet/queries.md");
   int queries = 0;
   for (std::size_t at = 0; (at = text.find("```sql\n", at)) != text.npos;) {
     at += 7;

@@ -159,14 +159,15 @@ class Estimator(unittest.TestCase):
             errmap.Map().fit(few.drop(columns="error_mm"), few["error_mm"])
 
     def test_says_how_long_it_compares_and_keeps_to_a_budget(self):
-        x = self.frame.drop(columns="error_mm")
+        days = six_days()
+        x = days.drop(columns="error_mm")
         said = io.StringIO()
         with contextlib.redirect_stderr(said):
-            errmap.Map(jobs=1).fit(x, self.y)
+            errmap.Map(jobs=1).fit(x, days["error_mm"])
         self.assertRegex(said.getvalue(), r"compares \d+ models, about \d+ s")
         said = io.StringIO()
         with contextlib.redirect_stderr(said):
-            errmap.Map(budget=0.01).fit(x, self.y)
+            errmap.Map(budget=0.01).fit(x, days["error_mm"])
         self.assertEqual(said.getvalue(), "")
 
     def test_compares_nothing_within_a_search(self):

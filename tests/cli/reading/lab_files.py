@@ -5,6 +5,7 @@ with them, and what is true of how it is to be read.
 """
 
 import csv
+import datetime
 import math
 import os
 import random
@@ -414,12 +415,279 @@ def twice(seed, draw):
     return File({"monday.csv": text, "monday (1).csv": text}, log, names)
 
 
+def retold(log, draw, cells, name="time", **options):
+    """A table whose column of times is called `name` and has these cells."""
+    text, names = write_table(log, draw, form=None, extra=[(name, cells)],
+                              **options)
+    return text, names
+
+
+def dates(log):
+    return [lab_logs.ORIGIN + datetime.timedelta(seconds=round(t))
+            for t in log.at]
+
+
+def forms_of_dates(seed, draw):
+    log = six(seed, draw)
+    form = draw.choice(("%d-%b-%Y %H:%M:%S", "%a %d %b %Y %H:%M:%S",
+                        "%m/%d/%Y %I:%M:%S %p", "%Y-%m-%d %H:%M:%S CET",
+                        "%Y-%m-%dT%H:%M:%S.250Z", "%d.%m.%y %H:%M:%S",
+                        "%Y/%m/%d %H.%M.%S"))
+    text, names = retold(log, draw, [d.strftime(form) for d in dates(log)],
+                         draw.choice(("When", "Zeitpunkt", "stamp")))
+    return File(text, log, names, step=log.step)
+
+
+def elapsed(seed, draw):
+    log = six(seed, draw)
+    since = [round(t - log.at[0]) for t in log.at]
+    cells, name = draw.choice((
+        ([f"{s // 3600}:{s // 60 % 60:02d}:{s % 60:02d}" for s in since],
+         "elapsed"),
+        ([f"{s // 86400} {s // 3600 % 24:02d}:{s // 60 % 60:02d}:{s % 60:02d}"
+          for s in since], "Elapsed time"),
+        ([str(1000 * s) for s in since], "ms"),
+        ([str(s) for s in since], "t"),
+        ([str(10_000_000 * s) for s in since], "Time [100ns]")))
+    text, names = retold(log, draw, cells, name)
+    return File(text, log, names, step=log.step)
+
+
+LANGUAGES = (
+    ("Afwijking [µm]", "Positie [mm]", "Temperatuur {} [°C]"),
+    ("Odchyłka [µm]", "Pozycja [mm]", "Temperatura {} [°C]"),
+    ("Błąd [µm]", "Położenie [mm]", "Czujnik {} [°C]"),
+    ("Avvikelse [µm]", "Läge [mm]", "Temp {} [°C]"),
+    ("Erro [µm]", "Posição nominal [mm]", "Sensor {} [Grad C]"),
+    ("Odchylka [µm]", "Poloha [mm]", "Teplota {} [°C]"),
+    ("Virhe [µm]", "Asema [mm]", "Lämpötila {} [°C]"),
+    ("Hata [µm]", "Konum [mm]", "Sıcaklık {} [°C]"),
+    ("gosa [um]", "ichi [mm]", "ondo {} [degC]"),
+    ("誤差 [µm]", "位置 [mm]", "温度 {} [°C]"),
+    ("Abw. (µm)", "Soll (mm)", "Fühler {} (°C)"),
+    ("EXX [µm]", "X [mm]", "T{} [C]"))
+
+
+def languages(seed, draw):
+    log = six(seed, draw)
+    target, axis, sensor = draw.choice(LANGUAGES)
+    text, names = write_table(log, draw, form="iso", target=target, axis=axis,
+                              sensor=sensor)
+    return File(text, log, names)
+
+
+def opposite_signs(seed, draw):
+    log = six(seed, draw)
+    name = draw.choice(("minus error [um]", "Soll-Ist [um]", "offset_um",
+                        "error (nom - act) [um]", "error_correction_um",
+                        "value [um]"))
+    text, names = write_table(log, draw, day=True, target=name)
+    return File(text, log, names, target="(asked)")
+
+
+def difference(seed, draw):
+    log = six(seed, draw)
+    target = "Istposition [mm]-Sollposition [mm]"
+    actual = [f"{p + e / 1000.0:.7f}" for p, e in zip(log.position, log.error)]
+    text, names = write_table(log, draw, day=True, axis="Sollposition [mm]",
+                              target="gone", extra=[("Istposition [mm]",
+                                                     actual)])
+    at = names["header"].index("gone")
+    text = "\n".join(",".join(c for i, c in enumerate(line.split(","))
+                              if i != at) for line in text.splitlines()) + "\n"
+    asks = draw.random() < 0.5
+    return File(text, log, names, words=() if asks else ("--target", target),
+                target=target, target_in_um=1000.0,
+                left_out=["Istposition [mm]"])
+
+
+def numbers_of_positions(seed, draw):
+    log = six(seed, draw)
+    name = draw.choice(("point", "pos no", "Target", "k", "Messstelle", "step"))
+    begin = draw.choice((0, 1))
+    text, names = write_table(log, draw, day=True, extra=[(name, [
+        str(begin + log.positions.index(p)) for p in log.position])])
+    return File(text, log, names, left_out=[name])
+
+
+def encoder_and_laser(seed, draw):
+    log = six(seed, draw)
+    extra = [("X_enc_mm", [f"{p + draw.gauss(0, 4e-4):.5f}"
+                           for p in log.position]),
+             ("laser_mm", [f"{p + e / 1000.0:.6f}"
+                           for p, e in zip(log.position, log.error)])]
+    draw.shuffle(extra)
+    text, names = write_table(log, draw, day=True, axis="X_cmd_mm",
+                              extra=extra)
+    return File(text, log, names, left_out=["X_enc_mm", "laser_mm"])
+
+
+def words_of_directions(seed, draw):
+    log = six(seed, draw, both_ways=True, positions=8)
+    words = draw.choice((("F", "R"), ("1", "2"), ("vor", "rück"), ("A", "B"),
+                         ("aller", "retour"), ("+1", "-1"), (">", "<")))
+    name = draw.choice(("dir", "way", "Sign", "pass type", "Verfahrrichtung"))
+    text, names = write_table(log, draw, day=True, form="iso", extra=[
+        (name, [words[0 if up else 1] for up in log.up])])
+    return File(text, log, names, left_out=[name], switches=[name])
+
+
+def runs_beside(seed, draw):
+    log = six(seed, draw, days=1, both_ways=draw.random() < 0.5)
+    size = len(log.positions)
+    header, columns = ["Position [mm]"], [[f"{p:g}" for p in log.positions]]
+    for begin in range(0, len(log), size):
+        errors = [f"{e:.3f}" for e in log.error[begin:begin + size]]
+        up = log.up[begin]
+        way = (" up" if up else " down") if log.both_ways else ""
+        header.append(f"Run {log.cycle[begin] + 1}{way} [um]")
+        columns.append(errors if up else errors[::-1])
+    lines = [",".join(header)] + [",".join(row) for row in zip(*columns)]
+    return File("\n".join(lines) + "\n", log, {"axis": "Position [mm]",
+                                               "target": "error [um]"})
+
+
+def footers(seed, draw):
+    log = six(seed, draw)
+    text, names = write_table(log, draw, day=True, cycle=True)
+    if draw.random() < 0.5:
+        return File(text + "\nEnd of measurement\nOperator: NN\n", log, names)
+    word = draw.choice(("Mean", "Max", "Mittelwert"))
+    first = text.splitlines()[1].split(",")
+    means = ["" if ":" in cell or cell.count(".") == 2 else "1.5"
+             for cell in first[1:]]
+    return File(text + ",".join([word] + means) + "\n", log, names, words=(
+        "--missing", "drop-rows"), rows=None, keeps=range(len(log)))
+
+
+def lines_between_days(seed, draw):
+    log = six(seed, draw)
+    text, names = write_table(log, draw, form="iso")
+    head, *rows = text.splitlines()
+    between = draw.choice(((), ("",), ("", "Day {}: cold start"), (head,),
+                           ("Day {} of the test", head)))
+    lines = [head]
+    for i, row in enumerate(rows):
+        if i > 0 and log.day[i] != log.day[i - 1]:
+            lines += [line.format(log.day[i] + 1) for line in between]
+        lines.append(row)
+    return File("\n".join(lines) + "\n", log, names)
+
+
+def numbers_for_people(seed, draw):
+    log = six(seed, draw)
+    text, names = write_table(log, draw, day=True, axis="position_um",
+                              delimiter=";")
+    axis = names["header"].index("position_um")
+    target = names["header"].index(names["target"])
+    mark = draw.choice((" ", "'", "\u00a0"))
+    habit = draw.choice(("marks", "units", "minus", "remark"))
+    lines = text.splitlines()
+    for i in range(1, len(lines)):
+        cells = lines[i].split(";")
+        cells[axis] = f"{1000.0 * log.position[i - 1]:,.0f}".replace(",", mark)
+        if habit == "units":
+            cells[target] += " µm"
+        if habit == "minus":
+            cells[target] = cells[target].replace("-", "\u2212")
+        if habit == "remark" and i % 20 == 0:
+            cells[-1] += " # door open"
+        lines[i] = ";".join(cells)
+    name = names["target"]
+    return File("\n".join(lines) + "\n", log, names, axis_in_mm=1e-3,
+                target=name)
+
+
+def quotes_and_blanks(seed, draw):
+    log = six(seed, draw)
+    text, names = write_table(log, draw, form="seconds", delimiter=";",
+                              axis="Position [mm]", target="Error [um]",
+                              sensor="Temp {} [degC]")
+    rows = [line.split(";") for line in text.splitlines()]
+    habit = draw.choice(("single", "double", "apart", "bars"))
+    if habit == "apart":
+        lines = ["   ".join(c.rjust(14) for c in row) for row in rows]
+    elif habit == "bars":
+        lines = ["| " + " | ".join(row) + " |" for row in rows]
+        lines.insert(1, "|" + "---|" * len(rows[0]))
+    elif habit == "single":
+        lines = [";".join(f"'{c}'" for c in row) for row in rows]
+    else:
+        lines = [",".join(f'"{c}"' for c in rows[0])] + [
+            ",".join('"' + c.replace(".", ",") + '"' for c in row)
+            for row in rows[1:]]
+    return File("\n".join(lines) + "\n", log, names)
+
+
+def words_for_days(seed, draw):
+    log = six(seed, draw, days=5)
+    name, words = draw.choice((
+        ("Wochentag", ["Mo", "Di", "Mi", "Do", "Fr"]),
+        ("file", [f"meas_{d:02d}.dat" for d in range(5)]),
+        ("Messreihe", list("ABCDE")), ("setup", list("PQRST"))))
+    text, names = write_table(log, draw, form=None, extra=[
+        (name, [words[d] for d in log.day])])
+    return File(text, log, names)
+
+
+def shuffled_without_clock(seed, draw):
+    log = six(seed, draw)
+    rows = list(range(len(log)))
+    draw.shuffle(rows)
+    text, names = write_table(log, draw, form=None, day=True, cycle=True,
+                              rows=rows)
+    return File(text, log, names, order="none")
+
+
+def sorted_in_days(seed, draw):
+    log = six(seed, draw)
+    rows = sorted(range(len(log)),
+                  key=lambda i: (log.day[i], log.position[i], i))
+    clock = draw.random() < 0.5
+    text, names = write_table(log, draw, form="iso" if clock else None,
+                              day=not clock, cycle=not clock, rows=rows,
+                              cycle_anew=draw.random() < 0.5)
+    return File(text, log, names, order="time" if clock else "none")
+
+
+def numbers_of_days(seed, draw):
+    log = six(seed, draw)
+    text, names = write_table(log, draw, form="clock", extra=[
+        (draw.choice(("DOY", "folder", "k")),
+         [str(61 + d) for d in log.day])])
+    return File(text, log, names, left_out=[names["header"][-1]])
+
+
+def two_clocks(seed, draw):
+    log = six(seed, draw)
+    name, cells = draw.choice((
+        ("end_time", [str(d + datetime.timedelta(seconds=2))
+                      for d in dates(log)]),
+        ("ms", [str(37 * i % 1000) for i in range(len(log))])))
+    text, names = write_table(log, draw, form="iso", extra=[(name, cells)])
+    return File(text, log, names, left_out=[name])
+
+
+def switched_off(seed, draw):
+    log = six(seed, draw)
+    begin = draw.randrange(20, len(log) - 60)
+    for i in range(begin, begin + 40):
+        log.temperatures[i][0] = 0.0
+    text, names = write_table(log, draw, day=True)
+    return File(text, log, names, says=names["sensors"][0] + " 0 degC")
+
+
 KINDS = (axis_names, nights, units_of_time, german, romance, cycles_anew,
          title_lines, folded, two_logs, open_cells, both_ways,
          sorted_without_clock, shuffled_with_clock, measured_beside,
          running_number, switches, power_up, sign, no_header, names_twice,
          names_in_comment, units_below, thousands, day_files, twice,
-         pass_counter, read_in_one_place)
+         pass_counter, read_in_one_place, forms_of_dates, elapsed, languages,
+         opposite_signs, difference, numbers_of_positions, encoder_and_laser,
+         words_of_directions, runs_beside, footers, lines_between_days,
+         numbers_for_people, quotes_and_blanks, words_for_days,
+         shuffled_without_clock, switched_off, sorted_in_days, numbers_of_days,
+         two_clocks)
 
 
 def draw(seed):

@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/report/words/answers/remark_text.h"
 #include "data/input_error.h"
 #include "data/measurements/dataset.h"
 #include "models/comparison/compare.h"
@@ -173,32 +172,6 @@ TEST(Report, DrawsOrRefusesARecordWithAnyValueMissingOrOdd) {
   }
 }
 
-TEST(Report, RefusesARemarkThatLacksWhatItsSentenceNeeds) {
-  const models::StudyRecord record = RichRecord();
-  const models::ComponentRecord& component = record.components.front();
-  const ComponentNumbers numbers(component);
-  int kinds = 0;
-  for (int kind = 0; !ToString(static_cast<models::RemarkKind>(kind)).empty();
-       ++kind, ++kinds) {
-    models::RemarkRecord remark{.kind = static_cast<models::RemarkKind>(kind)};
-    for (const bool empty_lists : {false, true}) {
-      if (empty_lists) {
-        remark.columns.emplace();
-        remark.holdouts.emplace();
-        remark.shares.emplace();
-        remark.below.emplace();
-        remark.above.emplace();
-      }
-      try {
-        RemarkText(numbers, remark);
-      } catch (const data::InputError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("lacks figures"));
-      }
-    }
-  }
-  EXPECT_GT(kinds, 30);
-}
-
 TEST(Report, NamesTheKeyWhoseValueIsOfAnotherType) {
   using models::RecordJson;
   const RecordJson whole = RecordJson::parse(models::ToJsonText(SmallRecord()));
@@ -214,10 +187,10 @@ TEST(Report, NamesTheKeyWhoseValueIsOfAnotherType) {
   };
   EXPECT_THAT(refusal("/components/0/models/1/name", 5),
               StartsWith("components[0].models[1].name is not what"));
-  EXPECT_THAT(refusal("/components/0/recommendation/grounds/0/kind", "odd"),
-              StartsWith("components[0].recommendation.grounds[0].kind is"));
+  EXPECT_THAT(refusal("/components/0/recommendation/goal_standing", "odd"),
+              StartsWith("components[0].recommendation.goal_standing is"));
   EXPECT_THAT(refusal("/components", 5), StartsWith("components is not what"));
-  EXPECT_THAT(refusal("/components/0/recommendation/grounds/0/kind", "odd"),
+  EXPECT_THAT(refusal("/components/0/recommendation/goal_standing", "odd"),
               HasSubstr("errmap compare"));
   EXPECT_EQ(refusal("/components/0/models/0/predict_ns", RecordJson()), "read");
 }

@@ -8,9 +8,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cli/turning_centre/simulation.h"
 #include "data/measurements/dataset.h"
 #include "data/measurements/faults/drift_faults.h"
-#include "data/turning_centre/simulation.h"
 #include "tests/data/measurements/as_measured.h"
 #include "tests/data/measurements/make_dataset_test_data.h"
 #include "tests/places.h"

@@ -86,7 +86,7 @@ TEST(InMapUnits, RenamesAndConvertsWhatTheMapReads) {
   EXPECT_EQ(read.table.columns[2].name, "error_mm");
   EXPECT_DOUBLE_EQ(read.table.columns[2].values[1], 0.003);
   EXPECT_THAT(read.remarks,
-              testing::ElementsAre(
+              ::testing::ElementsAre(
                   "t1_degC is read from 'T1 [K]' and converted from K to degC",
                   "error_mm is read from 'error_um' and converted from um to "
                   "mm"));

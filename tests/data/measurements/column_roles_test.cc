@@ -42,8 +42,7 @@ TEST(ColumnRoles, TakesTargetGroupAndInputsByDefault) {
   EXPECT_THAT(dataset.rows(), ElementsAre(0, 1, 2));
   EXPECT_THAT(prepared.dropped, IsEmpty());
   EXPECT_THAT(prepared.remarks,
-              ElementsAre(HasSubstr("time by 'time_s'"),
-                          "column 'note' holds text and is left out of the "
+              ElementsAre("column 'note' holds text and is left out of the "
                           "inputs"));
 }
 
@@ -53,6 +52,20 @@ TEST(ColumnRoles, LeavesOutColumnsThatNumberOrDateTheRows) {
       "Time_s,ID,rowing,x,error\n"
       "1,2,3,4,5,6,7,8,9,1,2,3,4,1,2,3\n2,3,4,5,6,7,8,9,1,2,3,4,5,3,3,4\n");
   EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("rowing", "x"));
+}
+
+TEST(ColumnRoles, TakesNoPartOfAClockForASensor) {
+  const PreparedDataset prepared = Make(
+      "Hour,Min,Sec,Block,x,error\n8,5,10,1,2,3\n8,5,40,1,3,4\n9,2,0,2,2,4\n");
+  EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("x"));
+}
+
+TEST(ColumnRoles, TakesThePositionThatIsNamedForNoError) {
+  const char* const text =
+      "piezo_um,t [C],err_nm\n0,20,1\n100,20,2\n200,21,3\n0,21,2\n100,21,4\n"
+      "200,22,5\n0,22,2\n100,23,3\n200,23,6\n";
+  EXPECT_THAT(InputNames(Make(text, {.position = "piezo_um"}).dataset),
+              ElementsAre("piezo_um", "t [C]"));
 }
 
 TEST(ColumnRoles, TakesNamedColumnsInTheirOrder) {

@@ -22,6 +22,29 @@ TEST(DateTime, ReadsIso8601) {
   EXPECT_EQ(Seconds("07:30"), 27000.0);
 }
 
+TEST(DateTime, ReadsMonthsByNameZonesAndElapsedTimes) {
+  const double day = *Seconds("2024-03-04");
+  for (const char* text : {"4-Mar-2024 08:05:07",
+                           "Mon 04 Mar 2024 08:05:07",
+                           "4. M\u00e4rz 2024, 08:05:07 Uhr",
+                           "04/mars/24 8:05:07 AM",
+                           "2024-03-04 08:05:07 UTC",
+                           "2024-03-04 10:05:07 UTC+02",
+                           "2024-03-04 09:05:07 CEST"}) {
+    const auto parsed = ParseDateTime(text);
+    ASSERT_TRUE(parsed && parsed->has_date) << text;
+    EXPECT_EQ(parsed->seconds, day + 29107.0) << text;
+  }
+  EXPECT_EQ(Seconds("08h05"), 29100.0);
+  for (const char* text : {"29:05:07", "1 05:05:07", "1.05:05:07"}) {
+    const auto parsed = ParseDateTime(text);
+    ASSERT_TRUE(parsed && parsed->elapsed) << text;
+    EXPECT_EQ(parsed->seconds, 104707.0) << text;
+  }
+  EXPECT_EQ(Seconds("125:03.5"), 7503.5);
+  EXPECT_EQ(ParseDateTime("08.05.07", DateOrder::kNoDate)->seconds, 29107.0);
+}
+
 TEST(DateTime, RefusesWhatIsNone) {
   for (const char* text : {"",
                            "morning",
@@ -29,7 +52,7 @@ TEST(DateTime, RefusesWhatIsNone) {
                            "2023-02-29T12:00",
                            "2024-13-01",
                            "2024-3-1",
-                           "24:00",
+                           "2024-03-01 24:00",
                            "12:60",
                            "12",
                            "01.13.2024",
@@ -66,6 +89,26 @@ TEST(DateTime, ReadsWhatLoggersAndSpreadsheetsWrite) {
   EXPECT_EQ(Seconds("12:05 AM"), 300.0);
   EXPECT_EQ(Seconds("12:05PM"), 12 * 3600.0 + 300.0);
   EXPECT_FALSE(Seconds("13/4/2024", DateOrder::kMonthFirst).has_value());
+}
+
+TEST(DateTime, GoesOnBeyondADayButNotAtItsEnd) {
+  EXPECT_EQ(Seconds("24:00"), 86400.0);
+  for (const char* text : {"24:00", "24:00:00", "23:59:59"}) {
+    EXPECT_FALSE(ParseDateTime(text)->elapsed) << text;
+  }
+  for (const char* text : {"24:00:01", "24:01", "25:00"}) {
+    EXPECT_TRUE(ParseDateTime(text)->elapsed) << text;
+  }
+}
+
+TEST(DateTime, KnowsMonthsInOtherLanguages) {
+  for (const char* text : {"2-Ene-2026", "2. janvier 2026", "2 Gen 26"}) {
+    EXPECT_EQ(Seconds(text), *Seconds("2026-01-02")) << text;
+  }
+  EXPECT_EQ(Seconds("2. M\u00e4rz 2026"), *Seconds("2026-03-02"));
+  EXPECT_EQ(Seconds("2 juillet 2026"), *Seconds("2026-07-02"));
+  EXPECT_EQ(Seconds("2 Out 2026"), *Seconds("2026-10-02"));
+  EXPECT_FALSE(Seconds("2 Foo 2026").has_value());
 }
 
 TEST(DateTime, TellsWhereTheOrderMatters) {

@@ -1,5 +1,6 @@
 // How tables stand in files of laboratories, and what is read of each.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -101,6 +102,17 @@ TEST(TableShape, FindsNamesInCommentsAndBehindDollars) {
     ExpectRows(table);
     EXPECT_THAT(table.remarks, SizeIs(1));
   }
+}
+
+// As numpy.savetxt writes it: "# x y", blanks between the numbers.
+TEST(TableShape, FindsNamesInACommentWhereBlanksPartTheColumns) {
+  std::string text = Rows();
+  std::ranges::replace(text, ',', ' ');
+  const CsvTable table =
+      ParseCsv("# position_mm t1_degC error_um\n" + text, "f.csv");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("position_mm", "t1_degC", "error_um"));
+  ExpectRows(table);
 }
 
 TEST(TableShape, NamesColumnsByNumberWhereThereAreNoNames) {

@@ -30,6 +30,15 @@ using ::testing::SizeIs;
 using ::testing::ThrowsMessage;
 using ::testing::UnorderedElementsAre;
 
+// Forward by BIC.
+SelectionResult SelectForward(const MatrixXd& candidates,
+                              const VectorXd& response,
+                              const VectorXd& weights,
+                              const StepwiseOptions& options = {}) {
+  const MatrixColumns columns(candidates);
+  return SelectStepwise({columns, response, weights}, {}, options);
+}
+
 double Bic(double residual_sum_of_squares, Index rows, Index coefficients) {
   const double n = static_cast<double>(rows);
   return n * std::log(residual_sum_of_squares / n) +
@@ -232,9 +241,9 @@ TEST(StepwiseSelection, CollinearityBoundDecidesHowNearACopyMayBe) {
   const VectorXd own = candidates.col(1);
   candidates.col(1) = candidates.col(0) + kDifference * own;
   const VectorXd response = candidates.col(0) + own;
-  ForwardSelectionOptions strict;
+  StepwiseOptions strict;
   strict.collinearity = 100.0 * kDifference;
-  ForwardSelectionOptions lenient;
+  StepwiseOptions lenient;
   lenient.collinearity = 0.01 * kDifference;
   EXPECT_THAT(SelectForward(candidates, response, {}, strict).chosen,
               SizeIs(1));
@@ -267,7 +276,7 @@ TEST(StepwiseSelection, KeepsToTheMostTermsAllowed) {
   const SelectionResult all = SelectForward(candidates, response, {});
   ASSERT_THAT(all.chosen, SizeIs(6));
   for (Index most = 0; most <= 6; ++most) {
-    ForwardSelectionOptions options;
+    StepwiseOptions options;
     options.max_terms = most;
     const SelectionResult result =
         SelectForward(candidates, response, {}, options);
@@ -309,33 +318,20 @@ TEST(StepwiseSelection, BicFallsAtEveryStep) {
 }
 
 TEST(StepwiseSelection, RefusesShapesThatDoNotAgree) {
-  ExpectRefused(MatrixXd::Ones(3, 2),
-                VectorXd::Ones(4),
-                {},
-                "SelectForward: candidates have 3 rows, response 4, weights 0");
-  ExpectRefused(MatrixXd::Ones(4, 2),
-                VectorXd::Ones(4),
-                VectorXd::Ones(3),
-                "SelectForward: candidates have 4 rows, response 4, weights 3");
+  ExpectRefused(
+      MatrixXd::Ones(3, 2),
+      VectorXd::Ones(4),
+      {},
+      "SelectStepwise: candidates have 3 rows, response 4, weights 0");
+  ExpectRefused(
+      MatrixXd::Ones(4, 2),
+      VectorXd::Ones(4),
+      VectorXd::Ones(3),
+      "SelectStepwise: candidates have 4 rows, response 4, weights 3");
   ExpectRefused(MatrixXd::Ones(1, 2),
                 VectorXd::Ones(1),
                 {},
                 "response 1, weights 0; at least 2 equal are needed");
-}
-
-TEST(ForwardSelectionOptions, DefaultsPassAndEachBoundBites) {
-  EXPECT_NO_THROW(ForwardSelectionOptions().Validate());
-  for (const double bad : {0.0, 1.0, -1e-7, 2.0, std::nan("")}) {
-    ForwardSelectionOptions options;
-    options.collinearity = bad;
-    EXPECT_THAT([&] { options.Validate(); },
-                ThrowsMessage<std::invalid_argument>(
-                    HasSubstr("ForwardSelectionOptions: collinearity must be "
-                              "above 0 and below 1, found")));
-    EXPECT_THROW(
-        SelectForward(MatrixXd::Ones(4, 1), VectorXd::Ones(4), {}, options),
-        std::invalid_argument);
-  }
 }
 
 }  // namespace

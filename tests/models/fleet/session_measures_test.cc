@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "data/csv.h"
-#include "models/promise/promise.h"
 #include "models/recipe_catalog.h"
+#include "models/uncertainty/promise.h"
 
 namespace errmap::models {
 namespace {

@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "data/turning_centre/component_errors.h"
-#include "data/turning_centre/simulation.h"
+#include "cli/turning_centre/component_errors.h"
+#include "cli/turning_centre/simulation.h"
 #include "stats/random.h"
 #include "tests/models/kinematics/lathe_chain.h"
 
@@ -108,9 +108,7 @@ TEST(KinematicChain, NoErrorsNoErrorAtTheTool) {
   const VectorXd none = VectorXd::Zero(chain.num_errors());
   const VectorXd pose = DrawFiveAxes(&random);
   EXPECT_LT(chain.ExactError(pose, none).norm(), kKinematicChainRounding);
-  EXPECT_EQ(chain.FirstOrderError(pose, none).norm(), 0.0);
-  EXPECT_TRUE(chain.Tool(pose, none).isApprox(chain.NominalTool(pose), 1e-15));
-  EXPECT_LT((chain.Work(pose, none).matrix() - chain.NominalTool(pose).matrix())
+  EXPECT_LT((chain.Work(pose, none).matrix() - chain.Tool(pose, none).matrix())
                 .norm(),
             kKinematicChainRounding);
 }
@@ -160,7 +158,7 @@ TEST(KinematicChain, ExactAndFirstOrderDifferInSecondOrder) {
     const VectorXd errors = 100.0 * DrawErrors(&random, chain);
     const auto difference = [&](double scale) {
       return (chain.ExactError(pose, scale * errors) -
-              chain.FirstOrderError(pose, scale * errors))
+              chain.Sensitivities(pose) * (scale * errors))
           .norm();
     };
     // The third order bends it by a share of the angle, 0.005 rad.
@@ -222,7 +220,7 @@ TEST(KinematicChain, ATipThatIsTooHighIsPositiveAndNegativeInEquation5) {
 // ---- The simulated lathe: an independent summation.
 
 TEST(KinematicChain, FirstOrderWithTrueErrorsIsTheSimulatorsToolTip) {
-  namespace tc = data::turning_centre;
+  namespace tc = turning_centre;
   const KinematicChain chain = tests::LatheChain();
   const tc::Simulation simulation =
       tc::Simulate({.seed = 3, .days = 3, .points_per_day = 200});
@@ -237,7 +235,7 @@ TEST(KinematicChain, FirstOrderWithTrueErrorsIsTheSimulatorsToolTip) {
         point.x, point.x_direction, point.z, point.z_direction, rise);
     const Vector3d expected(truth.x, truth.y, truth.z);
     const Vector3d exact = chain.ExactError(pose, errors);
-    const Vector3d first = chain.FirstOrderError(pose, errors);
+    const Vector3d first = chain.Sensitivities(pose) * errors;
     worst_first = std::max(worst_first, (first - expected).norm());
     worst_exact = std::max(worst_exact, (exact - expected).norm());
     worst_difference = std::max(worst_difference, (exact - first).norm());
@@ -251,7 +249,7 @@ TEST(KinematicChain, FirstOrderWithTrueErrorsIsTheSimulatorsToolTip) {
 // What the sign is for: told to go where the error is not, the simulated tool
 // is where it should be; told the other way, it is twice as far off.
 TEST(KinematicChain, MinusTheErrorTakesTheSimulatedToolWhereItShouldBe) {
-  namespace tc = data::turning_centre;
+  namespace tc = turning_centre;
   const KinematicChain chain = tests::LatheChain();
   const tc::Simulation simulation =
       tc::Simulate({.seed = 4, .days = 2, .points_per_day = 100});
@@ -301,7 +299,7 @@ TEST(KinematicChain, AgreesWithALatheWorkedOutByHand) {
   // Z: -8e-6 * 286 + 0.004 + (3e-6 + 15e-6) * 286 + 0.002 - 0.007
   //    + 30e-6 * 286
   const Vector3d by_hand(-0.03552, -0.0001, 0.01044);
-  EXPECT_LT((chain.FirstOrderError(pose, errors) - by_hand).norm(),
+  EXPECT_LT((chain.Sensitivities(pose) * errors - by_hand).norm(),
             kKinematicChainRounding);
 }
 
@@ -339,7 +337,7 @@ TEST(KinematicChain, AgreesWithThe21ErrorsOfThreeAxes) {
         x_axis[1] + y_axis[1] + z_axis[1] - (x_axis[3] + y_axis[3] + a0z) * z -
             (x_axis[3] + y_axis[3] + z_axis[3] + a0z) * t,
         x_axis[2] + y_axis[2] + z_axis[2] + x_axis[3] * y);
-    EXPECT_LT((chain.FirstOrderError(pose, e) - expected).norm(),
+    EXPECT_LT((chain.Sensitivities(pose) * e - expected).norm(),
               kKinematicChainRounding);
     // Products of 1e-4 rad with 0.1 mm, and half its square with 500 mm.
     EXPECT_LT((chain.ExactError(pose, e) - expected).norm(), 5e-5);
@@ -354,7 +352,7 @@ TEST(KinematicChain, ErrorsOfATableCountTheOtherWay) {
   VectorXd errors = VectorXd::Zero(12);
   errors[0] = 0.004;  // EXX
   errors[5] = 1e-5;   // ECX: the table's origin is at x = -200
-  const Vector3d error = chain.FirstOrderError(pose, errors);
+  const Vector3d error = chain.Sensitivities(pose) * errors;
   EXPECT_NEAR(error.x(), -0.004, kKinematicChainRounding);
   EXPECT_NEAR(error.y(), -1e-5 * 200.0, kKinematicChainRounding);
   EXPECT_NEAR(error.z(), 0.0, kKinematicChainRounding);
@@ -371,7 +369,7 @@ TEST(KinematicChain, ErrorsOfARotaryAxisStayInTheFrameBelowIt) {
   errors[0] = 0.001;  // EXC moves along X of the base, whatever the angle
   errors[5] = 1e-5;   // ECC turns 100 mm of arm along -X
   errors[3] = 2e-6;   // EAC turns (0, 100, 30) about X: -30 in Y, 100 in Z
-  const Vector3d error = chain.FirstOrderError(pose, errors);
+  const Vector3d error = chain.Sensitivities(pose) * errors;
   EXPECT_NEAR(error.x(), 0.001 - 1e-5 * 100.0, kKinematicChainRounding);
   EXPECT_NEAR(error.y(), -2e-6 * 30.0, kKinematicChainRounding);
   EXPECT_NEAR(error.z(), 2e-6 * 100.0, kKinematicChainRounding);
@@ -396,7 +394,7 @@ TEST(KinematicChain, RefusesWhatIsNoChain) {
 
 TEST(KinematicChain, RefusesOtherNumbersOfCoordinatesAndErrors) {
   const KinematicChain chain({Slide("X", Branch::kTool, {1.0, 0.0, 0.0})});
-  EXPECT_THAT([&] { chain.NominalTool(VectorXd::Zero(2)); },
+  EXPECT_THAT([&] { chain.NominalReach(VectorXd::Zero(2)); },
               ThrowsMessage<std::invalid_argument>(
                   HasSubstr("2 coordinates, expected 1")));
   EXPECT_THAT(

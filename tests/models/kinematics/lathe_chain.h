@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "data/turning_centre/component_errors.h"
-#include "data/turning_centre/simulation.h"
+#include "cli/turning_centre/component_errors.h"
+#include "cli/turning_centre/simulation.h"
 #include "models/kinematics/kinematic_chain.h"
 
 namespace errmap::tests {
@@ -34,16 +34,16 @@ inline models::KinematicChain LatheChain() {
 }
 
 inline Eigen::VectorXd LatheCoordinates(
-    const data::turning_centre::ToolTipPoint& point) {
+    const turning_centre::ToolTipPoint& point) {
   return Eigen::VectorXd{{point.z, point.x}};
 }
 
 /// In the order of LatheChain().errors(), mm and rad.
 inline Eigen::VectorXd TrueLatheErrors(
-    const data::turning_centre::ToolTipPoint& point,
-    const data::turning_centre::TemperatureRise& rise) {
-  using data::turning_centre::Component;
-  using data::turning_centre::Slide;
+    const turning_centre::ToolTipPoint& point,
+    const turning_centre::TemperatureRise& rise) {
+  using turning_centre::Component;
+  using turning_centre::Slide;
   constexpr std::array kOrder = {Component::kParallelism,
                                  Component::kZDisplacement,
                                  Component::kZStraightness,
@@ -60,13 +60,13 @@ inline Eigen::VectorXd TrueLatheErrors(
   Eigen::VectorXd errors(kOrder.size());
   Eigen::Index k = 0;
   for (const Component component : kOrder) {
-    const auto& traits = data::turning_centre::TraitsOf(component);
+    const auto& traits = turning_centre::TraitsOf(component);
     const bool is_z = traits.slide == Slide::kZ;
-    const double error = data::turning_centre::TrueError(
-        component,
-        is_z ? point.z : point.x,
-        is_z ? point.z_direction : point.x_direction,
-        rise);
+    const double error =
+        turning_centre::TrueError(component,
+                                  is_z ? point.z : point.x,
+                                  is_z ? point.z_direction : point.x_direction,
+                                  rise);
     errors[k++] = traits.is_angle ? 1e-6 * error : error;
   }
   return errors;

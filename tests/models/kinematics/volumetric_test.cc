@@ -62,7 +62,7 @@ TEST(CombineErrors, GivesWhatTheChainGivesPointByPoint) {
     }
     const VectorXd pose = c.coordinates.row(row);
     const Vector3d exact = c.chain.ExactError(pose, errors);
-    const Vector3d first_order = c.chain.FirstOrderError(pose, errors);
+    const Vector3d first_order = c.chain.Sensitivities(pose) * errors;
     // Processors that fuse a product and a sum round once less in one of them.
     EXPECT_LE((combined.exact.row(row).transpose() - exact).norm(),
               kFewUlps * exact.norm());

@@ -74,7 +74,32 @@ TEST(ConfidenceNull, CallsNothingDifferentWithTenUnitsOfPerhapsOneSession) {
   EXPECT_EQ(EstablishedDifferent({.units = 10, .worse = 5.0}, 100), 0.0);
 }
 
+// A map against a baseline, session by session.
+TEST(ConfidenceNull, KeepsThatOfAMapInItsTurn) {
+  for (const Tails tails : {Tails::kNormal, Tails::kT3}) {
+    for (const double memory : {0.0, 0.3, 0.5}) {
+      for (const Eigen::Index units : {6, 8, 10}) {
+        EXPECT_LE(FalseShare({.units = units,
+                              .memory = memory,
+                              .tails = tails,
+                              .separate_sessions = true,
+                              .in_turn = true}),
+                  kMostFalse);
+      }
+    }
+  }
+}
+
 // No cure by never establishing.
+TEST(ConfidenceNull, FindsAGainOfTwoStandardDeviationsInSixSessions) {
+  EXPECT_GE(EstablishedDifferent({.units = 6,
+                                  .separate_sessions = true,
+                                  .worse = 2.0,
+                                  .in_turn = true},
+                                 kRepetitions),
+            60.0);
+}
+
 TEST(ConfidenceNull, FindsADifferenceOfOneStandardDeviationIn35Units) {
   for (const Tails tails : {Tails::kNormal, Tails::kT3}) {
     EXPECT_GE(EstablishedDifferent({.tails = tails, .worse = 1.0}, 1000), 80.0);

@@ -37,6 +37,8 @@ struct World {
   /// By how many standard deviations of the loss difference of two models the
   /// second is worse (kLosses), or the ratio of its RMSE less 1 (kBiases).
   double worse = 0.0;
+  /// The first model is what the comparison is about, the second a yardstick.
+  bool in_turn = false;
 };
 
 class Simulation {
@@ -60,12 +62,16 @@ class Simulation {
 
   stats::Comparison Compare(int repetition) {
     // Fewer draws than by default: the tests keep their level, in less time.
-    return stats::CompareModels(Draw(),
-                                nullptr,
-                                {.seed = static_cast<std::uint64_t>(repetition),
-                                 .flips = 999,
-                                 .resamples = 399,
-                                 .separate_units = world_.separate_sessions});
+    stats::ComparisonOptions options{
+        .seed = static_cast<std::uint64_t>(repetition),
+        .flips = 999,
+        .resamples = 399,
+        .separate_units = world_.separate_sessions};
+    if (world_.in_turn) {
+      options.first = 0;
+      options.yardsticks = {1};
+    }
+    return stats::CompareModels(Draw(), nullptr, options);
   }
 
   const World& world() const { return world_; }

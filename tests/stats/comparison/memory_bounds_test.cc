@@ -42,20 +42,35 @@ UnitLosses MakeLosses(Index units) {
 //   x <- f(1) - f(2); r <- sum(x[-1] * x[-n]) / sum(x^2)
 //   rho <- (n * r + 1) / (n - 3)
 //   phi <- min(0.98, max(0, rho + qnorm(0.95) * sqrt((1 - rho^2) / n)))
-//   m <- max(2, n * (1 - phi) / (1 + phi))
-//   se <- sqrt(sum(x^2) / n / (1 - 1 / m) / m)
-//   c(D, phi, m, D / se, 2 * pt(-abs(D / se), m - 1),
-//     D + qt(c(.025, .975, .05, .95), m - 1) * se)
+//   g <- function(phi) {
+//     R <- phi^abs(outer(u, u, "-")); A <- diag(n) - 1/n; V <- A %*% R
+//     c(sqrt(sum(R) / n * (n - 1) / sum(diag(V))),
+//       sum(diag(V))^2 / sum(diag(V %*% V))) }
+//   k <- g(phi); se <- k[1] * sqrt(sum(x^2) / (n - 1) / n)
+//   c(D, phi, k[2], D / se, 2 * pt(-abs(D / se), k[2]),
+//     D + qt(c(.025, .975, .05, .95), k[2]) * se)
+//   g(1/3); g(0.9)
 TEST(MemoryBounds, AgreeWithRFromTheDefinition) {
   const MemoryTest found = OfTheFirstPair(MakeLosses(12));
-  EXPECT_NEAR(found.memory, 0.1657792971687524, 1e-10);
-  EXPECT_NEAR(found.effective_units, 8.5870871598827847, 1e-9);
-  EXPECT_NEAR(found.test.statistic, -2.8925576481244306, 1e-9);
-  EXPECT_NEAR(found.test.p, 0.0212873415069274, 1e-10);
-  EXPECT_NEAR(found.bounds.lower, -0.6255050408177050, 1e-9);
-  EXPECT_NEAR(found.bounds.upper, -0.0676385411758871, 1e-9);
-  EXPECT_NEAR(found.bounds.at_least, -0.5709557019521486, 1e-9);
-  EXPECT_NEAR(found.bounds.at_most, -0.1221878800414435, 1e-9);
+  EXPECT_NEAR(found.memory, 0.165779297168752393, 1e-10);
+  EXPECT_NEAR(found.degrees_of_freedom, 10.519682438656795753, 1e-9);
+  EXPECT_NEAR(found.test.statistic, -2.940033451855907032, 1e-9);
+  EXPECT_NEAR(found.test.p, 0.014051520696134056, 1e-10);
+  EXPECT_NEAR(found.bounds.lower, -0.607477079937295272, 1e-9);
+  EXPECT_NEAR(found.bounds.upper, -0.085666502056296945, 1e-9);
+  EXPECT_NEAR(found.bounds.at_least, -0.559159098876141680, 1e-9);
+  EXPECT_NEAR(found.bounds.at_most, -0.133984483117450509, 1e-9);
+}
+
+TEST(OfMean, AgreesWithTheCorrelationsAsAMatrix) {
+  const MeanWithMemory weak = OfMean(12, 1.0 / 3.0);
+  EXPECT_NEAR(weak.inflation, 1.4272481703946538, 1e-9);
+  EXPECT_NEAR(weak.degrees_of_freedom, 9.2019685952123300, 1e-9);
+  const MeanWithMemory strong = OfMean(12, 0.9);
+  EXPECT_NEAR(strong.inflation, 4.9064451281181665, 1e-9);
+  EXPECT_NEAR(strong.degrees_of_freedom, 3.1868355824416512, 1e-9);
+  EXPECT_NEAR(OfMean(12, 0.0).inflation, 1.0, kRounding);
+  EXPECT_NEAR(OfMean(12, 0.0).degrees_of_freedom, 11.0, 1e-9);
 }
 
 TEST(MemoryBounds, TurnWithThePairAndScaleWithTheUnit) {
@@ -95,7 +110,7 @@ TEST(MemoryBounds, AreWiderWhereNeighboursAreAlike) {
   const MemoryTest of_mixed = OfTheFirstPair(mixed);
   EXPECT_GT(of_alike.memory, 0.8);
   EXPECT_EQ(of_mixed.memory, 0.0);
-  EXPECT_EQ(of_mixed.effective_units, 40.0);
+  EXPECT_NEAR(of_mixed.degrees_of_freedom, 39.0, 1e-9);
   EXPECT_GT(of_alike.bounds.upper - of_alike.bounds.lower,
             3.0 * (of_mixed.bounds.upper - of_mixed.bounds.lower));
 }
@@ -111,15 +126,6 @@ TEST(MemoryBounds, KnowEqualModelsAndAConstantDifference) {
   const MemoryTest constant = OfTheFirstPair(losses);
   EXPECT_LT(constant.test.p, 1e-6);
   EXPECT_NEAR(constant.bounds.at_most, 1.0, kRounding);
-}
-
-TEST(MemoryBounds, TakeSeparateSessionsForHalfAsMany) {
-  EXPECT_DOUBLE_EQ(EffectiveUnits(10, kSessionMemory), 5.0);
-  EXPECT_EQ(EffectiveUnits(3, kSessionMemory), 2.0);
-  const MemoryTest found =
-      MemoryBounds(MakeLosses(12)).OfDifference(0, 1, kSessionMemory);
-  EXPECT_DOUBLE_EQ(found.effective_units, 6.0);
-  EXPECT_EQ(found.memory, kSessionMemory);
 }
 
 // A series of 40 that alternates, one that does not, and one by levels.

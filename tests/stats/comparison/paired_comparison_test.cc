@@ -109,7 +109,8 @@ TEST(CompareModels, FindsEveryPairWhicheverComesFirst) {
       if (a == b) continue;
       EXPECT_EQ(found.Pair(a, b).a, std::min(a, b));
       EXPECT_EQ(found.Pair(a, b).b, std::max(a, b));
-      EXPECT_GT(found.ExcessAtMost(a, b), found.rmse[a] - found.rmse[b]);
+      EXPECT_GT(found.Pair(a, b).bounds.ExcessAtMost(a < b),
+                found.rmse[a] - found.rmse[b]);
     }
   }
   EXPECT_THROW(found.Pair(2, 2), std::out_of_range);
@@ -228,10 +229,13 @@ TEST(CompareModels, TestsWhatItIsAboutAgainstEachYardstickBeforeAllElse) {
       CompareModels(losses, nullptr, {.first = 0, .yardsticks = {4, 3}});
   const PairComparison& one = found.Pair(0, 4);
   const PairComparison& two = found.Pair(0, 3);
-  EXPECT_EQ(one.p_holm, one.p);
+  // In one direction: that the first is better.
+  EXPECT_EQ(one.p_holm, 0.5 * one.p);
+  EXPECT_TRUE(one.one_sided);
   EXPECT_EQ(one.num_adjusted, 1);
-  EXPECT_EQ(two.p_holm, std::max(one.p, two.p));
-  EXPECT_EQ(two.p_memory_holm, std::max(one.memory.test.p, two.memory.test.p));
+  EXPECT_EQ(two.p_holm, 0.5 * std::max(one.p, two.p));
+  EXPECT_EQ(two.p_memory_holm,
+            0.5 * std::max(one.memory.test.p, two.memory.test.p));
   std::vector<double> p;
   for (const PairComparison& pair : found.pairs) {
     if (&pair != &one && &pair != &two) p.push_back(pair.p);
@@ -261,12 +265,14 @@ TEST(CompareModels, ShowsNothingBehindAYardstickThatIsNotBeaten) {
       nullptr,
       {.first = 0, .yardsticks = {1, 2, 3}});
   EXPECT_LE(found.Pair(0, 1).p_holm, kSignificance);
-  const double not_beaten = found.Pair(0, 2).p;
+  const double not_beaten = found.Pair(0, 2).p_holm;
   ASSERT_GT(not_beaten, kSignificance);
   EXPECT_LE(found.Pair(0, 3).p, kSignificance);
   for (const auto& [a, b] : {std::pair(0, 3), {1, 3}, {1, 2}, {2, 3}}) {
     EXPECT_GE(found.Pair(a, b).p_holm, not_beaten);
   }
+  // That the yardstick is the better one was not asked.
+  EXPECT_GT(found.Pair(0, 3).p_holm, 1.0 - kSignificance);
 }
 
 // A yardstick that is the first model itself but for rounding has no turn.
@@ -277,7 +283,7 @@ TEST(CompareModels, PassesOverAYardstickThatIsTied) {
   const Comparison found =
       CompareModels(losses, nullptr, {.first = 0, .yardsticks = {1, 2}});
   EXPECT_TRUE(std::isnan(found.Pair(0, 1).p_holm));
-  EXPECT_EQ(found.Pair(0, 2).p_holm, found.Pair(0, 2).p);
+  EXPECT_EQ(found.Pair(0, 2).p_holm, 0.5 * found.Pair(0, 2).p);
 }
 
 // Units of 1 to 500 rows: what is tested is what is shown.

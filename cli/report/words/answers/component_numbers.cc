@@ -14,21 +14,50 @@ void RefuseIncompleteRecord() {
   throw data::InputError("results.json lacks figures that its sentences need");
 }
 
-const models::VerdictRecord& ComponentNumbers::Verdict(
-    const std::string& holdout) const {
+std::optional<models::Obstacle> ComponentNumbers::ObstacleOfAdvice() const {
   const auto found = std::ranges::find(
-      record.verdict, holdout, &models::VerdictRecord::holdout);
-  if (found == record.verdict.end()) RefuseIncompleteRecord();
-  return *found;
+      record.verdict, Advice().holdout, &models::VerdictRecord::holdout);
+  return found == record.verdict.end() ? std::nullopt : found->obstacle;
 }
 
-const models::GapModelRecord& ComponentNumbers::Gap(
-    const std::string& model) const {
-  const auto& rows = There(record.gap).models;
-  const auto found =
-      std::ranges::find(rows, model, &models::GapModelRecord::model);
-  if (found == rows.end()) RefuseIncompleteRecord();
-  return *found;
+std::string ComponentNumbers::Certainty(const std::string& other) const {
+  using Kind = models::Obstacle::Kind;
+  const models::PairRecord* const pair =
+      models::FindPair(record, Advice().holdout, Advice().model, other);
+  const auto obstacle = ObstacleOfAdvice();
+  // An interval of so few units establishes nothing, so it calls nothing likely
+  // either.
+  const bool too_few = obstacle && (obstacle->kind == Kind::kTooFewUnits ||
+                                    obstacle->kind == Kind::kPerhapsOneSession);
+  if (too_few || pair == nullptr || !std::isfinite(pair->ci95[0])) {
+    const models::HoldoutRecord& holdout = HoldoutOfAdvice();
+    return CountOfHeldOut(holdout.units, holdout) +
+           " cannot tell how sure that is";
+  }
+  if (pair->established) return "the gap is proven";
+  const auto [low, high] = pair->ci95;
+  return low > 0.0 || high < 0.0 ? "the gap is likely real"
+                                 : "the gap may be chance";
+}
+
+std::int64_t ComponentNumbers::UnitsOfData(
+    const models::HoldoutRecord& holdout) const {
+  const std::int64_t all = holdout.another_file     ? 0
+                           : holdout.whole_sessions ? record.data.sessions
+                           : holdout.whole_groups   ? record.data.groups
+                                                    : 0;
+  return std::max(all, holdout.units);
+}
+
+std::string ComponentNumbers::CountOfHeldOut(
+    std::int64_t count, const models::HoldoutRecord& holdout) const {
+  if (UnitsOfData(holdout) == holdout.units) {
+    return CountOfUnits(count, holdout);
+  }
+  return fmt::format(
+      "{} held-out {}",
+      count,
+      count == 1 ? holdout.unit_of_analysis : PluralOfUnit(holdout));
 }
 
 std::string ComponentNumbers::RmseWithInterval(

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/report/report_view.h"
+#include "models/study/judgement/confidence.h"
 
 namespace errmap::report {
 
@@ -53,17 +55,29 @@ struct ComponentNumbers {
                              const std::string& holdout) const {
     return There(ResultOf(Model(model), holdout));
   }
-  const models::VerdictRecord& Verdict(const std::string& holdout) const;
-  /// Of a model between neighbours and on units never seen.
-  const models::GapModelRecord& Gap(const std::string& model) const;
   double Rmse(const std::string& model, const std::string& holdout) const {
     return Result(model, holdout).test.rmse;
   }
-  /// Whether whole groups are held out, all of one run: the headline says so.
-  bool IsOfOneRun(const models::HoldoutRecord& holdout) const {
-    return holdout.whole_groups && !holdout.whole_sessions &&
-           record.data.sessions == 1;
+
+  // Under the recommendation's hold-out.
+  const models::HoldoutRecord& HoldoutOfAdvice() const {
+    return Holdout(Advice().holdout);
   }
+  std::string RmseWithUnit(const std::string& model) const {
+    return error.WithUnit(Rmse(model, Advice().holdout));
+  }
+  /// What keeps the tests between models from an answer there, if anything
+  /// does.
+  std::optional<models::Obstacle> ObstacleOfAdvice() const;
+  /// How sure it is that the recommended map and another differ.
+  std::string Certainty(const std::string& other) const;
+  /// Days or cycles of the data that a hold-out of whole ones could hold out;
+  /// at least those that it does.
+  std::int64_t UnitsOfData(const models::HoldoutRecord& holdout) const;
+  /// "6 days"; "4 held-out days" where the data have more of them.
+  std::string CountOfHeldOut(std::int64_t count,
+                             const models::HoldoutRecord& holdout) const;
+
   /// "0.938 um RMSE (95 % 0.786 to 1.093)"
   std::string RmseWithInterval(const std::string& model,
                                const std::string& holdout) const;

@@ -4,22 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "cli/report/report_view.h"
+#include "cli/report/words/answers/remarks.h"
 
 namespace errmap::report {
 
-/// One message of the first answer: "without a map", "11.5 um; 94 % removed".
-struct AnswerLine {
-  std::string label;  // at most 15 characters
-  std::string text;   // the figure first
-  enum class Tone { kPlain, kGood, kBad } tone = Tone::kPlain;
-};
-
 /// What a reader has to know first: which map, how wrong, how sure, what next.
-/// Screens, pages, Markdown and Python show these lines and no others.
+/// Pages and Markdown show every line; a terminal shows what AnswerLines has
+/// room for, and the others with --details.
 struct FirstAnswer {
   std::string use;  // "Use blend, an average of maps."
-  std::vector<AnswerLine> lines;
+  std::vector<Remark> lines;
 
   /// The map and its error: "Use blend, an average of maps. Unseen cycles: 0.70
   /// um RMSE (95 %: 0.59 to 0.83)."
@@ -30,12 +24,21 @@ struct FirstAnswer {
 /// Throws data::InputError where the record lacks a figure.
 FirstAnswer FirstAnswerOf(const models::ComponentRecord& record);
 
-/// The answer on a terminal of `width` columns, labels in a column, in at most
-/// 12 lines and 110 words with those `above` it: a message that no longer fits
-/// is left out.
-std::vector<std::string> AnswerLines(
-    const FirstAnswer& answer,
-    std::size_t width,
-    const std::vector<std::string>& above = {});
+/// On a terminal of `width` columns, the label first.
+std::vector<std::string> LabelledLines(const Remark& remark, std::size_t width);
+
+/// What a terminal shows of an answer.
+struct ShownAnswer {
+  std::vector<std::string> lines;
+  std::vector<Remark> left_out;  // for which there is no room
+};
+
+/// The answer on a terminal of `width` columns, labels in a column. With the
+/// lines `above` it, it has at most 12 lines and 110 words, or those that must
+/// be shown (the error, a given goal, caveats) if they alone need more. What
+/// else no longer fits is left out.
+ShownAnswer AnswerLines(const FirstAnswer& answer,
+                        std::size_t width,
+                        const std::vector<std::string>& above = {});
 
 }  // namespace errmap::report

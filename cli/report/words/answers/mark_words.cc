@@ -7,45 +7,41 @@
 #include "cli/report/words/answers/component_numbers.h"
 
 namespace errmap::report {
-namespace {
 
 using models::RecommendationRecord;
-using models::RemarkKind;
-
-bool Has(const RecommendationRecord& advice, RemarkKind ground) {
-  return std::ranges::find(advice.grounds,
-                           ground,
-                           &models::RemarkRecord::kind) != advice.grounds.end();
-}
 
 std::string WhyRecommended(const ComponentNumbers& component) {
   const RecommendationRecord& advice = component.Advice();
-  if (Has(advice, RemarkKind::kAveragesMaps)) {
-    if (advice.decided_by != advice.holdout) {
-      return fmt::format(
-          "an average of maps: {} do not choose between them, and the average "
-          "is the safer bet",
-          CountOfUnits(component.record.data.sessions,
-                       component.Holdout(advice.holdout)));
-    }
-    return "an average of maps: no single one is proven better, and the "
-           "average is the safer bet";
+  if (advice.proven_better_than) {
+    return fmt::format("proven better than the average of maps, {} ({})",
+                       *advice.proven_better_than,
+                       component.RmseWithUnit(*advice.proven_better_than));
   }
-  if (Has(advice, RemarkKind::kProvenBetter)) {
-    return "proven better than the average of maps";
+  if (advice.fails_in) {
+    return fmt::format(
+        "a simple map: under {} the average of maps errs more than twice as "
+        "much",
+        *advice.fails_in);
   }
-  if (Has(advice, RemarkKind::kSimpleHolds)) {
-    return "a simple map: the average of maps errs far more where less is "
-           "known";
+  if (advice.single) {
+    return fmt::format(
+        "an average of maps: {}; of single maps take {} ({})",
+        advice.decided_by == advice.holdout
+            ? "no single one is proven better"
+            : fmt::format("{} do not choose between them",
+                          CountOfUnits(component.record.data.sessions,
+                                       component.HoldoutOfAdvice())),
+        *advice.single,
+        component.RmseWithUnit(*advice.single));
   }
-  if (Has(advice, RemarkKind::kSimplestOfTier) ||
-      Has(advice, RemarkKind::kSimplestNearLowest)) {
-    return "the simplest of those that are as good";
-  }
-  return "";
+  if (advice.first_tier.size() < 2) return "";
+  const std::string& lowest = advice.first_tier.front();
+  return lowest == advice.model
+             ? "the simplest of those that are as good"
+             : fmt::format("the simplest of those that are as good as {} ({})",
+                           lowest,
+                           component.RmseWithUnit(lowest));
 }
-
-}  // namespace
 
 std::string MarkWords(const ReportView& view) {
   const ComponentNumbers component(*view.component);
@@ -60,22 +56,15 @@ std::string MarkWords(const ReportView& view) {
   } else if (!why.empty()) {
     text += ", " + why;
   }
-  const ResultRecord* const first =
-      view.models.empty() ? nullptr
-                          : ResultOf(*view.models.front(), view.decisive);
-  const auto marked =
-      std::ranges::count_if(view.models, [&](const ModelRecord* model) {
+  const bool marks_others =
+      std::ranges::any_of(view.models, [&](const ModelRecord* model) {
         const ResultRecord* const result = ResultOf(*model, view.decisive);
         return model->name != advice.model && result != nullptr &&
                result->tier == 1;
       });
-  if (marked == 0) return text + ".";
-  if (marked == 1 && !lowest && first != nullptr && first->tier == 1) {
-    return text + "; = the lowest error here.";
-  }
+  if (!marks_others) return text + ".";
   return text +
-         ". = as good as the lowest error: with 95 % certainty at most 5 % "
-         "above it, or by what never matters (--indifference).";
+         "; = the lowest error, or as good in practice (--indifference).";
 }
 
 }  // namespace errmap::report

@@ -8,23 +8,12 @@
 
 #include "cli/report/number_text.h"
 #include "cli/report/shell_word.h"
-#include "cli/report/words/answers/component_numbers.h"
+#include "cli/report/words/answers/remarks.h"
 #include "cli/report/words/answers/verdict_text.h"
 #include "data/text.h"
 
 namespace errmap::report {
 namespace {
-
-// The rows held out, beside the map "models/x.json" or "models/NAME/x.json".
-std::string HeldOutRows(const std::string& folder, const std::string& map) {
-  namespace fs = std::filesystem;
-  const fs::path of_component = fs::path(map).parent_path();
-  const fs::path file =
-      of_component.has_parent_path()
-          ? fs::path("residuals") / (of_component.filename().string() + ".csv")
-          : fs::path("residuals.csv");
-  return (fs::path(folder) / file).lexically_normal().string();
-}
 
 // The options by which the study read the component's measurements.
 void AddDataOptions(const models::StudyRecord& record,
@@ -36,40 +25,21 @@ void AddDataOptions(const models::StudyRecord& record,
   }
 }
 
-// What is asked next of a recommendation that has these doubts and grounds.
-void AddAnswers(const models::RecommendationRecord& advice,
-                const models::ModelRecord& model,
-                const std::string& folder,
-                std::vector<NextStep>* steps) {
-  if (std::ranges::find(advice.doubts,
-                        models::RemarkKind::kExtrapolates,
-                        &models::RemarkRecord::kind) != advice.doubts.end()) {
-    steps->push_back(
-        {"extrapolated",
-         {},
-         fmt::format("{:.0f} % of the held-out rows: inside = 0 in {}; predict "
-                     "marks new rows in the same way",
-                     kPercent * advice.extrapolated_share,
-                     model.file && !folder.empty()
-                         ? HeldOutRows(folder, *model.file)
-                         : "residuals.csv, which --out STUDY writes")});
-  }
-  constexpr std::pair<const char*, models::RemarkKind> kOthers[] = {
-      {"a smaller map", models::RemarkKind::kSmaller},
-      {"why no net", models::RemarkKind::kBestNet}};
-  for (const auto& [purpose, kind] : kOthers) {
-    const auto ground =
-        std::ranges::find(advice.grounds, kind, &models::RemarkRecord::kind);
-    if (ground != advice.grounds.end() && !ground->text.empty()) {
-      steps->push_back({purpose, {}, ground->text});
-    }
-  }
-}
-
 Words CommandOn(const char* command, const Words& data) {
   Words words{"errmap", command};
   words.insert(words.end(), data.begin(), data.end());
   return words;
+}
+
+// The sensors that the recommended map reads, the most needed one first where
+// the record knows.
+Words SensorsByNeed(const models::RecommendationRecord& advice) {
+  if (!advice.importance) return advice.sensors;
+  Words sensors;
+  for (const auto& without : advice.importance->one_by_one) {
+    sensors.push_back(First(without.sensors));
+  }
+  return sensors;
 }
 
 }  // namespace
@@ -130,16 +100,6 @@ std::vector<NextStep> NextSteps(const models::StudyRecord& record,
   return steps;
 }
 
-std::vector<std::string> SensorsByNeed(
-    const models::RecommendationRecord& advice) {
-  if (!advice.importance) return advice.sensors;
-  Words sensors;
-  for (const auto& without : advice.importance->one_by_one) {
-    sensors.push_back(First(without.sensors));
-  }
-  return sensors;
-}
-
 std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
                                    std::size_t component,
                                    const Words& data,
@@ -151,7 +111,12 @@ std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
   std::vector<NextStep> steps;
   const models::ModelRecord* found =
       advice ? models::FindNamed(of.models, advice->model) : nullptr;
-  if (found != nullptr) AddAnswers(*advice, *found, folder, &steps);
+  if (found != nullptr) {
+    for (Remark& remark : RemarksOf(ComponentNumbers(of))) {
+      if (remark.place != Remark::Place::kNextSteps) continue;
+      steps.push_back({std::move(remark.label), {}, std::move(remark.text)});
+    }
+  }
   if (advice && !advice->sensors.empty()) {
     Words sensors = SensorsByNeed(*advice);
     const std::size_t all = sensors.size();

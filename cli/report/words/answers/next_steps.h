@@ -31,11 +31,6 @@ std::vector<NextStep> NextSteps(const models::StudyRecord& record,
                                 const Words& data,
                                 const std::string& folder);
 
-/// The sensors that the recommended map reads, the most needed one first where
-/// the record knows.
-std::vector<std::string> SensorsByNeed(
-    const models::RecommendationRecord& advice);
-
 /// What the recommended map reads, the most needed sensor first where the
 /// record knows, and the command that tells which of them would do; `page`, or
 /// that in `folder`.

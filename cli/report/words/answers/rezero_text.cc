@@ -31,18 +31,9 @@ std::string IntervalWords(const models::ComponentRecord& component,
       "{:.3g} of {}", seconds, data::Printable(column, column.size()));
 }
 
-// "every 2 h", "every cycle", "once a session": the rule.
-std::string RuleWords(const models::ComponentRecord& component) {
-  const RezeroRecord& rezero = *component.rezero;
-  if (rezero.when == "session") return "once a session";
-  return "every " + (rezero.when == "interval"
-                         ? IntervalWords(component, rezero.interval)
-                         : component.data.group.value_or("row"));
-}
-
 std::string WhatItSaves(const models::ComponentRecord& component) {
   const RezeroRecord& rezero = *component.rezero;
-  const std::string rule = "a probe " + RuleWords(component);
+  const std::string rule = "a probe " + RezeroRuleWords(component);
   const std::string without = fmt::format(" does what {} does without.", rule);
   if (rezero.needs == "never") {
     return "With this map no probe at all" + without;
@@ -68,8 +59,16 @@ std::string DurationText(double seconds) {
   return fmt::format("{:.3g} s", seconds);
 }
 
+std::string RezeroRuleWords(const models::ComponentRecord& component) {
+  const RezeroRecord& rezero = *component.rezero;
+  if (rezero.when == "session") return "once a session";
+  return "every " + (rezero.when == "interval"
+                         ? IntervalWords(component, rezero.interval)
+                         : component.data.group.value_or("row"));
+}
+
 std::string RezeroedWords(const models::ComponentRecord& component) {
-  return "re-zeroed " + RuleWords(component);
+  return "re-zeroed " + RezeroRuleWords(component);
 }
 
 std::string RezeroSentence(const models::ComponentRecord& component) {

@@ -10,7 +10,9 @@ namespace errmap::report {
 /// alike; "" where maps were not re-zeroed.
 std::string RezeroSentence(const models::ComponentRecord& component);
 
-/// "re-zeroed every 2 h", "re-zeroed once a session", "re-zeroed every cycle".
+/// Of a component whose maps were re-zeroed: "every 2 h", "once a session",
+/// "every cycle"; "re-zeroed every 2 h".
+std::string RezeroRuleWords(const models::ComponentRecord& component);
 std::string RezeroedWords(const models::ComponentRecord& component);
 
 /// "2 h", "90 min", "30 s".

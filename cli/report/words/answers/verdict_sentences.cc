@@ -20,14 +20,14 @@ using models::Confidence;
 using models::FindNamed;
 using models::HoldoutRecord;
 using models::PairRecord;
-using models::RecommendationRecord;
 using models::VerdictRecord;
 using Kind = models::Obstacle::Kind;
 
 // "10 cycles, at least 12 are needed where they may be of one session".
-std::string ObstacleText(const models::Obstacle& obstacle,
+std::string ObstacleText(const ComponentNumbers& component,
+                         const models::Obstacle& obstacle,
                          const HoldoutRecord& holdout) {
-  const std::string found = CountOfUnits(obstacle.units, holdout);
+  const std::string found = component.CountOfHeldOut(obstacle.units, holdout);
   switch (obstacle.kind) {
     case Kind::kNone:
       return "";
@@ -132,7 +132,8 @@ std::string ChoiceSentence(const ComponentNumbers& component,
     return fmt::format(
         "Whether that is more than chance cannot be "
         "established: {}.",
-        ObstacleText(*verdict.obstacle, component.Holdout(verdict.holdout)));
+        ObstacleText(
+            component, *verdict.obstacle, component.Holdout(verdict.holdout)));
   }
   if (!verdict.rival) return "";
   std::string text = TestSentence(component, verdict);
@@ -163,27 +164,6 @@ std::string VerdictSentence(const ComponentNumbers& component,
   return text + "." + (choice.empty() ? "" : " " + choice);
 }
 
-std::string AgainstBaselineSentence(const ComponentNumbers& component) {
-  const RecommendationRecord& advice = component.Advice();
-  const std::string& baseline = There(advice.best_baseline);
-  const double mine = component.Rmse(advice.model, advice.holdout);
-  const double its = component.Rmse(baseline, advice.holdout);
-  std::string text = "The best baseline, " + baseline + ", has " +
-                     component.error.WithUnit(its);
-  constexpr double kTwice = 2.0;
-  if (its >= kTwice * mine) {
-    text += fmt::format(", {} times as much", RatioText(its / mine));
-  }
-  const PairRecord* const pair = models::FindPair(
-      component.record, advice.holdout, advice.model, baseline);
-  if (pair != nullptr && std::isfinite(pair->ci95[0])) {
-    text += fmt::format(": {} more{}",
-                        component.error.WithUnit(its - mine),
-                        component.In95(IntervalOfExcess(*pair, baseline)));
-  }
-  return text + ".";
-}
-
 std::string GapSentence(const ComponentNumbers& component) {
   const models::GapRecord& gap = There(component.record.gap);
   std::vector<models::GapModelRecord> flattered;
@@ -205,14 +185,16 @@ std::string GapSentence(const ComponentNumbers& component) {
                                 RatioText(row.ratio)));
   }
   std::string text = fmt::format(
-      "Warning: {} flatters {}", gap.neighbours, data::JoinWords(parts, ", "));
+      "{} flatters {}", gap.neighbours, data::JoinWords(parts, ", "));
   if (flattered.size() > kMostNamed) {
     text += fmt::format(" and {} more", flattered.size() - kMostNamed);
   }
-  return text +
-         ". Its held-out rows have neighbours in the training rows, whole " +
-         PluralOfUnit(component.Holdout(gap.unseen)) + " (" + gap.unseen +
-         ") have not.";
+  return fmt::format(
+      "{}. Its held-out rows lie next to rows of training; whole {} ({}) do "
+      "not.",
+      text,
+      PluralOfUnit(component.Holdout(gap.unseen)),
+      gap.unseen);
 }
 
 std::string MemorisationSentence(const ModelRecord& model) {

@@ -10,10 +10,6 @@ namespace errmap::report {
 std::string VerdictSentence(const ComponentNumbers& component,
                             const models::VerdictRecord& verdict);
 
-/// The error of the best baseline, which the recommended map is established to
-/// beat, the difference and its interval.
-std::string AgainstBaselineSentence(const ComponentNumbers& component);
-
 /// How much neighbours flatter, of a component with a gap; "" where they do
 /// not.
 std::string GapSentence(const ComponentNumbers& component);

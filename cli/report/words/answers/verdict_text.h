@@ -27,8 +27,8 @@ models::StudyRecord WithPageUnits(models::StudyRecord record);
 /// above 27"; "" where nothing is known to.
 std::string MeasureNext(const models::ComponentRecord& record);
 
-/// Verdicts, reasons and doubts in paragraphs, for --details; without those
-/// that the next steps say, where they are shown.
+/// The verdict of each hold-out and the remarks that the answer has no room
+/// for, for --details; without those of the next steps, where these are shown.
 std::string VerdictParagraphs(const models::ComponentRecord& record,
                               std::size_t width,
                               bool next_steps);

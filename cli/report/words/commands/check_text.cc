@@ -18,9 +18,11 @@ std::string TimesText(const models::HeldOutErrors& errors,
   if (errors.time_unit != "s") return "";
   const bool is_short = elapsed.maxCoeff() < 2.0 * kSecondsPerMinute;
   const double unit = is_short ? 1.0 : kSecondsPerMinute;
-  return fmt::format(", {:.0f} to {:.0f} {} after the session began",
-                     elapsed.minCoeff() / unit,
-                     elapsed.maxCoeff() / unit,
+  const std::string first = fmt::format("{:.0f}", elapsed.minCoeff() / unit);
+  const std::string last = fmt::format("{:.0f}", elapsed.maxCoeff() / unit);
+  return fmt::format(", {}{} {} after the session began",
+                     first,
+                     last == first ? "" : " to " + last,
                      is_short ? "s" : "min");
 }
 
@@ -55,12 +57,17 @@ const char* LeadOf(models::SessionStatus status) {
   return "Not yet known whether the map holds";
 }
 
-std::string ProbeWhenText(const models::SessionCheck& check) {
-  if (check.next_probe) {
+// `last`: when the last probe was taken, s after the start. What is known from
+// then on only is no time to probe again.
+std::string ProbeWhenText(const models::SessionCheck& check, double last) {
+  const auto minute = [](double seconds) {
+    return std::round(seconds / kSecondsPerMinute);
+  };
+  if (check.next_probe && minute(*check.next_probe) > minute(last)) {
     return fmt::format("Probe again {:.0f} min after the start.\n",
-                       *check.next_probe / kSecondsPerMinute);
+                       minute(*check.next_probe));
   }
-  return check.status == models::SessionStatus::kUnknown
+  return check.next_probe || check.status == models::SessionStatus::kUnknown
              ? "Take more probes, at other positions and later.\n"
              : "";
 }
@@ -79,13 +86,20 @@ std::string StatusText(const models::SessionCheck& check,
   }
   const bool so_far = check.status == models::SessionStatus::kHoldsSoFar;
   const models::RmseForecast& told = so_far ? check.so_far : check.session;
+  // The session beside the probes may err by more or less than these.
+  const char* const beside_probes =
+      check.probe_rms < told.low    ? " (at the probes it was less)"
+      : check.probe_rms > told.high ? " (at the probes it was more)"
+                                    : "";
   return fmt::format(
-      "{}: its error{} is {} to {} RMSE with 80 % confidence, and at most {} "
-      "({} times the promise) is the limit.\n",
+      "{}: its error{} is {}{} to {} RMSE with 80 % confidence{}, and at most "
+      "{} ({} times the promise) is the limit.\n",
       LeadOf(check.status),
       so_far ? " until now" : "",
+      *beside_probes != '\0' ? "forecast to be " : "",
       error(told.low),
       error.WithUnit(told.high),
+      beside_probes,
       error.WithUnit(models::kOffRatio * check.promised),
       models::kOffRatio);
 }
@@ -152,9 +166,10 @@ std::string SitesText(const models::HeldOutErrors& errors,
 // When and where to probe next, where that is what is wanted.
 std::string ProbeText(const models::SessionCheck& check,
                       const models::HeldOutErrors& errors,
-                      const std::vector<models::ProbeSite>& sites) {
+                      const std::vector<models::ProbeSite>& sites,
+                      double last) {
   if (check.sensor || check.missing != models::Missing::kNothing) return "";
-  return ProbeWhenText(check) + SitesText(errors, sites);
+  return ProbeWhenText(check, last) + SitesText(errors, sites);
 }
 
 }  // namespace
@@ -171,6 +186,7 @@ std::string SensorText(const models::SensorFaultFound& found) {
                          found.looks_like,
                          unit);
     case models::SensorFault::kDead:
+      if (std::isnan(found.value)) return lead + "it gives no reading.\n";
       return fmt::format(
           "{}it reads {:.4g} {} throughout, as a sensor does "
           "that is dead or not connected.\n",
@@ -211,7 +227,7 @@ std::string CheckText(const models::SessionCheck& check,
                      error.WithUnit(check.promised),
                      StatusText(check, error),
                      RemedyText(check, error),
-                     ProbeText(check, errors, sites));
+                     ProbeText(check, errors, sites, elapsed.maxCoeff()));
 }
 
 }  // namespace errmap::report

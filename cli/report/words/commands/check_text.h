@@ -7,9 +7,9 @@
 #include <Eigen/Core>
 
 #include "data/units.h"
-#include "models/promise/held_out_errors.h"
-#include "models/promise/session_check.h"
+#include "models/session/session_check.h"
 #include "models/study/record/study_record.h"
+#include "models/uncertainty/held_out_errors.h"
 
 namespace errmap::report {
 

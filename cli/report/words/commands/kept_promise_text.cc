@@ -7,16 +7,23 @@
 
 #include "cli/report/number_text.h"
 #include "data/text.h"
+#include "models/study/judgement/goal.h"
 
 namespace errmap::report {
 namespace {
 
+// `enough`: rows to fit a constant to, which a few rows meet by chance.
 std::string BaselineText(const models::KeptPromise& kept,
-                         const ErrorText& error) {
+                         const ErrorText& error,
+                         bool enough) {
   if (!kept.better_than_nothing()) {
     return fmt::format(
         "it is worse than no compensation, {}: do not use it here",
         error.WithUnit(kept.uncompensated));
+  }
+  if (!enough) {
+    return fmt::format("better than no compensation ({})",
+                       error.WithUnit(kept.uncompensated));
   }
   if (!kept.better_than_constant()) {
     return fmt::format("no compensation {}; a constant would do better, {}",
@@ -33,8 +40,10 @@ std::string BaselineText(const models::KeptPromise& kept,
 }  // namespace
 
 std::string KeptPromiseText(const models::KeptPromise& kept,
+                            Eigen::Index rows,
                             const data::Unit& unit) {
   const ErrorText error(unit, kept.found);
+  const bool enough = rows >= models::kFewestRowsForGoal;
   std::string text;
   if (std::isfinite(kept.promised)) {
     text += fmt::format("found {} RMSE, promised {}",
@@ -46,7 +55,14 @@ std::string KeptPromiseText(const models::KeptPromise& kept,
     }
     text += "\n";
   }
-  text += BaselineText(kept, error) + "\n";
+  text += BaselineText(kept, error, enough) + "\n";
+  if (!enough) {
+    return text + fmt::format(
+                      "{} cannot tell whether an offset explains it: it takes "
+                      "{} rows\n",
+                      Count(rows, "row"),
+                      models::kFewestRowsForGoal);
+  }
   if (kept.shape == models::ErrorShape::kOffset) {
     text += fmt::format(
         "an offset of {} is {:.0f} % of its mean square: re-zero, which leaves "

@@ -2,21 +2,25 @@
 
 #include <string>
 
+#include <Eigen/Core>
+
 #include "cli/report/number_text.h"
 #include "data/units.h"
-#include "models/promise/applicability.h"
-#include "models/promise/kept_promise.h"
-#include "models/promise/map_update.h"
-#include "models/promise/probe_correction.h"
-#include "models/promise/sensitivity.h"
+#include "models/sensors/applicability.h"
+#include "models/sensors/sensitivity.h"
+#include "models/session/kept_promise.h"
+#include "models/session/probe_correction.h"
+#include "models/uncertainty/map_update.h"
 
 namespace errmap::report {
 
 // What is said of a map on rows that it has not seen, and of readings that go
 // wrong; `unit` is its target's.
 
-/// What it erred by beside what was promised, no map at all, and an offset.
+/// What it erred by on so many rows beside what was promised, no map at all,
+/// and an offset; of the last nothing where rows are too few.
 std::string KeptPromiseText(const models::KeptPromise& kept,
+                            Eigen::Index rows,
                             const data::Unit& unit);
 
 /// The sensor that reads something else than the others tell.

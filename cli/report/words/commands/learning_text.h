@@ -3,7 +3,7 @@
 #include <string>
 
 #include "data/units.h"
-#include "models/promise/learning_record.h"
+#include "models/learning/learning_record.h"
 
 namespace errmap::report {
 

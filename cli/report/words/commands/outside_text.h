@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "models/error_model.h"
-#include "models/promise/applicability.h"
+#include "models/sensors/applicability.h"
 
 namespace errmap::report {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -84,6 +85,37 @@ ErrorText ErrorTextFor(const ZeroSchedule& schedule, const data::Unit& unit) {
   return ErrorText(unit, schedule.clocks.front().rmse);
 }
 
+// Without a goal: what the intervals do for the RMSE.
+std::string IntervalsText(const ZeroSchedule& schedule,
+                          const ErrorText& error) {
+  const models::ZeroedErrors& best = *std::ranges::min_element(
+      schedule.clocks, {}, &models::ZeroedErrors::rmse);
+  if (!(best.rmse < schedule.none.rmse)) {
+    return fmt::format(
+        "No probe helps: without one the map errs least, {} RMSE.\n",
+        error.WithUnit(schedule.none.rmse));
+  }
+  std::string text =
+      fmt::format("A probe {} leaves least, {} RMSE; no probe {}.",
+                  EveryText(best.trigger),
+                  error.WithUnit(best.rmse),
+                  error.WithUnit(schedule.none.rmse));
+  // By rising interval: from the first on that, with all after it, is no
+  // better than none.
+  auto worse = schedule.clocks.end();
+  while (worse != schedule.clocks.begin() &&
+         !(std::prev(worse)->rmse < schedule.none.rmse)) {
+    --worse;
+  }
+  if (worse != schedule.clocks.end()) {
+    text +=
+        fmt::format(" A probe {}{} is worse than none.",
+                    EveryText(worse->trigger),
+                    std::isfinite(worse->trigger.time) ? " or less often" : "");
+  }
+  return text + " --goal 2um names the interval that keeps to it.\n";
+}
+
 }  // namespace
 
 std::string ZeroAdvice(const ZeroSchedule& schedule,
@@ -130,7 +162,9 @@ std::string WhenText(const ZeroSchedule& schedule,
   for (const models::ZeroedErrors& clock : schedule.clocks) {
     text += TableRow(EveryText(clock.trigger), clock, error);
   }
-  return text + "\n" + ZeroAdvice(schedule, errors, unit, goal);
+  return text + "\n" +
+         (std::isnan(goal) ? IntervalsText(schedule, error)
+                           : ZeroAdvice(schedule, errors, unit, goal));
 }
 
 std::string ZeroDueText(const ZeroTrigger& advised,

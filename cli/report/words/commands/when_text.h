@@ -3,7 +3,7 @@
 #include <string>
 
 #include "data/units.h"
-#include "models/promise/zero_schedule.h"
+#include "models/session/zero_schedule.h"
 
 namespace errmap::report {
 

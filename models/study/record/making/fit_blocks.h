@@ -7,7 +7,7 @@
 
 namespace errmap::models {
 
-// Fits and their figures as records.
+// Makes records of fits and their metrics.
 
 MetricsRecord MakeRecord(const stats::ErrorMetrics& metrics);
 SummaryRecord MakeRecord(const fitting::FitSummary& summary);
@@ -17,7 +17,7 @@ RegressionRecord MakeRecord(const RegressionReport& report);
 
 ByName<OptionValue> MakeRecord(const std::vector<EffectiveOption>& options);
 
-/// What a fit took and how it went; empty lists are left out.
+/// Makes the record of a fit: its time and outcome; empty lists are left out.
 FitRecord MakeFitRecord(double fit_seconds,
                         const fitting::FitSummary& summary,
                         const std::vector<std::string>& remarks,

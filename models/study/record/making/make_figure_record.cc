@@ -7,7 +7,7 @@
 #include <set>
 
 #include "models/study/judgement/extrapolated_rows.h"
-#include "stats/spread_sample.h"
+#include "stats/indices.h"
 
 namespace errmap::models {
 namespace {

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "models/history/history.h"
+#include "models/history/view.h"
+#include "models/study/judgement/extrapolated_rows.h"
 #include "models/study/judgement/units_of_analysis.h"
 
 namespace errmap::models {
@@ -44,6 +48,7 @@ class JudgementRecord {
   }
   PairRecord Pair(const HoldoutComparison& tests, std::size_t index) const;
   double RemovedShare(std::size_t holdout, const HoldoutResult& of_map) const;
+  void AddStates(RecommendationRecord* record) const;
 };
 
 // Against the same rows without compensation.
@@ -118,7 +123,7 @@ PairRecord JudgementRecord::Pair(const HoldoutComparison& tests,
                                  .p = pair.wilcoxon.test.p,
                                  .exact = pair.wilcoxon.exact},
                     .memory_t = {.statistic = pair.memory.test.statistic,
-                                 .df = pair.memory.effective_units - 1.0,
+                                 .df = pair.memory.degrees_of_freedom,
                                  .p = pair.memory.test.p,
                                  .p_holm = pair.p_memory_holm,
                                  .memory = pair.memory.memory},
@@ -255,6 +260,63 @@ std::vector<SinceStartRecord> SinceStart(const ComponentStudy& study,
   return records.size() > 1 ? records : std::vector<SinceStartRecord>();
 }
 
+// The columns that leave what their folds were trained on, those of most rows
+// first; not what only grows, to which nobody can go back, nor what each state
+// was met of in one fold only: no state of it is wanted more than another.
+std::vector<BeyondRecord> BeyondTraining(
+    const data::Dataset& dataset,
+    const Holdout& holdout,
+    const std::vector<std::string>& columns) {
+  constexpr std::size_t kMostColumns = 3;
+  std::vector<std::pair<Index, BeyondRecord>> found;
+  for (const std::string& name : columns) {
+    const Index column = dataset.FindInput(name);
+    if (column < 0) continue;
+    Index rows = 0;
+    BeyondRecord beyond{.column = name};
+    for (const stats::Fold& fold : holdout.folds) {
+      const auto [trained, tested] =
+          ValuesOfFold(dataset, holdout, fold, column);
+      const double low = trained.minCoeff();
+      const double high = trained.maxCoeff();
+      const Index under = (tested.array() < low).count();
+      const Index over = (tested.array() > high).count();
+      rows += under + over;
+      if (under > 0) beyond.below = std::fmax(beyond.below, low);
+      if (over > 0) beyond.above = std::fmin(beyond.above, high);
+    }
+    if (rows > 0 && !(beyond.below >= beyond.above)) {
+      found.emplace_back(rows, std::move(beyond));
+    }
+  }
+  std::ranges::stable_sort(
+      found, std::greater<>(), [](const auto& one) { return one.first; });
+  if (found.size() > kMostColumns) found.resize(kMostColumns);
+  std::vector<BeyondRecord> records;
+  for (auto& [rows, beyond] : found) records.push_back(std::move(beyond));
+  return records;
+}
+
+void JudgementRecord::AddStates(RecommendationRecord* record) const {
+  constexpr double kWorthSaying = 0.05;  // of the held-out rows
+  const data::Dataset& dataset = study_.data.dataset;
+  const Recommendation& advice = *judgement_.recommendation;
+  const std::vector<bool> only_grow = ColumnsThatOnlyGrow(dataset);
+  std::vector<std::string> grow;
+  std::vector<std::string> others;
+  for (const TrainedInput& input :
+       study_.study.models[advice.model].final_fit->inputs) {
+    const Index at = dataset.FindInput(input.column.name);
+    const bool grows = at >= 0 && only_grow[static_cast<std::size_t>(at)];
+    (grows ? grow : others).push_back(input.column.name);
+  }
+  if (!grow.empty()) record->only_grow = std::move(grow);
+  if (advice.extrapolated_share >= kWorthSaying) {
+    record->beyond =
+        BeyondTraining(dataset, study_.holdouts[advice.holdout], others);
+  }
+}
+
 std::optional<RecommendationRecord> JudgementRecord::Advice() const {
   const auto& advice = judgement_.recommendation;
   if (!advice) return std::nullopt;
@@ -290,6 +352,17 @@ std::optional<RecommendationRecord> JudgementRecord::Advice() const {
   record.since_start = SinceStart(study_, result, advice->holdout);
   if (study_.session_worth) record.session_worth = *study_.session_worth;
   if (study_.importance) record.importance = *study_.importance;
+  if (advice->proven_better_than) {
+    record.proven_better_than = Name(*advice->proven_better_than);
+  } else if (!advice->fails_in.empty()) {
+    record.fails_in = advice->fails_in;
+  } else if (advice->single) {
+    record.single = Name(*advice->single);
+  }
+  if (advice->better_but_no_map) {
+    record.better_without_map = Name(*advice->better_but_no_map);
+  }
+  AddStates(&record);
   return record;
 }
 

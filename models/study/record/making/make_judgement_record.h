@@ -7,18 +7,18 @@
 
 namespace errmap::models {
 
-/// 95 % of the error of a model under a hold-out; NaN where two units bound
-/// nothing.
+/// Returns the 95 % interval of a model's RMSE under a hold-out; NaN if there
+/// are too few units.
 IntervalRecord RmseInterval(const HoldoutComparison& tests, std::size_t model);
 
-/// Nothing where there is no goal or it could not be judged.
+/// Returns nothing if there is no goal or it could not be judged.
 std::optional<bool> MeetsGoal(GoalStanding standing);
 
-/// What hold-outs say of the models beside each other, and of the recommended
-/// one by itself. Its cost, grounds and doubts are others' to add.
+/// Adds hold-out results: the models compared with each other, and the
+/// recommended model on its own. The caller adds its cost, reasons and caveats.
 void AddJudgement(const ComponentStudy& study, ComponentRecord* record);
 
-/// Of a component that was scored with its offset set anew.
+/// Makes the record of a component that was judged with re-zeroing.
 RezeroRecord MakeRezeroRecord(const ComponentStudy& study);
 
 }  // namespace errmap::models

@@ -7,14 +7,14 @@
 
 namespace errmap::models {
 
-/// Where a result comes from: this version, its compiler, platform and the
-/// libraries that the figures pass through, by name (OpenBLAS with its options
-/// and the processor it took, Ceres as compiled against). The configuration is
-/// left to the caller.
+/// Returns the origin of a result: this version, its compiler, platform, and
+/// the numerical libraries by name. OpenBLAS has its options and detected
+/// processor, Ceres the version compiled against. The caller adds the
+/// configuration.
 ProvenanceRecord MakeProvenance(std::string command_line,
                                 std::vector<InputFileRecord> inputs);
 
-/// A library of the program's own to be named among them; called before all
+/// Adds one of the program's own libraries to them; call it before anything
 /// else.
 void NameLibrary(const std::string& name, const std::string& version);
 

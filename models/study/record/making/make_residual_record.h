@@ -5,12 +5,12 @@
 
 namespace errmap::models {
 
-/// A test that does not apply has NaN and says why.
+/// A test that does not apply has NaN and the reason.
 NormalityRecord MakeRecord(const stats::Normality& normality,
                            const stats::MonteCarloP& monte_carlo);
 
-/// Serial tests over the whole order and within groups, halves, biases by
-/// group and position, variance against fitted.
+/// Makes the record of serial tests over the whole order and within groups,
+/// halves, biases by group and position, and variance against fitted.
 RandomnessRecord MakeRecord(const ResidualReport& report);
 
 }  // namespace errmap::models

@@ -1,5 +1,6 @@
 #include "models/study/record/make_study_record.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "data/sha256.h"
@@ -13,7 +14,6 @@
 #include "models/study/record/making/make_figure_record.h"
 #include "models/study/record/making/make_judgement_record.h"
 #include "models/study/record/making/make_residual_record.h"
-#include "models/study/record/making/remarks.h"
 
 namespace errmap::models {
 namespace {
@@ -24,7 +24,7 @@ std::optional<std::string> TextOrNothing(const std::string& text) {
   return text.empty() ? std::optional<std::string>() : std::optional(text);
 }
 
-// Of several files their names and the hash of their hashes.
+// For several files: their names, and the hash of their hashes.
 InputFileRecord SourceOf(const std::vector<InputFileRecord>& files) {
   if (files.size() == 1) return files[0];
   InputFileRecord all;
@@ -39,24 +39,26 @@ InputFileRecord SourceOf(const std::vector<InputFileRecord>& files) {
 DataRecord MakeData(const ComponentStudy& study) {
   const data::Dataset& dataset = study.data.dataset;
   const InputFileRecord source = SourceOf(study.files);
-  DataRecord record{.file = source.file,
-                    .sha256 = source.sha256,
-                    .rows = dataset.num_rows(),
-                    .target = dataset.target().name,
-                    .unit = dataset.target().unit.symbol,
-                    .inputs = {},
-                    .group = {},
-                    .groups = 0,
-                    .session = {},
-                    .time = TextOrNothing(study.data.time_column),
-                    .time_unit = "rows",
-                    .sessions = dataset.num_sessions(),
-                    .align = dataset.align(),
-                    .dropped = study.data.dropped,
-                    .faults = MakeFaultRecords(study.data),
-                    .remarks = study.data.remarks,
-                    .doubts = study.data.doubts,
-                    .reading = study.data.reading};
+  DataRecord record{
+      .file = source.file,
+      .sha256 = source.sha256,
+      .rows = dataset.num_rows(),
+      .target = dataset.target().name,
+      .unit = dataset.target().unit.symbol,
+      .inputs = {},
+      .sensors = std::ranges::count_if(dataset.inputs(), data::IsReadBySensor),
+      .group = {},
+      .groups = 0,
+      .session = {},
+      .time = TextOrNothing(study.data.time_column),
+      .time_unit = "rows",
+      .sessions = dataset.num_sessions(),
+      .align = dataset.align(),
+      .dropped = study.data.dropped,
+      .faults = MakeFaultRecords(study.data),
+      .remarks = study.data.remarks,
+      .doubts = study.data.doubts,
+      .reading = study.data.reading};
   for (const data::ColumnInfo& input : dataset.inputs()) {
     record.inputs.push_back(input.name);
   }
@@ -174,8 +176,8 @@ LeftOut<StepCostRecord> StepCostOf(const FittedModel& map) {
   }
 }
 
-// Of one prediction: as a controller runs it (`step`), filters and all, or by
-// its formula where none could.
+// The cost of one prediction: as a controller runs it (`step`), with filters,
+// or by its formula if no controller could.
 PredictionCost CostOfOne(const FittedModel& map,
                          const LeftOut<StepCostRecord>& step) {
   if (step) return {step->multiplications, step->exponentials};
@@ -262,8 +264,6 @@ ComponentRecord MakeComponentRecord(const ComponentStudy& study, int jobs) {
     const std::size_t model = study.judgement.recommendation->model;
     record.recommendation->cost = CostOfOne(
         *study.study.models[model].final_fit, record.models[model].step_cost);
-    record.recommendation->grounds = FindGrounds(study, record);
-    record.recommendation->doubts = FindDoubts(study, record);
   }
   if (study.rezero_worth) record.rezero = MakeRezeroRecord(study);
   record.figures = MakeFiguresRecord(study);

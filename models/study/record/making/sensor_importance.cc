@@ -183,7 +183,7 @@ class FoldJudge {
   std::optional<StandIn> stand_in_;
 };
 
-// Every so-manieth row, so that all of it is some seconds' work.
+// Uses every n-th row, so that all the work takes some seconds.
 std::size_t StepOfHoldout(const Holdout& holdout,
                           const FittedModel& fitted,
                           std::size_t drops) {

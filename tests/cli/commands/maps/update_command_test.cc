@@ -1,6 +1,7 @@
 // Maps that are fitted again with new sessions, and kept where those are no
 // better.
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cli/commands/promise_days.h"
+#include "tests/cli/one_line.h"
 
 namespace errmap {
 namespace {
@@ -62,8 +64,8 @@ TEST_F(UpdateCommand, UpdatesOnceMoreFromAllThatWasLearnt) {
   const Outcome lost =
       Run({"update", "once.json", "newer.csv", "-o", "newer.json"});
   EXPECT_EQ(lost.status, 0) << lost.err;
-  EXPECT_THAT(lost.err,
-              HasSubstr("warning: 'train.csv' is not at hand as it was"));
+  EXPECT_THAT(OneLine(lost.out),
+              HasSubstr("'train.csv' is not at hand as it was"));
   EXPECT_THAT(Run({"update",
                    "once.json",
                    "newer.csv",
@@ -73,8 +75,40 @@ TEST_F(UpdateCommand, UpdatesOnceMoreFromAllThatWasLearnt) {
                    "train.csv",
                    "--known",
                    "new.csv"})
-                  .err,
-              Not(HasSubstr("warning")));
+                  .out,
+              Not(HasSubstr("not at hand")));
+}
+
+// Where it is run from decides nothing: what the map was fitted to is looked
+// for beside the new sessions and beside the map, too, by its hash.
+TEST_F(UpdateCommand, FindsWhatTheMapLearntFromWhereverItIsRun) {
+  std::filesystem::create_directories(scratch_ / "data");
+  std::filesystem::create_directories(scratch_ / "maps");
+  const auto move = [&](const char* from, const char* to) {
+    std::filesystem::rename(scratch_ / from, scratch_ / to);
+  };
+  Write("data/new.csv", DaysInCliPromise(11, 14, 9.0));
+  const auto update = [&](const std::string& map, const std::string& data) {
+    return RunJson(
+        {"update", map, data, "-o", "newer.json", "--format", "json"});
+  };
+  const Json here = update("map.json", "data/new.csv");
+  EXPECT_EQ(here["not_at_hand"], Json::array());
+  move("train.csv", "data/train.csv");
+  const Json beside_data = update("map.json", "data/new.csv");
+  EXPECT_EQ(beside_data["not_at_hand"], Json::array());
+  EXPECT_EQ(beside_data["sessions"], here["sessions"]);
+  move("data/train.csv", "maps/train.csv");
+  move("map.json", "maps/map.json");
+  const Json beside_map = update("maps/map.json", "data/new.csv");
+  EXPECT_EQ(beside_map["not_at_hand"], Json::array());
+  EXPECT_EQ(beside_map["sessions"], here["sessions"]);
+  // The file of new sessions is the one it was fitted to.
+  move("maps/train.csv", "data/again.csv");
+  EXPECT_EQ(update("maps/map.json", "data/again.csv")["not_at_hand"],
+            Json::array());
+  EXPECT_EQ(update("maps/map.json", "data/new.csv")["not_at_hand"],
+            Json::array({"train.csv"}));
 }
 
 TEST_F(UpdateCommand, KeepsTheOldMapUnlessTheNewOneIsBetter) {

@@ -6,12 +6,15 @@
 #include <gtest/gtest.h>
 
 #include "tests/cli/cli_fixture.h"
+#include "tests/cli/one_line.h"
 
 namespace errmap {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 // Five days of ten hours on which the error grows by 1 um an hour from a
@@ -50,6 +53,30 @@ TEST_F(When, NamesTheLongestIntervalThatKeepsTheGoal) {
                                "re-zeroed by probes\n"),
                     HasSubstr("A probe every 2 h keeps 90 % of the errors "
                               "within 2.000 um.")));
+}
+
+// Nobody reads the answer off the table.
+TEST_F(When, AnswersWithoutAGoal) {
+  const Outcome found = Run({"when", "map.json"});
+  EXPECT_EQ(found.status, 0) << found.err;
+  const std::string text = OneLine(found.out);
+  EXPECT_THAT(text, HasSubstr("A probe every 20 min leaves least, "));
+  EXPECT_THAT(text, HasSubstr(" RMSE; no probe "));
+  EXPECT_THAT(found.out, Not(EndsWith("\n\n")));
+}
+
+// What only scatters errs less without the scatter of a probe.
+TEST_F(When, SaysThatNoProbeHelpsWhereNoneDoes) {
+  std::string text = "day,time_s,position_mm,error_um\n";
+  for (int i = 0; i < 300; ++i) {
+    text += std::to_string(i / 60) + "," + std::to_string(600 * (i % 60)) +
+            "," + std::to_string(100 * (i % 3)) + "," +
+            std::to_string((i * 7919) % 101) + "\n";
+  }
+  Write("noise.csv", text);
+  Run({"fit", "noise.csv", "--model", "poly:position", "-o", "noise.json"});
+  EXPECT_THAT(OneLine(Run({"when", "noise.json"}).out),
+              HasSubstr("No probe helps: without one the map errs least, "));
 }
 
 TEST_F(When, SaysWhenTheNextProbeIsDue) {

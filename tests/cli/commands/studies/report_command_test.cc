@@ -29,7 +29,9 @@ TEST_F(ReportCommand, DrawsTheReportOfAComparisonTwiceAlike) {
   ASSERT_EQ(compare.status, 0) << compare.err;
   const std::string first = Read("study/report.html");
   const std::string markdown = Read("study/report.md");
-  ASSERT_EQ(Run({"report", "study"}).status, 0);
+  const Outcome drawn = Run({"report", "study"});
+  ASSERT_EQ(drawn.status, 0) << drawn.err;
+  EXPECT_EQ(drawn.out, "study/report.html\nstudy/report.md\n");
   EXPECT_EQ(Read("study/report.html"), first);
   EXPECT_EQ(Read("study/report.md"), markdown);
   EXPECT_THAT(first, HasSubstr("poly:eq8"));
@@ -56,17 +58,9 @@ TEST_F(ReportCommand, KeepsInTheRecordAllThatWasJudged) {
   const std::string text = FileText(document);
   EXPECT_EQ(models::ToJsonText(models::FromJsonText(text)), text);
   const Json& advice = document["components"][0]["recommendation"];
-  EXPECT_EQ(advice["grounds"].size(), advice["reasons"].size());
-  EXPECT_EQ(advice["doubts"].size(), advice["caveats"].size());
-  const auto kinds = [](const Json& remarks) {
-    std::set<std::string> found;
-    for (const Json& remark : remarks) found.insert(remark["kind"]);
-    return found;
-  };
-  EXPECT_THAT(kinds(advice["grounds"]),
-              ::testing::IsSupersetOf({"gap", "removes", "cost"}));
-  EXPECT_THAT(kinds(advice["doubts"]),
-              ::testing::IsSupersetOf({"one run only", "units correlated"}));
+  EXPECT_THAT(advice["reasons"].dump(), HasSubstr("Without a map: "));
+  EXPECT_THAT(advice["reasons"].dump(), HasSubstr("Cost: "));
+  EXPECT_THAT(advice["caveats"].dump(), HasSubstr("this is one run"));
 }
 
 TEST_F(ReportCommand, FindsTheRowsOfTheFiguresInResultsJson) {

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/desk/plan/run_record.h"
+#include "cli/desk/plan/study_run.h"
 #include "tests/places.h"
 
 namespace errmap::desk {

@@ -1,5 +1,7 @@
 #include "cli/report/tables/result_table.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -46,6 +48,22 @@ TEST(TerminalLeaderboard, StandsByTheDecisiveErrorAndMarksTheRecommended) {
   EXPECT_EQ(table.marked, 1U);
 }
 
+TEST(StandInWords, NameWhatTheLineOverATemperatureReadsWithoutOne) {
+  models::StudyRecord record = Recorded(MakeReportDocument());
+  models::ComponentRecord& component = record.components[0];
+  EXPECT_EQ(StandInWords(ViewOf(component)), "");
+  models::ModelRecord& model = component.models[0];
+  model.name = "poly:temperature";
+  model.inputs_used = {"elapsed_cycles"};
+  model.sensors = std::vector<std::string>{};
+  EXPECT_EQ(StandInWords(ViewOf(component)),
+            "poly:temperature is a line over elapsed_cycles, as there is no "
+            "thermometer.");
+  model.inputs_used = {"t1_degC"};
+  model.sensors = {"t1_degC"};
+  EXPECT_EQ(StandInWords(ViewOf(component)), "");
+}
+
 TEST(TerminalLeaderboard, AlwaysHoldsTheRecommended) {
   const models::StudyRecord record = Recorded(MakeReportDocument());
   const Table table = TerminalLeaderboard(ViewOf(record.components[0]), 1);
@@ -72,7 +90,9 @@ TEST(DrawnRowsWords, NameWhatLearntFromAPart) {
   const std::string words =
       "net:scg learnt from 19992 of 28560 rows (all by rows=all).";
   EXPECT_EQ(DrawnRowsWords(ViewOf(component)), words);
-  EXPECT_THAT(ScreenText(record, 1000), HasSubstr(words));
+  std::string screen = ScreenText(record, 1000);
+  std::ranges::replace(screen, '\n', ' ');
+  EXPECT_THAT(screen, HasSubstr(words));
   EXPECT_THAT(PageLeaderboard(ViewOf(component)).note, StartsWith(words));
 }
 

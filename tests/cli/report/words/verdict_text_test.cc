@@ -7,6 +7,7 @@
 
 #include "cli/report/words/answers/interval_text.h"
 #include "cli/report/words/answers/mark_words.h"
+#include "cli/report/words/answers/remarks.h"
 #include "cli/report/wrap_text.h"
 #include "data/input_error.h"
 #include "tests/cli/report/report_document.h"
@@ -16,8 +17,6 @@ namespace {
 
 using models::ComponentRecord;
 using models::Confidence;
-using models::RemarkKind;
-using models::RemarkRecord;
 using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
@@ -42,8 +41,8 @@ ComponentRecord Base() {
   }
   record.tiers = {{kFar, {{"poly:eq8"}, {"net:scg"}, {"zero"}}}};
   models::RecommendationRecord& advice = *record.recommendation;
-  advice.grounds.clear();
-  advice.doubts.clear();
+  record.models[2].choice = models::Choice::kNeural;
+  record.data.sessions = 1;
   advice.against_baseline = Confidence::kEstablished;
   advice.best_baseline = "zero";
   advice.removed_share = 0.9279;
@@ -55,16 +54,18 @@ std::string Headline(ComponentRecord record) {
   return record.recommendation->sentence;
 }
 
-std::string GroundOf(ComponentRecord record, RemarkRecord remark) {
-  record.recommendation->grounds = {std::move(remark)};
-  AddSentences(&record);
-  return record.recommendation->grounds.at(0).text;
+// The texts of the remarks with this label.
+std::vector<std::string> TextsOf(const ComponentRecord& record,
+                                 std::string_view label) {
+  std::vector<std::string> texts;
+  for (const Remark& remark : RemarksOf(ComponentNumbers(record))) {
+    if (remark.label == label) texts.push_back(remark.text);
+  }
+  return texts;
 }
 
-std::string DoubtOf(ComponentRecord record, RemarkRecord remark) {
-  record.recommendation->doubts = {std::move(remark)};
-  AddSentences(&record);
-  return record.recommendation->doubts.at(0).text;
+std::string TextOf(const ComponentRecord& record, std::string_view label) {
+  return fmt::format("{}", fmt::join(TextsOf(record, label), " | "));
 }
 
 // --- The headline ----------------------------------------------------------
@@ -72,7 +73,7 @@ std::string DoubtOf(ComponentRecord record, RemarkRecord remark) {
 TEST(Headline, SaysWhatToUseAndHowGoodItIs) {
   EXPECT_EQ(Headline(Base()),
             "Use poly:eq8. Unseen cycles: 1.900 um RMSE (95 %: 1.520 to "
-            "2.470).");
+            "2.470), largest 5.130 um.");
 }
 
 models::ResultRecord& Far(models::ModelRecord* model) {
@@ -105,15 +106,16 @@ TEST(Marks, SayWhyALowerErrorIsNotTaken) {
               StartsWith("* recommended: the lowest error"));
   models::RecommendationRecord& advice = *record.recommendation;
   advice.model = "net:scg";
-  advice.grounds = {{.kind = RemarkKind::kAveragesMaps}};
+  advice.single = "poly:eq8";
+  advice.first_tier = {"net:scg"};
   for (models::ModelRecord& model : record.models) {
     Far(&model).tier = model.name == "poly:eq8" ? 1 : 2;
   }
   advice.decided_by = advice.holdout;
   EXPECT_EQ(MarkWords(ViewOf(record)),
-            "* recommended, an average of maps: no single one is proven "
-            "better, and the average is the safer bet; = the lowest error "
-            "here.");
+            "* recommended, an average of maps: no single one "
+            "is proven better; of single maps take poly:eq8 (1.900 um); = "
+            "the lowest error, or as good in practice (--indifference).");
   advice.decided_by = "every:3";
   record.data.sessions = 2;
   for (models::HoldoutRecord& holdout : record.holdouts) {
@@ -125,36 +127,45 @@ TEST(Marks, SayWhyALowerErrorIsNotTaken) {
 
 // --- What speaks for it, and against ---------------------------------------
 
-TEST(Sentences, TellTheShareOfTheErrorThatIsRemoved) {
-  EXPECT_EQ(GroundOf(Base(), {.kind = RemarkKind::kRemoves}),
-            "It removes 92 % of the error (0.800 um without a map).");
+TEST(Remarks, TellTheShareOfTheErrorThatIsRemoved) {
+  EXPECT_EQ(TextOf(Base(), "without a map"), "0.800 um; 93 % removed");
 }
 
-TEST(Sentences, TellOffsetAndScatterOfAMissedGoalApart) {
-  EXPECT_EQ(GroundOf(Base(), {.kind = RemarkKind::kGoal}),
-            "The goal (RMSE at most 0.5 um) is not met: scatter 1.881 um about "
-            "an offset of 0.190 um.");
-}
-
-TEST(Sentences, CallAnOffsetPerCycleAThermalStateThatNoSensorSees) {
+TEST(Remarks, TellOffsetAndScatterOfAGoalThatAnOffsetHides) {
   ComponentRecord record = Base();
-  models::ModelRecord& model = record.models[1];
-  for (auto& [holdout, result] : model.results) {
-    result.randomness.by_group.emplace().column = "cycle";
+  record.recommendation->goal_standing =
+      models::GoalStanding::kMetAfterRezeroing;
+  EXPECT_EQ(TextOf(record, "goal"),
+            "0.5 um: reached after re-zeroing; the scatter is 1.881 um about "
+            "an offset of 0.190 um");
+}
+
+TEST(Remarks, CallWhatShiftsWholeCyclesNoNoise) {
+  ComponentRecord record = Base();
+  for (auto& [holdout, result] : record.models[1].results) {
+    auto& by_group = result.randomness.by_group.emplace();
+    by_group.column = "cycle";
+    by_group.explained = 0.87;
+    by_group.test.value.p = 1e-6;
+    auto& by_position = result.randomness.by_position.emplace();
+    by_position.column = "position_mm";
+    by_position.explained = 0.31;
+    by_position.test.value.p = 1e-6;
   }
-  RemarkRecord remark{.kind = RemarkKind::kNotNoise};
-  remark.columns = std::vector<std::string>{"cycle", "position_mm"};
-  remark.shares = std::vector<double>{0.87, 0.31};
-  remark.add_sensor = true;
-  EXPECT_EQ(GroundOf(record, remark),
-            "87 % of what is left is an offset per cycle: a thermal state that "
-            "the sensors do not see. Add a sensor, or re-zero each cycle. 31 % "
-            "of what is left repeats along position_mm: the map is too smooth "
-            "there.");
-  remark.add_sensor = false;
-  EXPECT_THAT(GroundOf(record, remark), HasSubstr(" see. Re-zero each cycle."));
-  remark.add_sensor.reset();
-  EXPECT_THAT(GroundOf(record, remark), HasSubstr(" see. 31 %"));
+  record.recommendation->goal_standing = models::GoalStanding::kMissed;
+  record.data.sensors = 2;
+  EXPECT_THAT(
+      TextsOf(record, "what is left"),
+      ElementsAre(
+          "87 % of it shifts whole cycles up or down: re-zero each cycle, or "
+          "add a thermometer",
+          "31 % of it repeats along position_mm: a finer curve would follow"));
+  record.data.sensors = 40;
+  EXPECT_THAT(TextOf(record, "what is left"),
+              HasSubstr(": re-zero each cycle |"));
+  record.recommendation->goal_standing = models::GoalStanding::kMet;
+  EXPECT_THAT(TextOf(record, "what is left"),
+              StartsWith("87 % of it shifts whole cycles up or down |"));
 }
 
 TEST(Sentences, SayForHowManyDaysAPromiseIsGood) {
@@ -175,26 +186,10 @@ TEST(Sentences, SayForHowManyDaysAPromiseIsGood) {
               HasSubstr("Trust that for the next day only"));
 }
 
-TEST(Sentences, TellWhichColumnToIgnoreForAFlatteredModel) {
-  ComponentRecord record = Base();
-  record.gap =
-      models::GapRecord{.neighbours = "every:3",
-                        .unseen = kFar,
-                        .warning = {},
-                        .models = {{"net:scg", 3.6e-4, 1.65e-3, 4.6, true}}};
-  RemarkRecord remark{.kind = RemarkKind::kIgnoreNeighbours};
-  remark.model = "net:scg";
-  EXPECT_EQ(DoubtOf(record, remark),
-            "Ignore the every:3 column for net:scg: 0.360 um next to known "
-            "rows, 1.650 um on a cycle it never saw.");
-}
-
 // --- Why not the net -------------------------------------------------------
 
-std::string OfBestNet(ComponentRecord record) {
-  RemarkRecord remark{.kind = RemarkKind::kBestNet};
-  remark.model = "net:scg";
-  return GroundOf(std::move(record), remark);
+std::string OfBestNet(const ComponentRecord& record) {
+  return TextOf(record, "why no net");
 }
 
 TEST(BestNet, IsSaidToErrByHowMuchMore) {
@@ -204,18 +199,18 @@ TEST(BestNet, IsSaidToErrByHowMuchMore) {
   ASSERT_EQ(pair.b, "net:scg");
   pair.ci95 = {-1.75e-3, -4.5e-4};
   EXPECT_EQ(OfBestNet(record),
-            "The best net, net:scg, has 3.000 um, 1.100 um more (95 % 0.450 to "
-            "1.750).");
+            "the best, net:scg, has 3.000 um, 1.100 um more (95 % 0.450 to "
+            "1.750); the gap is proven");
   // The pair may stand the other way round.
   std::swap(pair.a, pair.b);
   pair.ci95 = {4.5e-4, 1.75e-3};
   pair.established = false;
   EXPECT_EQ(OfBestNet(record),
-            "The best net, net:scg, has 3.000 um, 1.100 um more (95 % 0.450 to "
-            "1.750); call it likely.");
+            "the best, net:scg, has 3.000 um, 1.100 um more (95 % 0.450 to "
+            "1.750); the gap is likely real");
   record.comparisons.clear();
   EXPECT_EQ(OfBestNet(record),
-            "The best net, net:scg, has 3.000 um, 1.100 um more.");
+            "the best, net:scg, has 3.000 um, 1.100 um more");
 }
 
 TEST(BestNet, IsSaidToErrLessWhereABaselineOrBlendIsUsedAllTheSame) {
@@ -226,64 +221,37 @@ TEST(BestNet, IsSaidToErrLessWhereABaselineOrBlendIsUsedAllTheSame) {
   models::PairRecord& pair = record.comparisons.front();
   pair.ci95 = {-1e-4, 9e-4};  // of poly:eq8 less net:scg
   pair.established = false;
-  EXPECT_EQ(OfBestNet(record),
-            "The best net, net:scg, has 1.500 um, 0.400 um less (95 % -0.100 "
-            "to 0.900); that may be chance.");
+  EXPECT_EQ(OfBestNet(record), "");
+  EXPECT_EQ(TextOf(record, "a neural net"),
+            "the best, net:scg, has 1.500 um, 0.400 um less (95 % -0.100 to "
+            "0.900); the gap may be chance");
 }
 
-TEST(BestNet, IsSaidToBeInterchangeableAndDearer) {
+TEST(Remarks, TellHowLittleFewSessionsSay) {
   ComponentRecord record = Base();
-  record.recommendation->first_tier = {"poly:eq8", "net:scg"};
-  EXPECT_EQ(OfBestNet(record),
-            "The best net, net:scg (3.000 um), is interchangeable with it and "
-            "dearer: 21 parameters for 11.");
-  record.recommendation->parameters = 40;
-  EXPECT_EQ(OfBestNet(record),
-            "The best net, net:scg (3.000 um), is interchangeable with it.");
-}
-
-TEST(Sentences, TellHowLittleFewSessionsSay) {
-  ComponentRecord record = Base();
+  record.verdict.clear();
   record.data.sessions = 2;
-  record.recommendation->holdout = record.holdouts.front().name;
-  record.holdouts.front().unit_of_analysis = "day";
-  RemarkRecord remark{.kind = RemarkKind::kFewSessions};
-  remark.holdouts = std::vector<std::string>{record.holdouts.front().name};
-  EXPECT_EQ(DoubtOf(record, remark), "2 days tell little of another.");
-  remark.holdouts = std::vector<std::string>{kFar};
-  EXPECT_EQ(DoubtOf(record, remark),
-            "2 days tell little of another, so the map was chosen by "
-            "cycles held out (groups:5).");
+  for (models::HoldoutRecord& holdout : record.holdouts) {
+    holdout.unit_of_analysis = "day";
+    holdout.units = 2;
+    holdout.whole_sessions = holdout.whole_groups;
+  }
+  EXPECT_EQ(TextOf(record, "how sure"), "2 days say little about another");
 }
 
-TEST(Sentences, SayHowToCompareWithoutWhatOnlyGrows) {
-  RemarkRecord remark{.kind = RemarkKind::kOnlyGrows};
-  remark.columns = std::vector<std::string>{"age_d", "wear"};
-  EXPECT_THAT(DoubtOf(Base(), remark),
-              EndsWith("age_d and wear hardly ever return to values they had: "
-                       "cycles to come lie beyond all that were held out. "
-                       "Compare without: --exclude age_d,wear."));
-  remark.columns = std::vector<std::string>{"age_d"};
-  EXPECT_THAT(DoubtOf(Base(), remark),
-              HasSubstr("age_d hardly ever returns to values it had: "));
+TEST(Remarks, SayHowToCompareWithoutWhatOnlyGrows) {
+  ComponentRecord record = Base();
+  EXPECT_EQ(TextOf(record, "only grows"), "");
+  record.recommendation->only_grow = std::vector<std::string>{"age_d", "wear"};
+  EXPECT_EQ(TextOf(record, "only grows"),
+            "age_d and wear: future cycles lie outside the data; compare with "
+            "--exclude age_d,wear");
 }
 
 TEST(Sentences, HaveNoZeroBelowZero) {
   const ErrorText error(data::UnitOfSymbol("mm"), 1e-3);
   EXPECT_EQ(error(-1e-9), "0.00");
   EXPECT_EQ(error(-1e-3), "-1.00");
-}
-
-TEST(Sentences, SayWhichMapHasLessErrorThanABlend) {
-  RemarkRecord remark{.kind = RemarkKind::kAveragesMaps};
-  remark.model = "zero";
-  ComponentRecord record = Base();
-  record.recommendation->decided_by = record.recommendation->holdout;
-  EXPECT_THAT(GroundOf(record, remark),
-              EndsWith("The best single map is zero (0.800 um)."));
-  record.recommendation->decided_by = "every:3";
-  EXPECT_THAT(GroundOf(record, remark),
-              EndsWith("Of single maps every:3 would choose zero (0.800 um)."));
 }
 
 models::VerdictRecord Hindered(models::Obstacle::Kind kind,
@@ -297,78 +265,103 @@ models::VerdictRecord Hindered(models::Obstacle::Kind kind,
   return verdict;
 }
 
-TEST(Sentences, TellHowManyCyclesWouldProveADifference) {
+TEST(Remarks, TellHowManyCyclesWouldProveADifference) {
   using Kind = models::Obstacle::Kind;
   ComponentRecord record = Base();
-  record.models[0].baseline = true;
   record.verdict = {Hindered(Kind::kTooManyPairs, 6, 11)};
-  EXPECT_EQ(DoubtOf(record, {.kind = RemarkKind::kTooManyMaps}),
-            "6 cycles cannot prove a difference between 2 maps: measure 11 or "
-            "more in all, or compare fewer.");
+  EXPECT_EQ(TextOf(record, "which is best"),
+            "6 cycles cannot prove which map is best; 11 cycles may");
+  EXPECT_THAT(MeasureNext(record), HasSubstr("11 cycles or more in all"));
   record.verdict = {Hindered(Kind::kTooFewSignPatterns, 6, 0)};
-  EXPECT_EQ(DoubtOf(record, {.kind = RemarkKind::kTooManyMaps}),
-            "6 cycles cannot prove a difference between 2 maps: compare "
-            "fewer.");
-  record.verdict = {Hindered(Kind::kTooFewUnits, 5, 6)};
-  EXPECT_EQ(DoubtOf(record, {.kind = RemarkKind::kTooFewUnits}),
-            "5 cycles alone cannot prove which map is better: measure 6 or "
-            "more in all.");
-  record.verdict = {Hindered(Kind::kPerhapsOneSession, 8, 12)};
-  EXPECT_EQ(DoubtOf(record, {.kind = RemarkKind::kTooFewUnits}),
-            "8 cycles that may be of one day cannot prove which map is better: "
-            "measure 12 or more in all, or on several days (a column day or "
-            "session).");
+  EXPECT_EQ(TextOf(record, "which is best"),
+            "6 cycles cannot prove which map is best");
 }
 
-TEST(Sentences, TellThatOneRunKnowsNothingOfAnotherDay) {
-  EXPECT_EQ(DoubtOf(Base(), {.kind = RemarkKind::kOneRunOnly}),
-            "One run only: nothing is known of another day.");
-}
-
-TEST(Sentences, TellWhatToMeasureWhereTheMapExtrapolates) {
+// Units are those held out, of which the data may have more.
+TEST(Remarks, AdviseAnotherHoldoutWhereTheDataHaveEnough) {
+  using Kind = models::Obstacle::Kind;
   ComponentRecord record = Base();
+  record.verdict = {Hindered(Kind::kTooFewUnits, 4, 6)};
+  for (models::HoldoutRecord& holdout : record.holdouts) holdout.units = 4;
+  record.data.groups = 8;
+  EXPECT_EQ(TextOf(record, "which is best"),
+            "4 held-out cycles cannot prove which map is best; all 8 cycles "
+            "held out, by --holdout groups:5, may");
+  EXPECT_THAT(MeasureNext(record), Not(HasSubstr("in all")));
+  record.verdict = {Hindered(Kind::kTooManyPairs, 4, 12)};
+  EXPECT_EQ(TextOf(record, "which is best"),
+            "4 held-out cycles cannot prove which map is best; 12 cycles "
+            "may");
+  EXPECT_THAT(MeasureNext(record),
+              HasSubstr("12 cycles or more in all, with --holdout groups:5"));
+}
+
+TEST(Remarks, TellThatOneRunKnowsNothingOfAnotherDay) {
+  EXPECT_THAT(TextOf(Base(), "another day"),
+              StartsWith("not measured: this is one run."));
+  EXPECT_THAT(MeasureNext(Base()), HasSubstr("other days"));
+}
+
+TEST(Remarks, TellWhatToMeasureWhereTheMapExtrapolates) {
+  ComponentRecord record = Base();
+  record.data.sessions = 0;
+  record.verdict.clear();
   record.recommendation->extrapolated_share = 0.4;
-  RemarkRecord remark{.kind = RemarkKind::kExtrapolates};
-  remark.columns = std::vector<std::string>{"t12_degC"};
-  remark.below = std::vector<double>{21.5};
-  remark.above = std::vector<double>{27.0};
-  EXPECT_EQ(DoubtOf(record, remark),
-            "In 40 % of the held-out rows an input lies outside what the fold "
-            "was trained on: the map extrapolates. Measure a colder start or "
-            "room (t12_degC below 21.5); a longer run or hotter room (t12_degC "
-            "above 27).");
-  remark.columns = std::vector<std::string>{"t12_degC", "speed_rpm", "t3_degC"};
-  remark.below = std::vector<double>{21.5, models::kNotKnown, 20.0};
-  remark.above = std::vector<double>{models::kNotKnown, 3000.0, 31.0};
-  record.recommendation->doubts = {remark};
+  record.recommendation->beyond =
+      std::vector<models::BeyondRecord>{{"t12_degC", 21.5, 27.0}};
+  EXPECT_THAT(TextOf(record, "extrapolated"),
+              StartsWith("40 % of the held-out rows lie outside"));
+  EXPECT_EQ(MeasureNext(record),
+            "a colder start or room (t12_degC below 21.5); a longer run or "
+            "hotter room (t12_degC above 27)");
+  record.recommendation->beyond = std::vector<models::BeyondRecord>{
+      {"t12_degC", 21.5, models::kNotKnown},
+      {"speed_rpm", models::kNotKnown, 3000.0},
+      {"t3_degC", 20.0, 31.0}};
   EXPECT_EQ(
       MeasureNext(record),
       "a colder start or room (t12_degC below 21.5); a faster spindle "
       "(speed_rpm above 3000); a longer run or hotter room (t3_degC above 31)");
 }
 
-TEST(Sentences, TellThatNeighboursProveLittle) {
-  RemarkRecord remark{.kind = RemarkKind::kUnitsCorrelated};
-  remark.lag1 = 0.75;
-  remark.pairs = 3;
-  remark.established = 0;
-  EXPECT_THAT(
-      DoubtOf(Base(), remark),
-      StartsWith("Neighbouring cycles resemble each other (lag-1 "
-                 "correlation 0.75 of the loss differences), so their "
-                 "number proves little. Nothing is called established"));
+TEST(Remarks, TellThatNeighboursProveLittle) {
+  ComponentRecord record = Base();
+  models::PairRecord& pair = record.comparisons.front();
+  pair.correlated = true;
+  pair.lag1 = 0.75;
+  pair.established = false;
+  models::VerdictRecord verdict;
+  verdict.holdout = pair.holdout;
+  verdict.model = pair.a;
+  verdict.rival = pair.b;
+  record.verdict = {verdict};
+  record.recommendation->holdout = pair.holdout;
+  for (models::PairRecord& other : record.comparisons) {
+    other.established = false;
+  }
+  EXPECT_EQ(TextOf(record, "memory"),
+            "cycles err alike (lag-1 correlation 0.75), so their number proves "
+            "little; no difference is established");
 }
 
-TEST(VerdictParagraphs, LeaveOutWhatTheNextStepsSay) {
+// Every remark has a label that fits its column, and ends as its text does.
+TEST(Remarks, FitTheirColumn) {
+  for (const Remark& remark : RemarksOf(ComponentNumbers(Base()))) {
+    EXPECT_THAT(remark.label, SizeIs(Le(15U)));
+    EXPECT_THAT(SentenceOf(remark), EndsWith("."));
+  }
+}
+
+TEST(VerdictParagraphs, LeaveOutWhatTheAnswerAndTheNextStepsSay) {
   ComponentRecord record = Base();
-  record.recommendation->grounds = {{.kind = RemarkKind::kGoal}};
-  record.recommendation->doubts = {{.kind = RemarkKind::kExtrapolates}};
+  record.recommendation->beyond.emplace();
   AddSentences(&record);
   const std::string text = VerdictParagraphs(record, 1000, true);
-  EXPECT_THAT(text, HasSubstr("The goal "));
-  EXPECT_THAT(text, Not(HasSubstr("the map extrapolates")));
+  EXPECT_THAT(text, HasSubstr("  cost             "));
+  EXPECT_THAT(text, Not(HasSubstr("without a map")));
+  EXPECT_THAT(text, Not(HasSubstr("extrapolated")));
   EXPECT_THAT(VerdictParagraphs(record, 1000, false),
-              HasSubstr("the map extrapolates"));
+              HasSubstr("  extrapolated     "));
 }
 
 models::StudyRecord Study(ComponentRecord component) {
@@ -382,21 +375,21 @@ TEST(PageUnits, AreTheSymbolsThatPeopleWriteAndOfNumbersOnly) {
   record.models[1].name = "2 um";
   record.verdict.clear();
   record.recommendation->model = "2 um";
-  record.recommendation->grounds = {{.kind = RemarkKind::kGoal}};
+  record.recommendation->best_baseline.reset();
   AddSentences(&record);
   const ComponentRecord page = WithPageUnits(Study(record)).components.front();
   EXPECT_THAT(page.recommendation->sentence,
               StartsWith("Use 2 um. Unseen cycles: 1.900 µm RMSE"));
-  EXPECT_THAT(page.recommendation->grounds.front().text,
-              HasSubstr("scatter 1.881 µm about"));
+  EXPECT_THAT(page.recommendation->reasons.front(),
+              HasSubstr("0.800 µm; 93 % removed"));
 }
 
 TEST(PageUnits, LeaveTheWordsOfAnIncompleteRecord) {
   ComponentRecord record = Base();
-  record.recommendation->grounds = {
-      {.kind = RemarkKind::kPromise, .text = "As it was told."}};
+  record.recommendation->reasons = {"As it was told."};
+  record.recommendation->single = "a map that is not there";
   const ComponentRecord page = WithPageUnits(Study(record)).components.front();
-  EXPECT_EQ(page.recommendation->grounds.front().text, "As it was told.");
+  EXPECT_THAT(page.recommendation->reasons, ElementsAre("As it was told."));
   EXPECT_THROW(AddSentences(&record), data::InputError);
 }
 

@@ -18,6 +18,7 @@ namespace errmap::data {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -96,9 +97,34 @@ Reading Read(const std::string& text, const DatasetSelection& selection = {}) {
   return MakeDataset(ParseCsv(text, "log.csv"), selection).reading;
 }
 
+std::vector<std::string> TimePositionTempError(const Log::Row& row);
+
+// With a column of words for the two ways, that upwards first.
+std::string WithWays(const Log& log,
+                     const std::string& upwards,
+                     const std::string& downwards) {
+  int i = 0;
+  return Text("direction,position_mm,t1_degC,error_um",
+              log.Rows(),
+              [&](const Log::Row& row) {
+                std::vector<std::string> cells = TimePositionTempError(row);
+                const bool up = i++ % (2 * log.positions) < log.positions;
+                cells[0] = up ? upwards : downwards;
+                return cells;
+              });
+}
+
 std::vector<std::string> TimePositionTempError(const Log::Row& row) {
   return {
       Fixed(row.time), Fixed(row.position), Fixed(row.warm), Fixed(row.error)};
+}
+
+// What reads a word back asks each number for its name.
+TEST(Evidence, HasNoNameBeyondTheLast) {
+  EXPECT_EQ(ToString(Evidence::kNameAndValues), "name+values");
+  for (int i = 5; i < 256; ++i) {
+    EXPECT_EQ(ToString(static_cast<Evidence>(i)), "");
+  }
 }
 
 TEST(Reading, PartsSessionsByNightsAndNotByPausesOfOneOrder) {
@@ -217,6 +243,29 @@ TEST(Reading, FindsTheTwoWaysThroughThePositions) {
   EXPECT_EQ(up.where.size(), 1U);
   EXPECT_THAT(DirectionsOf(reading, {.direction = "up"}), IsEmpty());
   EXPECT_EQ(DirectionsOf(reading, {}).size(), 2U);
+}
+
+TEST(Reading, KeepsTheWordsForTheWaysWhereTheRowsGoOtherWays) {
+  Log log;
+  log.both_ways = true;
+  const auto rows = [&](const std::string& of, const std::string& way) {
+    return MakeDataset(ParseCsv(of, "f.csv"), {.direction = way})
+        .dataset.rows();
+  };
+  const std::string words = WithWays(log, "down", "up");
+  const Reading reading = Read(words);
+  EXPECT_THAT(reading.direction.labels, ElementsAre("up", "down"));
+  EXPECT_FALSE(reading.direction.sure);
+  EXPECT_THAT(ReadingLines(reading),
+              Contains(HasSubstr("Unsure: the rows that direction calls up go "
+                                 "to lower position_mm")));
+  EXPECT_NE(rows(words, "up"), rows(words, "down"));
+  EXPECT_EQ(rows(words, "up").front(), 6);  // the first six go down by name
+  // Words that say nothing of the positions get it from the rows.
+  const Reading others = Read(WithWays(log, "rev", "fwd"));
+  EXPECT_THAT(others.direction.labels, ElementsAre("rev", "fwd"));
+  EXPECT_TRUE(others.direction.sure);
+  EXPECT_EQ(rows(WithWays(log, "rev", "fwd"), "fwd").front(), 6);
 }
 
 TEST(Reading, PutsShuffledRowsInTheOrderOfTheirClock) {

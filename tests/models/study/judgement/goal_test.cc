@@ -30,6 +30,15 @@ TEST(Goal, IsMetWhereTheRmseIsAtMostTheGoal) {
   EXPECT_EQ(standing(-4.98, 0.6), GoalStanding::kMissed);
 }
 
+// What re-zeroing left is not re-zeroed once more.
+TEST(Goal, IsMissedByAMapThatIsRezeroedAlready) {
+  const auto standing = [](double offset, double sd) {
+    return JudgeGoal(0.5, Metrics(offset, sd), true, true).standing;
+  };
+  EXPECT_EQ(standing(4.98, 0.2), GoalStanding::kMissed);
+  EXPECT_EQ(standing(0.3, 0.4), GoalStanding::kMet);
+}
+
 TEST(Goal, IsNotJudgedOnFewRows) {
   stats::ErrorMetrics metrics = Metrics(0.0, 0.1);
   metrics.residuals.n = kFewestRowsForGoal - 1;

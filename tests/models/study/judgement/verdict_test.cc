@@ -226,6 +226,21 @@ TEST(Verdict, HoldsTheGoalAgainstEveryModelOfACompleteStudy) {
   EXPECT_EQ(standing(1, 0), GoalStanding::kNotJudged);
 }
 
+TEST(Verdict, CallsNoGoalMetByRezeroingWhereMapsAreRezeroed) {
+  const data::Dataset dataset = GroupedLine(12, 6, 0.01);
+  const auto holdouts = MakeHoldouts(dataset, {"groups:4"});
+  StudyResult study = RunStudy(dataset, holdouts, MakeRecipes({"mean"}), {});
+  study.models[0].holdouts[0].test.residuals.sd = 1e-3;
+  const auto standing = [&](bool rezeroed) {
+    return JudgeStudy(
+               dataset, holdouts, study, {.goal = 2e-3, .rezeroed = rezeroed})
+        .goals[0][0]
+        .standing;
+  };
+  EXPECT_EQ(standing(false), GoalStanding::kMetAfterRezeroing);
+  EXPECT_EQ(standing(true), GoalStanding::kMissed);
+}
+
 TEST(Verdict, CallsAModelAgainstItsTwinNoBetter) {
   StudyResult study;
   const data::Dataset dataset = GroupedLine(12, 6, 0.01);
@@ -289,7 +304,6 @@ TEST(Verdict, CountsBlocksOfRowsWhereThereAreNoGroups) {
   const Judgement judgement =
       JudgeSpecs(dataset, {"every:3"}, {"mean", "poly:eq8"}, &study);
   const HoldoutComparison& comparison = judgement.comparisons[0];
-  EXPECT_FALSE(comparison.units.are_groups);
   EXPECT_EQ(comparison.units.name, "block of rows");
   EXPECT_EQ(comparison.tests.num_units, 8);  // 40 held-out rows, 5 in a block
   EXPECT_EQ(comparison.units.labels.front(), "rows 2-14");
@@ -326,7 +340,7 @@ TEST(Verdict, PrefersTheSimplestNearTheBestWhereNothingBoundsADifference) {
   StudyResult study;
   const Judgement judgement = JudgeSpecs(
       dataset, {"every:3"}, {"poly:full:degree=1", "poly:position"}, &study);
-  EXPECT_FALSE(judgement.comparisons[0].units.are_groups);
+  EXPECT_EQ(judgement.comparisons[0].units.name, kBlockOfRows);
   EXPECT_EQ(judgement.comparisons[0].tests.num_units, 1);
   EXPECT_EQ(judgement.recommendation->first_tier.size(), 2u);
   EXPECT_EQ(study.models[judgement.recommendation->model].name,
@@ -414,6 +428,30 @@ TEST(Verdict, RecommendsNoBlendThatABaselineBeats) {
   const auto& comparison = judgement.comparisons[0];
   ASSERT_GT(comparison.tests.rmse[1], comparison.tests.rmse[0]);
   EXPECT_EQ(study.models[judgement.recommendation->model].name, "mean");
+}
+
+// What the temperature tells here is less than what does not matter.
+std::string PreferredAsSmall(Eigen::Index groups) {
+  const data::Dataset dataset = GroupedLine(groups, 12, 5e-4);
+  const auto holdouts = MakeHoldouts(dataset, {"groups:4"});
+  const StudyResult study =
+      RunStudy(dataset,
+               holdouts,
+               MakeRecipes({"poly:full:degree=1", "poly:position"}),
+               {});
+  const Judgement judgement = JudgeStudy(dataset,
+                                         holdouts,
+                                         study,
+                                         {.indifference = 5e-4,
+                                          .choose = Choose::kBest,
+                                          .prefer = Prefer::kSmall});
+  return study.models[judgement.recommendation->model].name;
+}
+
+// Four units bound a difference, but establish nothing.
+TEST(Verdict, PrefersASmallerMapWhereItsLossIsProvenToBeSmall) {
+  EXPECT_EQ(PreferredAsSmall(24), "poly:position");
+  EXPECT_EQ(PreferredAsSmall(4), "poly:full:degree=1");
 }
 
 }  // namespace

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/json_blocks.h"
+#include "models/error_model.h"
+
+namespace CLI {
+class App;
+}
+
+namespace errmap::cli {
+
+/// Adds a command whose first argument is a model file, MODEL, as `model`.
+CLI::App* AddMapCommand(CLI::App* app,
+                        const char* name,
+                        const char* about,
+                        std::string* model);
+
+/// What the JSON of a map that is judged on measurements begins with: schema,
+/// model, file, target and unit.
+Json MapAnswerJson(const char* schema,
+                   const models::FittedModel& fitted,
+                   const std::vector<std::string>& files);
+
+}  // namespace errmap::cli

@@ -1,0 +1,62 @@
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/commands/data_arguments.h"
+#include "cli/commands/format_option.h"
+#include "cli/fleet/store/merge.h"
+#include "cli/shell/command_options.h"
+#include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
+#include "data/text.h"
+
+namespace errmap::cli {
+namespace {
+
+struct MergeArguments {
+  std::string store;
+  std::string format = "table";
+};
+
+int RunMerge(const MergeArguments& arguments) {
+  const fleet::FleetSummaries found =
+      fleet::MergeStore(fleet::StorePaths{arguments.store});
+  if (!found.damaged.empty()) {
+    Say(fmt::format(
+        "errmap.sqlite was damaged: it is written anew, without deployments "
+        "and what was watched, and the old one is {}; errmap deploy STORE "
+        "deploys maps again",
+        data::PrintablePath(found.damaged)));
+  }
+  if (!found.missing.empty()) Say(fleet::MissingWords(found));
+  PrintResult(fleet::FormattedFleet(
+      found.summaries, arguments.format, OutputTerminal().columns));
+  return found.missing.empty() ? kDone : kEveryFitFailed;
+}
+
+}  // namespace
+
+void AddMergeCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<MergeArguments>();
+  CLI::App* command = AddCommand(
+      app, "merge", "Put the shares of a fleet study together in one database");
+  AddOption(command,
+            "STORE DIR",
+            arguments->store,
+            "Folder that errmap compare --shard wrote into")
+      .Required();
+  AddTableFormatOption(command,
+                       "What to print; csv and md have a row per component",
+                       &arguments->format);
+  SetFooter(
+      command,
+      "Reads the components' summaries and writes errmap.sqlite and "
+      "report.html there, whole or\nnot at all; others may read the database "
+      "meanwhile.\nExit status: 0 done, 3 no store, or one of a newer errmap, "
+      "4 components are missing.\nExample: errmap merge fleet");
+  OnRun(command, [arguments, run] { run->status = RunMerge(*arguments); });
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,137 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "models/study/record/record.h"
+#include "models/study/record/study_record.h"
+
+// What a fleet keeps of one component's study: a file of at most 20 kB, schema
+// errmap-summary-1, which alone is read when results are put together. Lengths
+// are in the data file's own unit; NaN stands for what there is not.
+
+namespace errmap::fleet {
+
+using models::ByName;
+using models::Choice;
+using models::ComponentRecord;
+using models::Confidence;
+using models::DisplayRecord;
+using models::GoalStanding;
+using models::IntervalRecord;
+using models::kNotKnown;
+using models::LeftOut;
+using models::ModelKind;
+using models::ModelStatus;
+using models::PromiseLevelRecord;
+
+inline constexpr std::size_t kLongestSummary = 20000;
+
+struct SummaryHoldoutRecord {
+  std::string name;
+  std::int64_t folds = 0;
+  std::string unit_of_analysis;
+  std::int64_t units = 0;
+};
+
+/// A model under one hold-out.
+struct SummaryMetricsRecord {
+  std::string holdout;
+  std::int64_t n = 0;
+  double rmse = kNotKnown;
+  double sd = kNotKnown;
+  double mean = kNotKnown;
+  double mae = kNotKnown;
+  double range = kNotKnown;
+  double train_rmse = kNotKnown;
+  IntervalRecord ci95 = {kNotKnown, kNotKnown};
+  std::int64_t tier = 0;
+  GoalStanding goal = GoalStanding::kNotJudged;
+};
+
+struct SummaryModelRecord {
+  std::string name;
+  ModelKind kind = ModelKind::kPolynomial;
+  Choice choice = Choice::kGiven;
+  ModelStatus status = ModelStatus::kFailed;
+  LeftOut<std::string> why;
+  LeftOut<std::int64_t> parameters;
+  double fit_seconds = kNotKnown;  // of the fit to all rows
+  std::vector<SummaryMetricsRecord> results;
+};
+
+struct SummaryVerdictRecord {
+  std::string holdout;
+  Choice choice = Choice::kBaseline;
+  std::string model;
+  bool established = false;
+  Confidence confidence = Confidence::kNotShown;
+};
+
+struct SummaryRecommendationRecord {
+  Choice choice = Choice::kBaseline;
+  std::string model;
+  std::string holdout;
+  double rmse = kNotKnown;
+  IntervalRecord ci95 = {kNotKnown, kNotKnown};
+  double uncompensated = kNotKnown;  // RMSE there with no map
+  double constant = kNotKnown;       // with the best constant
+  GoalStanding goal = GoalStanding::kNotJudged;
+  bool established = false;  // that it is better than the best baseline
+  std::vector<std::string> sensors;
+  LeftOut<double> longest_memory;  // of a map that remembers; its time unit
+  LeftOut<bool> zeroed;            // likewise, at a session's start
+  std::vector<PromiseLevelRecord> promise;
+  double extrapolated_share = kNotKnown;
+  std::string sentence;
+};
+
+/// The recommended map as a file.
+struct SummaryMapRecord {
+  std::string sha256;
+  std::int64_t bytes = 0;
+};
+
+struct ComponentSummary {
+  std::string schema = "errmap-summary-1";
+  std::string version;
+  std::string name;
+  ByName<std::string> fields;  // of its path
+  /// Hashes of what was asked for, and of that with all files that were read:
+  /// where they are the same nothing has to be fitted again.
+  std::string asked;
+  std::string key;
+  ModelStatus status = ModelStatus::kFailed;
+  LeftOut<std::string> why;  // it failed
+  std::string file;
+  std::string sha256;
+  std::int64_t rows = 0;
+  std::int64_t sessions = 0;
+  std::string target;
+  std::string unit;
+  DisplayRecord display;
+  double goal = kNotKnown;
+  double fits_seconds = kNotKnown;  // of all fits together
+  std::vector<SummaryHoldoutRecord> holdouts;
+  std::vector<SummaryModelRecord> models;
+  std::int64_t models_left_out = 0;  // no room was left for them
+  std::vector<SummaryVerdictRecord> verdicts;
+  LeftOut<SummaryRecommendationRecord> recommendation;
+  LeftOut<SummaryMapRecord> map;
+};
+
+/// Of a component that was studied; names, hashes and map are left to the
+/// caller.
+ComponentSummary Summarise(const ComponentRecord& component);
+
+/// One line of JSON of at most kLongestSummary bytes: where there are too many
+/// models, those that are furthest from the recommendation are left out.
+std::string ToJsonText(ComponentSummary summary);
+
+/// What ToJsonText wrote. Throws data::InputError where it is no JSON or of
+/// another schema.
+ComponentSummary SummaryFromJsonText(std::string_view text);
+
+}  // namespace errmap::fleet

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "models/kinematics/plane_cells.h"
+#include "models/study/record/study_record.h"
+
+// What compensation by a machine's maps is worth: the part of results.json on
+// the error at the tool. Lengths are in the machine's unit; an error counts by
+// its length in the machine's sensitive directions.
+
+namespace errmap::machine {
+
+using models::kNotKnown;
+
+/// One figure of the stated 90 % intervals along each of X, Y and Z; NaN where
+/// there are none.
+using ByDirectionRecord = std::array<double, 3>;
+inline constexpr ByDirectionRecord kNoFigures = {
+    kNotKnown, kNotKnown, kNotKnown};
+
+/// The error at the tool on one day that no fit saw.
+struct MachineDayRecord {
+  std::string session;
+  std::int64_t points = 0;
+  double rms = kNotKnown;
+  double p95 = kNotKnown;
+  double max = kNotKnown;
+  ByDirectionRecord within_90 = kNoFigures;  // shares of errors
+};
+
+/// Figures of ISO 230-2:2014 of an axis on those days.
+struct PositioningRecord {
+  std::string component;
+  double systematic = kNotKnown;
+  double mean_bidirectional = kNotKnown;
+  double reversal = kNotKnown;
+  double repeatability = kNotKnown;
+  double accuracy = kNotKnown;
+};
+
+/// What a component leaves at the tool: root mean square of its readings less
+/// its map on those days, times that of its sensitivities.
+struct MachinePartRecord {
+  std::string error;  // "EXX"
+  double rms = kNotKnown;
+};
+
+struct MachineMapRecord {
+  std::string component;  // of the study: the map's data
+  std::string model;
+};
+
+/// The machine with one way of choosing its maps, or without any.
+struct MachineChoiceRecord {
+  std::string name;  // "uncompensated", "polynomial", "neural", "recommended"
+  std::optional<std::string> why;  // there are no figures
+  std::vector<MachineMapRecord> maps;
+  std::int64_t points = 0;  // of all days
+  double rms = kNotKnown;
+  double p95 = kNotKnown;
+  double max = kNotKnown;
+  /// Of the geometric mean of the days' p95: t of logarithms; NaN for one.
+  std::array<double, 2> p95_ci95 = {kNotKnown, kNotKnown};
+  ByDirectionRecord within_90 = kNoFigures;      // shares of errors
+  ByDirectionRecord half_width_90 = kNoFigures;  // mean over the points
+  /// Sessions that the half-widths are from, each held out in its turn; none:
+  /// they are from the components alone, taken as independent.
+  std::vector<std::string> held_out;
+  std::vector<MachineDayRecord> days;
+  std::vector<PositioningRecord> positioning;  // of pairs of displacement maps
+  /// ISO 230-6: the same figures along diagonals, named by their signs: "p0n".
+  std::vector<PositioningRecord> diagonals;
+  std::vector<MachinePartRecord> parts;  // the largest first
+  std::vector<models::PlaneCell> cells;  // only those that have points
+};
+
+/// The working plane in which cells lie: where the tool is less where the
+/// work's origin is, in the machine's unit.
+struct PlaneRecord {
+  std::string across;  // "Z"
+  std::string up;      // "X"
+  double cell_width = kNotKnown;
+  double cell_height = kNotKnown;
+};
+
+struct MachineRecord {
+  std::string name;
+  std::string file;
+  std::string unit;
+  std::string sensitive;             // "XZ"
+  std::string points;                // file of poses with their true errors
+  std::vector<std::string> later;    // sessions that no fit saw
+  std::optional<PlaneRecord> plane;  // nothing: one direction is sensitive
+  std::vector<MachineChoiceRecord> choices;  // uncompensated first
+};
+
+inline constexpr const char* kMachineKey = "machine";
+
+/// Puts it into the study's record, as its key "machine".
+void AddMachine(const MachineRecord& machine, models::StudyRecord* record);
+
+}  // namespace errmap::machine

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cli/netcg/netcg_run.h"
+#include "cli/netcg/run_report.h"
+#include "cli/netcg/weights_file.h"
+#include "data/formats/pattern_file.h"
+
+namespace errmap::netcg {
+
+struct NetcgOptions {
+  NetcgPrecision precision = NetcgPrecision::kSingle;  // the program's
+  NetcgStatistics statistics = NetcgStatistics::kAsPrinted;
+  WeightDigits weight_digits = WeightDigits::kReport;
+  /// Pattern file of the training run, for the scaling of testing runs whose
+  /// weights come from elsewhere; "": none.
+  std::string training_file = {};
+  /// Folder that is written to in place of the run file's; "": none.
+  std::string out = {};
+};
+
+struct NetcgOutputFile {
+  std::string path;
+  std::string content;
+};
+
+/// A run that is done.
+struct NetcgRecord {
+  NetcgSpecification specification;
+  NetcgResult result;
+  std::vector<NetcgOutputFile> files;  // to be written
+};
+
+/// Told of each run before it begins: its number from 0, and how many.
+using NetcgProgress = std::function<void(
+    const NetcgSpecification& run, std::size_t number, std::size_t count)>;
+
+/// Runs a run file. Names of files are relative to its folder, those of outputs
+/// to options.out where that is given (absolute ones and ones with ".." keep
+/// their last part there). All input is read and checked before the first run;
+/// a run may read weights that an earlier one writes. Writes nothing.
+/// Throws InputError naming file and line.
+std::vector<NetcgRecord> RunNetcgFile(const std::string& path,
+                                      const NetcgOptions& options,
+                                      const NetcgProgress& progress = {});
+
+/// The patterns that a run works on: of `table` its first rows and the columns
+/// that are chosen.
+NetcgData DataOf(const NetcgSpecification& run,
+                 const data::PatternTable& table);
+
+/// The files of a run, from its result.
+std::vector<NetcgOutputFile> NetcgOutputs(const NetcgSpecification& run,
+                                          const NetcgResult& result,
+                                          const NetcgOptions& options,
+                                          const std::string& folder);
+
+/// What was done, for people: how each run ended, its statistics as printed
+/// and right, and the files.
+std::string NetcgText(const std::vector<NetcgRecord>& records,
+                      const NetcgOptions& options);
+
+}  // namespace errmap::netcg

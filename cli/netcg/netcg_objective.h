@@ -1,0 +1,76 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "fitting/minimisers/objective.h"
+
+namespace errmap::netcg {
+
+/// E(w) and its gradient as subroutines FORWARD and FUNC of NISTIR 5367,
+/// Appendix A, work them out: every sum one by one in the program's order, in
+/// its precision, the logistic function cut to 0 below -40. So the last digits
+/// are the program's own.
+///
+/// Weights w (N): w1 (H x (I+1)) column by column, then w2 (J x (H+1))
+/// likewise; the last column of each is the bias.
+template <typename Scalar>
+class NetcgObjective final : public fitting::BasicObjective<Scalar> {
+ public:
+  using Vector = fitting::VectorOf<Scalar>;
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+  /// `inputs` (P x I) and `targets` (P x J), scaled to 0.01 .. 0.99. Throws
+  /// std::invalid_argument unless there are patterns, as many of both, and
+  /// hidden nodes.
+  NetcgObjective(const Matrix& inputs,
+                 const Matrix& targets,
+                 Eigen::Index hidden,
+                 double wfactor);
+
+  Eigen::Index num_parameters() const override {
+    return hidden_ * patterns_.rows() + targets_.rows() * (hidden_ + 1);
+  }
+  Scalar Evaluate(const Vector& w, Vector* gradient) const override;
+
+  /// The outputs at w (P x J).
+  Matrix Outputs(const Vector& w) const;
+
+ private:
+  using Layer = Eigen::Map<const Matrix>;
+  Layer FirstLayer(const Vector& w) const {
+    return {w.data(), hidden_, patterns_.rows()};
+  }
+  Layer SecondLayer(const Vector& w) const {
+    return {
+        w.data() + hidden_ * patterns_.rows(), targets_.rows(), hidden_ + 1};
+  }
+  // Patterns that are worked on together; each sum keeps its order.
+  static constexpr Eigen::Index kBlock = 4;
+
+  // Hidden outputs and outputs of pattern p, in column k of vhid_ and vout_.
+  void Forward(Eigen::Index p,
+               Eigen::Index k,
+               const Layer& w1,
+               const Layer& w2) const;
+  // Its deltas.
+  void Backward(Eigen::Index p, Eigen::Index k, const Layer& w2) const;
+  // Adds what a block gives to the negative gradients.
+  void AddBlock(Eigen::Index begin, Eigen::Index count) const;
+
+  Eigen::Index hidden_;
+  Scalar wfactor_;
+  Matrix patterns_;  // ((I+1) x P), last row 1
+  Matrix targets_;   // (J x P)
+  // Scratch of a block, named as in the program.
+  mutable Matrix vhid_;    // ((H+1) x kBlock)
+  mutable Matrix vout_;    // (J x kBlock)
+  mutable Matrix delta1_;  // (H x kBlock)
+  mutable Matrix delta2_;  // (J x kBlock)
+  mutable Matrix gm1_;
+  mutable Matrix gm2_;
+};
+
+extern template class NetcgObjective<double>;
+extern template class NetcgObjective<float>;
+
+}  // namespace errmap::netcg

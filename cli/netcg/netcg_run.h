@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "cli/netcg/run_file.h"
+#include "fitting/minimisers/optimizer.h"
+#include "models/scaling.h"
+
+namespace errmap::netcg {
+
+enum class NetcgPrecision { kSingle, kDouble };
+/// "single", "double".
+std::string_view ToString(NetcgPrecision precision);
+
+/// What a run works on: the chosen columns of its patterns.
+struct NetcgData {
+  Eigen::MatrixXd inputs;   // (P x I)
+  Eigen::MatrixXd targets;  // (P x J) as in the file
+  double scale = 1.0;       // the file's scale factor
+  /// Of a testing run: how the training run scaled its targets, if known.
+  std::optional<models::TargetScaling> training_scaling;
+  /// (N) read from a file; (0) where the seed draws them.
+  Eigen::VectorXd initial_weights;
+};
+
+/// Errors after a run: error = desired - predicted.
+struct NetcgFigures {
+  Eigen::MatrixXd desired;    // (P x J)
+  Eigen::MatrixXd predicted;  // (P x J)
+  Eigen::MatrixXd errors;     // (P x J)
+  double mean = 0.0;
+  double sd = 0.0;
+  double min = 0.0;
+  double max = 0.0;
+  double r2 = 0.0;
+  double ks_d = 0.0;  // of the first output
+  double ks_p = 0.0;
+};
+
+/// How the targets of the corrected figures were scaled.
+enum class NetcgScaling {
+  kTraining,  // as those of the training run, as they should be
+  kTestFile,  // by the test file's own range, since no other is known
+};
+
+struct NetcgResult {
+  Eigen::VectorXd weights;        // (N)
+  models::TargetScaling scaling;  // of the run's own targets
+  /// As the program works them out, errata included (stats/report_1995.h); in
+  /// a testing run desired and predicted are scaled by the test file's range.
+  NetcgFigures printed;
+  /// Divisors P J and P J - 1, R-SQ = 1 - SSE/SST, the scale factor applied,
+  /// the training run's scaling where it is known, ks_d with the first output's
+  /// own mean and sd and ks_p by Lilliefors (NaN below 4 patterns).
+  NetcgFigures corrected;
+  NetcgScaling corrected_scaling = NetcgScaling::kTraining;
+
+  // As the program ends.
+  int ierr = 0;  // 0 error goal, 1 iterations, 2 gradient, 3 slow or stuck
+  std::int64_t iterations = 0;
+  std::int64_t function_calls = 0;
+  double error = 0.0;           // E, regularised
+  double gradient_ratio = 0.0;  // |g| / |w|
+  double weight_change = 0.0;   // rms
+  /// Line k is sqrt(2 E) before iteration k, as its graphics file has it.
+  std::vector<double> error_curve;
+  fitting::FitSummary summary;
+};
+
+/// Runs a specification on its data in this precision: weights, scaling,
+/// training (or none), results, in the program's order of operations. Unlike
+/// the program it does not begin where the start already meets a goal.
+/// Throws std::invalid_argument where sizes do not agree, the targets do not
+/// vary, or the error is not finite at the start.
+NetcgResult RunNetcg(const NetcgSpecification& specification,
+                     const NetcgData& data,
+                     NetcgPrecision precision);
+
+}  // namespace errmap::netcg

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/netcg/netcg_files.h"
+
+namespace errmap::netcg {
+
+/// A training run of NISTIR 5367 as its Tables 3 and 4 have it; errors in mm.
+struct ReportRun {
+  int number = 0;
+  bool down = true;  // the direction of motion, else up
+  Eigen::Index hidden = 0;
+  std::string_view selection;  // of thermocouples
+  Eigen::Index patterns = 0;
+  int thermocouples = 0;  // as printed
+  int input_nodes = 0;    // as printed
+  Eigen::Index weights = 0;
+  double mean = 0.0;
+  double sd = 0.0;
+  double min = 0.0;
+  double max = 0.0;
+  double iteration_seconds = 0.0;  // on the CONVEX C3820
+  double iteration_seconds_sd = 0.0;
+  double elapsed_seconds = 0.0;
+
+  /// What the number of weights implies: W = (I+1)H + H+1.
+  int implied_thermocouples() const {
+    return static_cast<int>((weights - hidden - 1) / hidden) - 2;
+  }
+};
+
+struct NetcgStudyOptions {
+  NetcgOptions netcg;
+  std::int64_t iterations = 1500;
+  int jobs = 0;  // runs at a time; 0 = one per processor
+};
+
+struct NetcgStudyRun {
+  ReportRun report;
+  std::vector<int> thermocouples;
+  int starts = 0;      // seeds tried
+  NetcgRecord record;  // without its files
+};
+
+struct NetcgStudy {
+  std::string folder;
+  NetcgStudyOptions options;
+  std::vector<NetcgStudyRun> runs;
+  double seconds = 0.0;            // of all runs together
+  std::vector<std::string> notes;  // where it differs from the report
+  /// For options.netcg.out, where that is given: the files of all runs, and run
+  /// file and pattern files that make them again.
+  std::vector<NetcgOutputFile> files;
+};
+
+/// The report's nine experiments on a folder of `errmap simulate
+/// turning-centre`: its x_displacement_down.csv and x_displacement_up.csv, of
+/// them day 1 (where there is a column `day`); training rows i % 3 != 2 down
+/// and i % 2 == 0 up, as the report's counts 397 and 298 of 595 imply.
+/// Thermocouples are those of sections 9.1 to 9.8 less what is dead in the
+/// files; all else is that of Appendix B. Results do not depend on
+/// options.jobs. Throws InputError naming file and column.
+NetcgStudy RunReportStudy(const std::string& folder,
+                          const NetcgStudyOptions& options);
+
+/// Table 4 for people: ours beside the report's, in um and seconds.
+std::string StudyText(const NetcgStudy& study);
+
+}  // namespace errmap::netcg

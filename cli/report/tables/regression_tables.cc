@@ -1,0 +1,270 @@
+#include "cli/report/tables/regression_tables.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace errmap::report {
+namespace {
+
+using models::RegressionRecord;
+
+// A penalised fit has none of it.
+models::LeastSquaresRecord LeastSquaresOf(const RegressionRecord& regression) {
+  return regression.least_squares.value.value_or(models::LeastSquaresRecord());
+}
+
+std::string FigureText(const Cell& figure) {
+  return Table{.nothing = "n/a"}.Shown(figure);
+}
+
+// "x less its centre: ..." where the table's terms are of centred inputs.
+std::string CentresText(const models::ByName<double>& centres) {
+  if (centres.empty()) return "";
+  std::string text = " Here an input stands for its value less its centre:";
+  for (const auto& [name, centre] : centres) {
+    text += fmt::format("{} {} {} {:.9g}",
+                        text.ends_with(':') ? "" : ",",
+                        name,
+                        centre < 0.0 ? "+" : "-",
+                        std::abs(centre));
+  }
+  return text + ".";
+}
+
+// No map was made without the row that one coefficient follows.
+std::string PredictedR2Text(const models::LeastSquaresRecord& fit) {
+  const std::int64_t rows = fit.rows_of_leverage_1;
+  return rows > 0
+             ? fmt::format(
+                   "Predicted R2 n/a ({} of leverage 1, {} a coefficient "
+                   "to itself)",
+                   Count(rows, "row"),
+                   rows == 1 ? "which has" : "each with")
+             : fmt::format("Predicted R2 {} (PRESS {}; terms taken as given)",
+                           FigureText(Fixed{fit.predicted_r2, 6}),
+                           FigureText(Number{fit.press, 7}));
+}
+
+std::string PenaltyText(const models::PenaltyRecord& fit) {
+  const models::PenaltyChoiceRecord& chosen = fit.cross_validation;
+  std::string text =
+      fmt::format("{:.1f} effective parameters.", fit.effective_parameters);
+  if (chosen.penalty.empty() || chosen.mse.empty()) return text;
+  return text + fmt::format(
+                    " Cross-validation over {}: least RMSE {} among {} "
+                    "penalties from {} down to {}.",
+                    chosen.holdout,
+                    FigureText(Number{
+                        std::sqrt(*std::ranges::min_element(chosen.mse)), 5}),
+                    chosen.penalty.size(),
+                    FigureText(Number{chosen.penalty.front(), 3}),
+                    FigureText(Number{chosen.penalty.back(), 3}));
+}
+
+}  // namespace
+
+Table StepTable(const RegressionRecord& regression) {
+  Table table{.title = "Steps (+ entered, - left, * chosen)"};
+  table.columns = {{"step", false},
+                   {"terms"},
+                   {"F"},
+                   {"p"},
+                   {"RSS"},
+                   {"AIC"},
+                   {"AICc"},
+                   {"BIC"},
+                   {"adj R2"},
+                   {"PRESS"},
+                   {"Cp"},
+                   {"CV"}};
+  for (const models::StepRecord& step : regression.steps) {
+    const bool chosen = std::ssize(table.rows) == regression.chosen_step;
+    table.rows.push_back(
+        {(chosen ? "* " : "  ") +
+             (step.term ? (step.entered ? "+ " : "- ") + *step.term
+                        : std::string("(start)")),
+         step.terms,
+         Number{step.f, 4},
+         P{step.p},
+         Number{step.rss, 5},
+         Fixed{step.aic, 3},
+         Fixed{step.aicc, 3},
+         Fixed{step.bic, 3},
+         Fixed{step.adjusted_r2, 6},
+         Number{step.press, 5},
+         Number{step.cp, 5},
+         Number{step.cv, 5}});
+  }
+  table.note = fmt::format(
+      "Ended: {}. AIC = n ln(RSS/n) + 2k with k coefficients, as R's step() "
+      "has "
+      "it; BIC with k ln n; F and p are of the term that came or went.",
+      regression.ended);
+  return table;
+}
+
+Table CoefficientTable(const RegressionRecord& regression) {
+  const models::LeastSquaresRecord fit = LeastSquaresOf(regression);
+  Table table{.title = regression.centres.empty()
+                           ? "Coefficients"
+                           : "Coefficients, of centred inputs"};
+  table.note = "In the target's own unit.";
+  if (fit.after_selection) {
+    table.note +=
+        " The terms were chosen with these same rows: p-values, intervals and "
+        "R2 are optimistic.";
+  }
+  if (regression.penalised.value) {
+    table.note +=
+        " Shrunken estimates have no honest standard errors or p-values, so "
+        "none are shown.";
+  }
+  if (fit.bootstrap.repetitions > 0) {
+    table.note += fmt::format(
+        " 'chosen in' is the share of {} bootstrap repetitions (each {} drawn "
+        "with replacement) that chose the term.",
+        fit.bootstrap.repetitions,
+        fit.bootstrap.unit);
+  }
+  table.note += CentresText(regression.centres);
+  table.columns = {{"term", false},
+                   {"estimate"},
+                   {"std. error"},
+                   {"t"},
+                   {"p"},
+                   {"95 % from"},
+                   {"95 % to"},
+                   {"standardised"},
+                   {"VIF"},
+                   {"chosen in, %", true, "share of bootstrap repetitions"}};
+  for (const models::CoefficientRecord& term : regression.coefficients) {
+    const models::TermRecord more =
+        term.of_term.value.value_or(models::TermRecord());
+    table.rows.push_back({term.term,
+                          Number{term.estimate, 9},
+                          Number{term.standard_error, 5},
+                          Number{term.t},
+                          P{term.p},
+                          Number{term.ci95[0], 5},
+                          Number{term.ci95[1], 5},
+                          Number{more.standardised},
+                          Number{more.vif},
+                          Number{kPercent * more.bootstrap_inclusion, 3}});
+  }
+  if (table.rows.empty()) {
+    table.missing = "The coefficients' statistics were not kept.";
+  }
+  return table;
+}
+
+Table AnovaTable(const RegressionRecord& regression) {
+  Table table{.title = "Analysis of variance"};
+  table.columns = {{"source", false},
+                   {"df"},
+                   {"sum of squares"},
+                   {"mean square"},
+                   {"F"},
+                   {"p"}};
+  if (!regression.least_squares.value) return table;
+  const models::AnovaRecord& anova = regression.least_squares.value->anova;
+  const auto df = static_cast<double>(anova.regression_df);
+  const auto row = [&](const char* source, double of_df, double sum) {
+    table.rows.push_back(
+        {source,
+         Number{of_df, 12},
+         Number{sum, 7},
+         Number{of_df > 0.0 ? sum / of_df : models::kNotKnown, 7}});
+  };
+  row("regression", df, anova.regression_ss);
+  table.rows.back().insert(table.rows.back().end(),
+                           {Number{anova.f, 6}, P{anova.p}});
+  row("residual", anova.residual_df, anova.residual_ss);
+  row("total", df + anova.residual_df, anova.total_ss);
+  table.rows.back().pop_back();  // no mean square
+  return table;
+}
+
+Table ExcludedTerms(const RegressionRecord& regression) {
+  const auto terms = LeastSquaresOf(regression).excluded;
+  Table table{.title = fmt::format("Terms left out ({})", terms.size())};
+  table.columns = {
+      {"term", false}, {"F if it entered"}, {"p"}, {"chosen in, %"}};
+  constexpr std::size_t kMost = 40;
+  for (std::size_t i = 0; i < std::min(terms.size(), kMost); ++i) {
+    table.rows.push_back({terms[i].term,
+                          Number{terms[i].f},
+                          P{terms[i].p},
+                          Number{kPercent * terms[i].bootstrap_inclusion, 3}});
+  }
+  if (terms.size() > kMost) {
+    table.note = fmt::format(
+        "The first {} of {}; all are in results.json.", kMost, terms.size());
+  }
+  if (table.rows.empty()) table.missing = "No term was left out.";
+  return table;
+}
+
+Table AliasedTerms(const RegressionRecord& regression) {
+  const auto terms = LeastSquaresOf(regression).aliased;
+  Table table{.title = fmt::format("Aliased terms ({})", terms.size())};
+  table.note = "The terms in the model determine them.";
+  table.columns = {{"term", false}, {"why", false}};
+  for (const auto& term : terms) {
+    table.rows.push_back({term.term, term.why});
+  }
+  if (table.rows.empty()) table.missing = "No term is aliased.";
+  return table;
+}
+
+std::string RegressionSummary(const RegressionRecord& regression,
+                              const ErrorText& error) {
+  if (regression.penalised.value)
+    return PenaltyText(*regression.penalised.value);
+  const models::LeastSquaresRecord fit = LeastSquaresOf(regression);
+  if (!std::isfinite(fit.s)) return "";
+  return fmt::format(
+      "s {} on {} degrees of freedom, R2 {}, adjusted R2 {}. {}. Largest "
+      "residual {} (row {}), largest leverage {}. Condition number {} (columns "
+      "of unit length), effective rank {} of {}.",
+      error.WithUnit(fit.s),
+      FigureText(Number{fit.anova.residual_df, 12}),
+      FigureText(Fixed{fit.r2, 6}),
+      FigureText(Fixed{fit.adjusted_r2, 6}),
+      PredictedR2Text(fit),
+      error.WithUnit(fit.largest_residual),
+      fit.largest_residual_row,
+      FigureText(Number{fit.largest_leverage, 4}),
+      FigureText(Number{fit.condition, 4}),
+      fit.effective_rank,
+      regression.coefficients.size());
+}
+
+std::vector<PolynomialTables> PolynomialTablesOf(const ReportView& view) {
+  std::vector<PolynomialTables> all;
+  for (const ModelRecord* model : view.models) {
+    if (!model->equation && !model->regression) continue;
+    if (model->kind == models::ModelKind::kBaseline) continue;
+    const RegressionRecord regression =
+        model->regression.value_or(RegressionRecord());
+    PolynomialTables tables{
+        .model = model->name,
+        .equation = model->equation.value_or(""),
+        .method = regression.method,
+        .summary = RegressionSummary(regression, ErrorTextOf(view)),
+        .coefficients = CoefficientTable(regression),
+        .excluded = ExcludedTerms(regression),
+        .aliased = AliasedTerms(regression)};
+    if (!model->regression) {
+      tables.excluded.missing = "Which terms were left out was not kept.";
+      tables.aliased.missing = "Which terms are aliased was not kept.";
+    }
+    const auto place =
+        model->name == view.recommended ? all.begin() : all.end();
+    all.insert(place, std::move(tables));
+  }
+  return all;
+}
+
+}  // namespace errmap::report

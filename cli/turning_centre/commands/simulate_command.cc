@@ -1,0 +1,153 @@
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/commands/data_arguments.h"
+#include "cli/output/claimed_folder.h"
+#include "cli/report/number_text.h"
+#include "cli/shell/command_options.h"
+#include "cli/slice.h"
+#include "cli/turning_centre/simulation.h"
+#include "cli/turning_centre/simulation_files.h"
+
+namespace errmap::cli {
+namespace {
+
+using turning_centre::FileOptions;
+using turning_centre::Simulate;
+using turning_centre::Simulation;
+using turning_centre::SimulationOptions;
+
+struct SimulateArguments {
+  std::string machine;
+  std::string folder;
+  SimulationOptions simulation;
+  FileOptions files;
+  bool force = false;
+  bool quiet = false;
+};
+
+int RunSimulate(const SimulateArguments& arguments) {
+  const SimulationOptions& options = arguments.simulation;
+  try {
+    options.Validate();
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+  const std::vector<std::string> names = turning_centre::SimulationFileNames();
+  // Before the work, not after it.
+  ClaimedFolder folder(arguments.folder, names, {}, arguments.force);
+  const Simulation simulation = Simulate(options);
+  for (const std::string& name : names) {
+    folder.Write(
+        name,
+        turning_centre::SimulationFile(simulation, arguments.files, name));
+  }
+  folder.Finish();
+  if (!arguments.quiet) {
+    Say(fmt::format("{} of {}, {} in {}; README.md there says what they are",
+                    report::Count(options.days, "day"),
+                    report::Count(options.cycles, "cycle"),
+                    report::Count(static_cast<long long>(names.size()), "file"),
+                    arguments.folder));
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void AddSimulateCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<SimulateArguments>();
+  SimulationOptions& options = arguments->simulation;
+  CLI::App* command = AddCommand(
+      app, "simulate", "Make measurements of a machine whose truth is known");
+  AddOption(command,
+            "MACHINE",
+            arguments->machine,
+            "turning-centre: two slides, a spindle, 40 thermocouples")
+      .Required()
+      .OneOf({"turning-centre"})
+      .Value("NAME");
+  AddOption(command, "-o,--output DIR", arguments->folder, "Folder to write")
+      .Required();
+  AddSeedOption(command, &options.seed, "Seed of all that is drawn");
+  const auto add = [&](const char* flag, auto& value, const char* what) {
+    AddOption(command, flag, value, what).ShowDefault();
+  };
+  add("--days",
+      options.days,
+      "Days; the first is calibrated to the report of 1995, the "
+      "others are drawn");
+  add("--cycles", options.cycles, "Warm-up cycles per day");
+  add("--duty", options.workload.duty, "Factor on every feed duty");
+  add("--speed", options.workload.speed, "Factor on every spindle speed");
+  add("--warm",
+      options.warm_hours,
+      "Hours of work, unmeasured, and a break before the first "
+      "cycle of each day from the second on");
+  add("--air",
+      options.air_factor,
+      "Factor on every heat conductance to the air");
+  add("--noise",
+      options.noise_um,
+      "Standard deviation of a reading of length, um");
+  add("--angle-noise",
+      options.noise_urad,
+      "Standard deviation of a reading of an angle, urad");
+  add("--sensor-noise",
+      options.sensor_noise,
+      "Standard deviation of a thermocouple's reading, degC");
+  const auto add_fault =
+      [&](const char* flag, std::vector<int>* list, const char* what) {
+        AddOption(command, flag, *list, what).SeparatedBy(',').Value("N,N,...");
+      };
+  add_fault("--dead", &options.dead, "Thermocouples (0 to 39) that read 0");
+  add_fault("--stuck", &options.stuck, "... that stop on the first day");
+  add_fault("--drifting", &options.drifting, "... that gain 0.04 degC an hour");
+  add_fault("--noisy", &options.noisy, "... with 25 times the noise");
+  add("--from-day",
+      options.from_day,
+      "Day on which these faults and --shift-um begin");
+  add("--shift-um",
+      options.shift_um,
+      "From then on the displacements of both slides are larger "
+      "by so much: the machine changed");
+  add("--points",
+      options.points_per_day,
+      "Random poses per day in tool_tip.csv");
+  AddFlag(command,
+          "--truth",
+          arguments->files.truth,
+          "Add the error without reading noise: truth_mm, truth_urad");
+  AddForceFlag(command, &arguments->force);
+  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  MarkSeldom(command,
+             {"--duty",
+              "--speed",
+              "--warm",
+              "--air",
+              "--angle-noise",
+              "--sensor-noise",
+              "--points"});
+  SetFooter(
+      command,
+      "Example: errmap simulate turning-centre -o simulated --days 3 --dead "
+      "3,4,16,19\nThe same options give the same files, byte for byte.");
+  OnRun(command, [arguments, run] { run->status = RunSimulate(*arguments); });
+}
+
+}  // namespace errmap::cli
+
+namespace errmap::turning_centre {
+
+cli::Slice AsSlice() {
+  return {
+      .commands = {
+          {cli::AddSimulateCommand, "Laboratory", cli::AddResidualsCommand}}};
+}
+
+}  // namespace errmap::turning_centre

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+
+#include "cli/turning_centre/thermal_network.h"
+
+namespace errmap::turning_centre {
+
+/// The bodies of the turning centre. Left is the spindle's end of the bed,
+/// right the end where the Z slide has its home; front of the spindle head is
+/// the spindle nose, rear the pulley. The X column stands on the Z slide; its
+/// right face carries the vertical X ways and the X screw, on its left is the
+/// turret, which the X slide carries past it.
+enum Body : std::size_t {
+  kBedLeftBottom,
+  kBedLeftTop,
+  kBedRightBottom,
+  kBedRightTop,
+  kZWayLeft,
+  kZWayRight,
+  kHeadFrontLower,
+  kHeadFrontUpper,
+  kHeadRearLower,
+  kHeadRearUpper,
+  kBearingFront,  // spindle bearing with its seat
+  kBearingRear,
+  kSpindle,
+  kSpindleMotor,
+  kZSlideLeft,
+  kZSlideRight,
+  kXColumnBottom,
+  kXColumnTop,
+  kXColumnLeft,  // its wall away from the ways and the drive
+  kXWayBottom,
+  kXWayTop,
+  kXSlide,
+  kXScrewTop,  // the X ball screw, in segments from its thrust bearing down
+  kXScrewMiddle,
+  kXScrewBottom,
+  kXNut,
+  kXBearing,  // thrust bearing of the X screw, beside the motor
+  kXMotor,
+  kZScrewLeft,
+  kZScrewMiddle,
+  kZScrewRight,
+  kZNut,
+  kZBearingLeft,
+  kZBearingRight,  // thrust bearing of the Z screw, beside the motor
+  kZMotor,
+  kHydraulicTank,
+  kCoolantTank,
+  kNumBodies,
+};
+
+/// What the machine does during a phase.
+struct DriveState {
+  bool is_on = false;        // pumps and drives powered
+  double spindle_rpm = 0.0;  // >= 0
+  double x_duty = 0.0;       // share of the time in rapid traverse, 0 to 1
+  double z_duty = 0.0;
+  bool coolant = false;
+  double cutting_load = 0.0;  // share of the spindle motor's power, 0 to 1
+};
+
+/// Heat capacities and conductances of the turning centre; README.md says
+/// where each comes from. `air_factor` multiplies every conductance to the
+/// air (1: the machine as described; a draughty shop has more).
+/// Throws std::invalid_argument unless air_factor is positive and finite.
+ThermalNetwork MakeTurningCentreNetwork(double air_factor);
+
+/// Heat in W into each body, forced air and coolant of a phase.
+ThermalLoad LoadOf(const DriveState& state);
+
+}  // namespace errmap::turning_centre

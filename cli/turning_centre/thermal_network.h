@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace errmap::turning_centre {
+
+/// One lump of a thermal network, of one temperature.
+struct ThermalBody {
+  std::string name;
+  double heat_capacity = 0.0;    // J/K, > 0
+  double air_conductance = 0.0;  // W/K to the air around it, >= 0
+  /// Added to air_conductance at forced_air = 1 (W/K, >= 0).
+  double forced_air_conductance = 0.0;
+};
+
+/// Heat path between two bodies.
+struct ThermalLink {
+  std::size_t a = 0;  // indices of bodies
+  std::size_t b = 0;
+  double conductance = 0.0;   // W/K, >= 0
+  bool only_coolant = false;  // open only where and as far as coolant flows
+};
+
+/// What acts on the network; constant over a step apart from the air.
+struct ThermalLoad {
+  std::vector<double> heat;  // (bodies) W
+  double forced_air = 0.0;   // >= 0
+  double coolant = 0.0;      // 0 (off) to 1 (full flow)
+};
+
+/// Air temperature over one step, which the classical Runge-Kutta formula
+/// looks at in three places.
+struct AirOfStep {
+  double start = 0.0;
+  double middle = 0.0;
+  double end = 0.0;
+};
+
+/// Bodies joined by conductances, and to the air:
+///
+///   C_i dT_i/dt = q_i + G_i (T_air - T_i) + sum_j G_ij (T_j - T_i)
+///
+/// Plain loops in a fixed order: the same bits on every machine.
+class ThermalNetwork {
+ public:
+  /// Throws std::invalid_argument naming the body or link: no body, a heat
+  /// capacity that is not positive, a conductance that is negative or not
+  /// finite, a link to nowhere or to itself.
+  ThermalNetwork(std::vector<ThermalBody> bodies,
+                 std::vector<ThermalLink> links);
+
+  std::size_t num_bodies() const { return bodies_.size(); }
+  const std::vector<ThermalBody>& bodies() const { return bodies_; }
+  const std::vector<ThermalLink>& links() const { return links_; }
+
+  /// dT/dt in K/s (bodies) at temperatures T (bodies, degC) and this air.
+  void Rate(const std::vector<double>& temperatures,
+            double air,
+            const ThermalLoad& load,
+            std::vector<double>* rate) const;
+
+ private:
+  std::vector<ThermalBody> bodies_;
+  std::vector<ThermalLink> links_;
+};
+
+/// Steps a network in time by the classical Runge-Kutta method of order 4
+/// (Hairer, Norsett and Wanner 1993, II.1).
+class ThermalIntegrator {
+ public:
+  explicit ThermalIntegrator(const ThermalNetwork& network);
+
+  /// Moves `temperatures` (bodies) by `seconds`.
+  void Step(double seconds,
+            const AirOfStep& air,
+            const ThermalLoad& load,
+            std::vector<double>* temperatures);
+
+ private:
+  const ThermalNetwork& network_;
+  std::vector<double> stage_;
+  std::vector<double> k1_;
+  std::vector<double> k2_;
+  std::vector<double> k3_;
+  std::vector<double> k4_;
+};
+
+}  // namespace errmap::turning_centre

@@ -1,0 +1,250 @@
+#include "data/column_words.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "data/text.h"
+#include "data/units.h"
+
+namespace errmap::data {
+namespace {
+
+// The words of each kind, parted by blanks, in the order of Word.
+constexpr auto kWords = std::to_array<std::string_view>({
+    // kError
+    "error err errors deviation dev fehler abweichung abw messfehler erreur "
+    "ecart deviazione errore scarto scostamento desvio desviacion erro "
+    "afwijking fout odchylka blad chyba avvikelse fel afvigelse avvik fejl "
+    "feil virhe poikkeama hata sapma gosa 誤差 误差 偏差",
+    // kCorrection
+    "correction compensation corrective correctif corr comp korr komp "
+    "korrektur kompensation correccion compensacion correzione "
+    "compensazione correcao compensacao correctie compensatie korekta "
+    "korekcja kompensacja korekce kompenzace korrigering hosei 補正 补偿",
+    // kPosition
+    "position pos posn coordinate coord posicion posizione posicao quota "
+    "weg stellung koordinate positie pozycja polozenie poloha pozice lage "
+    "asema konum ichi 位置",
+    // kNominal
+    "nominal nom commanded command cmd setpoint target ziel soll sollwert "
+    "sollposition consigne nominale consigna theorique teorica nominaal "
+    "nominalna zadana",
+    // kMeasured
+    "actual act meas measured encoder laser ist istwert istposition "
+    "gemessen reelle mesuree mesure misurata misurato medida medido gemeten "
+    "zmierzona",
+    // kTime
+    "time timestamp datetime elapsed utc zeit uhrzeit zeitstempel zeitpunkt "
+    "uhr tiempo hora ora heure horodatage orario temps tempo tijd czas "
+    "godzina cas tid klockslag klokken kello aika saat zaman jikoku jikan "
+    "時刻 時間 时间",
+    // kDate
+    "date datum fecha datetime datenum data dato tarih hizuke 日付 日期",
+    // kTemperature
+    "temperature temp temperatur temperatura temperatuur teplota lampotila "
+    "sicaklik ondo 温度",
+    // kDirection
+    "direction dir bidir approach motion richtung anfahrrichtung direccion "
+    "direzione direcao sens sentido senso richting kierunek riktning "
+    "retning smer suunta yon 方向",
+    // kCycle
+    "cycle zyklus takt ciclo cyclus cykl cykel cyklus",
+    // kSession
+    "session day shift series weekday tag messtag schicht serie messreihe "
+    "wochentag jour seance giorno dia sesion sessione dag dzien",
+    // kRun
+    "run lauf messlauf",
+    // kDay
+    "day tag jour giorno dia dag",
+    // kCounter
+    "segment record index row id sample messung versuch durchgang nr no "
+    "number nummer zeile test trial repeat block batch hour hr minute min "
+    "second sec stunde sekunde ms msec",
+    // kPart
+    "machine maschine tool werkzeug pallet palette station operator",
+    // kComponent
+    "side axis slide component",
+});
+static_assert(kWords.size() == static_cast<std::size_t>(Word::kComponent) + 1);
+
+const std::vector<std::string_view>& WordsFor(Word word) {
+  static const std::vector<std::vector<std::string_view>> kSplit = [] {
+    std::vector<std::vector<std::string_view>> split;
+    for (const std::string_view words : kWords) {
+      split.push_back(SplitWords(words));
+    }
+    return split;
+  }();
+  return kSplit[static_cast<std::size_t>(word)];
+}
+
+// Small letters without accents: those of Latin-1 are two bytes of UTF-8, the
+// first of them 0xC3, those of Latin Extended-A begin with 0xC4 or 0xC5; an
+// accent of its own (0xCC) follows its letter.
+std::string Plain(std::string_view text) {
+  constexpr std::string_view kLatin =
+      "aaaaaaaceeeeiiiidnooooo*ouuuuypsaaaaaaaceeeeiiiidnooooo/ouuuuypy";
+  constexpr std::string_view kExtended =
+      "aaaaaaccccccccddddeeeeeeeeeegggggggghhhhiiiiiiiiiiiijjkkklllllll"
+      "lllnnnnnnnnnoooooooorrrrrrssssssssttttttuuuuuuuuuuuuwwyyyzzzzzzs";
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    const bool more = i + 1 < text.size();
+    const std::size_t next =
+        more ? static_cast<unsigned char>(text[i + 1]) & 0x3FU : 0;
+    if (more && c == 0xC3) {
+      plain += kLatin[next];
+    } else if (more && (c == 0xC4 || c == 0xC5)) {
+      plain += kExtended[64U * (c - 0xC4U) + next];
+    } else if (!more || c != 0xCC) {
+      plain += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+      continue;
+    }
+    ++i;
+  }
+  return plain;
+}
+
+bool IsLetter(char c) { return (c >= 'a' && c <= 'z') || (c & 0x80) != 0; }
+
+bool IsOrMany(std::string_view word, std::string_view known) {
+  return word == known || (word.size() == known.size() + 1 &&
+                           word.ends_with('s') && word.starts_with(known));
+}
+
+// A short word may be part of any other: "dia" of "diameter".
+bool IsOrHas(std::string_view word, std::string_view known) {
+  constexpr std::size_t kLongEnough = 5;
+  return IsOrMany(word, known) ||
+         (known.size() >= kLongEnough && word.find(known) != word.npos);
+}
+
+// "DateTime" and "stepCount" are two words each, "ID" is one.
+std::string WithGaps(std::string_view name) {
+  std::string text;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const auto is_upper = [&](std::size_t at) {
+      return name[at] >= 'A' && name[at] <= 'Z';
+    };
+    if (i > 0 && is_upper(i) && name[i - 1] >= 'a' && name[i - 1] <= 'z') {
+      text += ' ';
+    }
+    text += name[i];
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> WordsOf(std::string_view column) {
+  const Header header = ReadHeader(column);
+  const std::string plain = Plain(WithGaps(
+      header.unit_text.empty() ? column : std::string_view(header.base)));
+  std::vector<std::string> words(1);
+  for (const char c : plain) {
+    if (IsLetter(c)) {
+      words.back() += c;
+    } else if (!words.back().empty()) {
+      words.emplace_back();
+    }
+  }
+  if (words.back().empty()) words.pop_back();
+  return words;
+}
+
+bool SayAny(const std::vector<std::string>& words, Word word) {
+  return std::ranges::any_of(words, [&](const std::string& said) {
+    return std::ranges::any_of(WordsFor(word), [&](std::string_view known) {
+      return IsOrHas(said, known);
+    });
+  });
+}
+
+bool Says(std::string_view column, Word word) {
+  return SayAny(WordsOf(column), word);
+}
+
+bool IsWord(std::string_view said, Word word) {
+  return std::ranges::any_of(WordsFor(word), [&](std::string_view known) {
+    return IsOrMany(said, known);
+  });
+}
+
+bool IsCalled(std::string_view column, Word word) {
+  std::vector<std::string> words = WordsOf(column);
+  if (words.size() == 2 &&
+      IsOneOf(words[1], "no nr num number nummer id index count n")) {
+    words.pop_back();
+  }
+  return words.size() == 1 &&
+         std::ranges::count(WordsFor(word), std::string_view(words[0])) > 0;
+}
+
+namespace {
+
+// The first of the words that is such a word; -1: none.
+std::ptrdiff_t FirstOf(const std::vector<std::string>& words, Word word) {
+  const auto found = std::ranges::find_if(
+      words, [&](const std::string& said) { return SayAny({said}, word); });
+  return found == words.end() ? -1 : found - words.begin();
+}
+
+// "EXX", "EBZ": the notation of ISO 230-1.
+bool IsErrorSymbol(std::string_view column) {
+  constexpr std::string_view kAxes = "XYZUVWABC";
+  const std::string base = ReadHeader(column).base;
+  return base.size() == 3 && base[0] == 'E' &&
+         kAxes.find(base[1]) != kAxes.npos && kAxes.find(base[2]) != kAxes.npos;
+}
+
+}  // namespace
+
+int ErrorSign(std::string_view column) {
+  const std::vector<std::string> words = WordsOf(column);
+  const std::ptrdiff_t measured = FirstOf(words, Word::kMeasured);
+  const std::ptrdiff_t nominal = FirstOf(words, Word::kNominal);
+  const bool is_difference = measured >= 0 && nominal >= 0;
+  const bool corrects = SayAny(words, Word::kCorrection);
+  if (!is_difference && !corrects && !SayAny(words, Word::kError) &&
+      !IsErrorSymbol(column)) {
+    return 0;
+  }
+  const bool opposite =
+      Trimmed(column).starts_with('-') || corrects ||
+      std::ranges::any_of(words,
+                          [](const std::string& word) {
+                            return IsOneOf(word,
+                                           "negative negativ negated minus neg "
+                                           "inverse inverted invertiert");
+                          }) ||
+      (is_difference && nominal < measured);
+  return opposite ? -1 : 1;
+}
+
+bool IsCalledPosition(std::string_view name) {
+  const Header header = ReadHeader(name);
+  const bool fits =
+      header.source == UnitSource::kNone ||
+      header.source == UnitSource::kAssumed ||
+      (IsLengthOrAngle(header.unit) && !IsUnitOfErrors(header.unit));
+  const std::vector<std::string> words = WordsOf(name);
+  if (ErrorSign(name) != 0) return false;
+  return NamesPosition(name) ||
+         (fits && (SayAny(words, Word::kPosition) ||
+                   (SayAny(words, Word::kNominal) && words.size() <= 2) ||
+                   IsAxisLetter(name)));
+}
+
+bool IsAxisLetter(std::string_view column) {
+  constexpr std::string_view kAxes = "xyzuvwabc";
+  const std::vector<std::string> words = WordsOf(column);
+  return !words.empty() && words.size() <= 2 &&
+         std::ranges::all_of(words, [&](const std::string& word) {
+           return IsOneOf(word, "axis achse axe asse eje") ||
+                  (word.size() == 1 && kAxes.find(word) != kAxes.npos);
+         });
+}
+
+}  // namespace errmap::data

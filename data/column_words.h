@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace errmap::data {
+
+/// What a column's name may say of it, in English, German, French, Italian,
+/// Spanish and a dozen more languages.
+enum class Word {
+  kError,       // "error", "Abweichung", "écart", "scostamento"
+  kCorrection,  // "correction", "Kompensation": an error with the other sign
+  kPosition,    // "position", "Sollposition", "pos"
+  kNominal,     // of positions: "nominal", "Soll", "commanded"
+  kMeasured,    // of positions: "actual", "Ist", "measured"
+  kTime,        // "time", "Zeit", "timestamp", "heure"
+  kDate,        // "date", "Datum", "fecha"
+  kTemperature,
+  kDirection,  // "direction", "approach", "Richtung", "sens"
+  kCycle,      // "cycle", "Zyklus", "Takt", "ciclo"
+  kSession,    // "session", "day", "Tag", "shift", "jour"
+  kRun,        // "run", "Lauf": a session, or one traverse
+  kDay,        // of the sessions, those of the calendar
+  kCounter,    // "index", "record", "Nr.": numbers or dates the rows
+  kPart,       // "machine", "tool": which of several
+  kComponent,  // "axis", "slide": what errors are of
+};
+
+/// The words of a name in small letters without accents, its unit left out:
+/// "x", "pos" of "X_Pos [mm]".
+std::vector<std::string> WordsOf(std::string_view column);
+
+/// Whether one of these words (WordsOf) is such a word, or a longer one with it
+/// in it ("positionsabweichung").
+bool SayAny(const std::vector<std::string>& words, Word word);
+bool Says(std::string_view column, Word word);
+
+/// Whether a word (of WordsOf) is such a one, or more of them ("cycles").
+bool IsWord(std::string_view said, Word word);
+
+/// Whether all of a name is such a word, but for "no", "number" and alike:
+/// "Cycle No." counts cycles, "elapsed_cycles" is something else.
+bool IsCalled(std::string_view column, Word word);
+
+/// What a name says of the sign of an error: 1, an error ("deviation",
+/// "actual - nominal", "EXX"); -1, its opposite ("correction", "minus error",
+/// "nominal - actual"); 0, of no error.
+int ErrorSign(std::string_view column);
+
+/// Whether a column is a position by its name: "position_mm", "x_pos_mm",
+/// "Sollposition [mm]", "X [mm]".
+bool IsCalledPosition(std::string_view name);
+
+/// Whether a name is that of a linear axis and no more: "X", "z [mm]", "axis".
+bool IsAxisLetter(std::string_view column);
+
+}  // namespace errmap::data

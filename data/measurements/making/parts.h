@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/measurements/dataset.h"
+
+namespace errmap::data {
+
+/// Keeps these rows of target, inputs and weights; `kept` are indices into
+/// parts->rows, ascending.
+void KeepRows(const std::vector<Eigen::Index>& kept, Dataset::Parts* parts);
+
+/// Leaves out the inputs (p) that are marked. Returns the new index of each
+/// input, -1 of one that is left out.
+std::vector<Eigen::Index> LeaveOutInputs(const std::vector<bool>& left_out,
+                                         Dataset::Parts* parts);
+
+}  // namespace errmap::data

@@ -1,0 +1,146 @@
+#include "data/measurements/reading/describe_reading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "data/files/shown_path.h"
+#include "data/units.h"
+
+namespace errmap::data {
+namespace {
+
+using Eigen::Index;
+
+// Whether there are two sessions or more, of as many rows each: a clock that
+// tells no dates shows a night of a day and an hour as an hour.
+bool AreAlike(const FoundSessions& found) {
+  std::vector<Index> counts(found.sessions.labels.size(), 0);
+  for (const Index code : found.sessions.codes) {
+    ++counts[static_cast<std::size_t>(code)];
+  }
+  return counts.size() > 1 &&
+         std::ranges::count(counts, counts[0]) == std::ssize(counts);
+}
+
+// The sessions, and the number of cycles in them.
+void DescribeSessions(const CsvTable& table,
+                      const Clock& clock,
+                      const Nights& nights,
+                      ReadTable* read) {
+  Reading::Sessions& sessions = read->reading.sessions;
+  const FoundSessions& found = read->found;
+  if (!found.sessions.column.empty()) {
+    sessions.column = found.sessions.column;
+  }
+  sessions.by = found.by;
+  sessions.count = std::ssize(found.sessions.labels);
+  sessions.evidence = found.evidence;
+  sessions.sure = found.by != "one" || nights.sure;
+  if (found.by == "column" && found.evidence == Evidence::kValues) {
+    sessions.sure = false;
+    sessions.alternative = "one";
+  }
+  if (!read->repeated_rows.empty() && found.by == "clock") {
+    sessions.sure = false;
+    sessions.alternative = "fewer, without the rows that stand twice";
+  }
+  if (clock.hours_alone && found.by != "column" && !AreAlike(found)) {
+    sessions.sure = false;
+    sessions.alternative = "more, as times of day hide whole days";
+  }
+  if (std::isfinite(found.gap) && found.gap > 0.0) {
+    sessions.gap_s = found.gap;
+  }
+  if (found.by == "one" && nights.other > 0.0) {
+    sessions.alternative =
+        "parted by pauses above " + CsvNumber(std::round(nights.other)) + " s";
+  }
+  std::vector<std::int64_t> first(found.sessions.labels.size(), -1);
+  std::set<std::pair<Index, double>> cycles;
+  const std::ptrdiff_t group = read->roles.group;
+  for (std::size_t i = 0; i < found.sessions.codes.size(); ++i) {
+    const Index code = found.sessions.codes[i];
+    auto& at = first[static_cast<std::size_t>(code)];
+    if (at < 0) at = static_cast<std::int64_t>(read->log_rows[i]);
+    if (group != kNoColumn) {
+      const auto row = static_cast<std::size_t>(read->log_rows[i]);
+      const CsvColumn& column = table.At(group);
+      const std::string* const text = column.TextAt(row);
+      cycles.emplace(code,
+                     text == nullptr
+                         ? column.values[row]
+                         : static_cast<double>(text - column.texts.data()));
+    }
+  }
+  std::ranges::sort(first);
+  sessions.first_rows = std::move(first);
+  if (group != kNoColumn) {
+    read->reading.cycles.count = std::ssize(cycles);
+  }
+  constexpr std::int64_t kFewest = 3;
+  if (found.by == "clock" && sessions.count >= kFewest &&
+      read->reading.cycles.count == sessions.count) {
+    sessions.sure = false;
+    sessions.alternative = "one, if the clock begins anew in each cycle";
+  }
+}
+
+void DescribeTime(const CsvTable& table,
+                  const Clock& clock,
+                  Reading::Time* time) {
+  time->unit = clock.unit;
+  time->origin = clock.origin;
+  time->evidence = clock.evidence;
+  time->sure = clock.sure;
+  time->alternative = clock.alternative;
+  if (!clock.is_found()) return;
+  time->column = table.At(clock.column).name;
+  if (clock.date_column >= 0) {
+    *time->column = table.At(clock.date_column).name + " + " + *time->column;
+  }
+  const double step = MedianStepOf(clock.time);
+  if (std::isfinite(step)) time->step_s = step;
+}
+
+}  // namespace
+
+void DescribeReading(const CsvTable& given,
+                     const DatasetSelection& selection,
+                     const Clock& clock,
+                     const Nights& nights,
+                     ReadTable* read) {
+  const CsvTable& table = read->table ? *read->table : given;
+  Reading& reading = read->reading;
+  reading.target.column = table.columns[read->roles.target].name;
+  reading.target.unit = UnitOfColumn(*reading.target.column).symbol;
+  reading.target.evidence =
+      selection.target.empty() ? Evidence::kName : Evidence::kUser;
+  reading.target.sure = true;
+  const Axis& axis = read->axis;
+  if (axis.column >= 0) {
+    read->position = table.At(axis.column).name;
+    reading.position = {.column = read->position,
+                        .evidence = axis.evidence,
+                        .sure = axis.sure,
+                        .alternative = axis.alternative};
+  } else {
+    reading.position.sure = true;
+  }
+  DescribeTime(table, clock, &reading.time);
+  if (!read->found.sessions.labels.empty()) {
+    DescribeSessions(table, clock, nights, read);
+  }
+  for (const Index row : read->repeated_rows) {
+    reading.rows_left_out.push_back(
+        {.row = row, .why = "repeats another value for value"});
+  }
+  for (const auto& part : given.parts) {
+    reading.files.push_back(ShownPath(part.second));
+  }
+  if (given.parts.empty()) reading.files = {ShownPath(given.file)};
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,148 @@
+#include "data/measurements/reading/time_units.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "data/column_words.h"
+#include "data/csv.h"
+#include "data/measurements/sessions.h"
+#include "data/text.h"
+#include "data/units.h"
+
+namespace errmap::data {
+namespace {
+
+constexpr auto kTimeUnits = std::to_array<TimeUnit>({{"s", 1.0},
+                                                     {"ms", 1e-3},
+                                                     {"us", 1e-6},
+                                                     {"100ns", 1e-7},
+                                                     {"ns", 1e-9},
+                                                     {"min", 60.0},
+                                                     {"h", 3600.0},
+                                                     {"days", kSecondsOfDay}});
+
+constexpr double kExcelDaysTo1970 = 25569.0;
+
+}  // namespace
+
+const TimeUnit* FindTimeUnit(std::string_view name) {
+  const auto* const found =
+      std::ranges::find(kTimeUnits, name, &TimeUnit::name);
+  return found == kTimeUnits.end() ? nullptr : found;
+}
+
+const TimeUnit* StatedUnit(std::string_view column) {
+  const Header header = ReadHeader(column);
+  if (header.unit.symbol == "100ns") return FindTimeUnit("100ns");
+  if (const TimeUnit* unit = FindTimeUnit(Trimmed(column))) return unit;
+  if (const TimeUnit* unit = FindTimeUnit(header.unit.symbol)) return unit;
+  if (EqualsIgnoringCase(header.unit_text, "d") ||
+      EqualsIgnoringCase(header.unit_text, "days")) {
+    return FindTimeUnit("days");
+  }
+  const std::vector<std::string> words = WordsOf(column);
+  const std::string last = words.empty() ? "" : words.back();
+  if (std::ranges::count(words, "seconds") > 0) return FindTimeUnit("s");
+  if (last == "d" || last == "day" || last == "days" || last == "tage") {
+    return words.size() > 1 ? FindTimeUnit("days") : nullptr;
+  }
+  for (const std::string& text : {last, header.unit_text}) {
+    if (text == "us" || text == "ns") return FindTimeUnit(text);
+    if (text == "sec" || text == "seconds" || text == "sek") {
+      return FindTimeUnit("s");
+    }
+  }
+  return nullptr;
+}
+
+bool Pace::MayBeIn(const TimeUnit& unit) const {
+  constexpr double kLeastStep = 0.01;
+  constexpr double kMostSpan = 3653.0 * kSecondsOfDay;
+  return !std::isfinite(step) ||
+         (step * unit.seconds >= 0.999 * kLeastStep &&
+          step * unit.seconds <= 1.001 * kSecondsOfDay &&
+          (most - least) * unit.seconds < kMostSpan);
+}
+
+Pace PaceOf(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  if (values.empty()) return {};
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    steps.push_back(std::abs(values[i] - values[i - 1]));
+  }
+  // Rows in another order have long steps; sorted, they have their own.
+  std::vector<double> sorted = values;
+  std::ranges::sort(sorted);
+  std::vector<double> in_order;
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    in_order.push_back(sorted[i] - sorted[i - 1]);
+  }
+  const double step =
+      std::min(MedianStep(std::move(steps)), MedianStep(std::move(in_order)));
+  return {sorted.front(), sorted.back(), step};
+}
+
+double SecondsOfDigits(double number) {
+  if (!(number >= 19800101000000.0 && number < 20700101000000.0)) {
+    return std::nan("");
+  }
+  const std::string text = CsvNumber(std::floor(number));
+  if (text.size() != 14) return std::nan("");
+  const auto part = [&](std::size_t at, std::size_t size) {
+    return text.substr(at, size);
+  };
+  const auto parsed =
+      ParseDateTime(part(0, 4) + "-" + part(4, 2) + "-" + part(6, 2) + " " +
+                    part(8, 2) + ":" + part(10, 2) + ":" + part(12, 2));
+  return parsed ? parsed->seconds + number - std::floor(number) : std::nan("");
+}
+
+std::optional<Epoch> EpochOf(const Pace& pace, Named called) {
+  constexpr double kFrom = 6.3e8;
+  constexpr double kTo = 2.84e9;
+  for (const char* name : {"s", "ms", "us", "ns"}) {
+    const TimeUnit* unit = FindTimeUnit(name);
+    if (pace.least * unit->seconds >= kFrom &&
+        pace.most * unit->seconds <= kTo && pace.MayBeIn(*unit)) {
+      return Epoch{unit, 0.0};
+    }
+  }
+  // Windows counts 100 ns from 1601.
+  constexpr double kFileTimeTo1970 = 11644473600.0;
+  const TimeUnit* ticks = FindTimeUnit("100ns");
+  if (pace.least * ticks->seconds - kFileTimeTo1970 >= kFrom &&
+      pace.most * ticks->seconds - kFileTimeTo1970 <= kTo) {
+    return Epoch{ticks, -kFileTimeTo1970};
+  }
+  // Excel counts days from 30 December 1899, MATLAB from year 0.
+  const TimeUnit* days = FindTimeUnit("days");
+  for (const double days_to_1970 : {kExcelDaysTo1970, 719529.0}) {
+    const double from = (pace.least - days_to_1970) * kSecondsOfDay;
+    const double to = (pace.most - days_to_1970) * kSecondsOfDay;
+    const bool fits =
+        called == Named::kDate ||
+        (called == Named::kTime && pace.MayBeIn(*days) && pace.step < 1.0);
+    if (fits && from >= kFrom && to <= kTo) {
+      return Epoch{days, -days_to_1970 * kSecondsOfDay};
+    }
+  }
+  return std::nullopt;
+}
+
+bool AreWholeDays(const std::vector<double>& values) {
+  constexpr double kFrom = 32874.0;
+  constexpr double kTo = 58440.0;
+  bool any = false;
+  for (const double day : values) {
+    any = any || !std::isnan(day);
+    const bool fits = day >= kFrom && day < kTo && day == std::floor(day);
+    if (!fits && !std::isnan(day)) return false;
+  }
+  return any;
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "data/measurements/date_time.h"
+
+namespace errmap::data {
+
+/// A unit in which columns count time: "s", "ms", "us", "100ns", "ns", "min",
+/// "h", "days".
+struct TimeUnit {
+  std::string_view name;
+  double seconds;
+};
+/// Null where there is none of that name.
+const TimeUnit* FindTimeUnit(std::string_view name);
+/// What a column's name says of the unit of its times; null: nothing.
+const TimeUnit* StatedUnit(std::string_view column);
+
+/// Steps and span of times as they stand.
+struct Pace {
+  double least = 0.0;
+  double most = 0.0;
+  double step = 0.0;  // median of those above 0
+
+  /// Those of a measurement: steps of 0.01 s to a day, under ten years.
+  bool MayBeIn(const TimeUnit& unit) const;
+};
+/// NaN apart.
+Pace PaceOf(std::vector<double> values);
+
+/// Where numbers count from, and in which unit.
+struct Epoch {
+  const TimeUnit* unit;
+  double offset;  // seconds from 1970 to 0
+
+  bool counts_days() const { return unit->seconds == kSecondsOfDay; }
+};
+/// What the column's name says, which days that Excel counts need.
+enum class Named { kNothing, kTime, kDate };
+/// Numbers that count from 1970 whatever their unit is called: the years 1990
+/// to 2060 in each unit do not meet; nor do Windows' 100 ns from 1601. Excel's
+/// (and MATLAB's) days are numbers as others, too: of a date any, of a time
+/// such as part days.
+std::optional<Epoch> EpochOf(const Pace& pace, Named called);
+
+/// Whether all are Excel's numbers of days, 1990 to 2060, or missing (NaN).
+bool AreWholeDays(const std::vector<double>& values);
+
+/// Seconds of 20260302080000; NaN where it is no such number.
+double SecondsOfDigits(double number);
+
+}  // namespace errmap::data

@@ -1,0 +1,215 @@
+#include "data/tables/loose_numbers.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "data/tables/missing_cells.h"
+#include "data/tables/unit_cells.h"
+#include "data/text.h"
+#include "data/units.h"
+
+namespace errmap::data {
+namespace {
+
+bool IsNumeral(char c) { return c >= '0' && c <= '9'; }
+
+std::size_t DigitsOf(std::string_view text) {
+  return std::min(text.find_first_not_of("0123456789"), text.size());
+}
+
+// What parts thousands, at the front of a text; "" where nothing does.
+std::string_view MarkOf(std::string_view text) {
+  constexpr auto kMarks = std::to_array<std::string_view>({" ",
+                                                           "'",
+                                                           ".",
+                                                           ",",
+                                                           "\xC2\xA0",
+                                                           "\xE2\x80\xAF",
+                                                           "\xE2\x80\x89",
+                                                           "\xE2\x80\x99"});
+  for (const std::string_view mark : kMarks) {
+    if (text.starts_with(mark)) return mark;
+  }
+  return "";
+}
+
+// The digits of "25 000" or "1.234.567", without their marks, off the front of
+// `text`; none where there are no groups.
+std::string TakeGroups(std::string_view* text,
+                       std::string_view* mark,
+                       int* count) {
+  std::string_view rest = *text;
+  const std::size_t first = DigitsOf(rest);
+  if (first == 0 || first > 3) return "";
+  std::string digits(rest.substr(0, first));
+  rest.remove_prefix(first);
+  *mark = MarkOf(rest);
+  for (*count = 0; !mark->empty() && rest.starts_with(*mark); ++*count) {
+    const std::string_view group = rest.substr(mark->size());
+    if (DigitsOf(group) != 3) break;
+    digits += group.substr(0, 3);
+    rest = group.substr(3);
+  }
+  *text = rest;
+  return *count > 0 ? digits : "";
+}
+
+}  // namespace
+
+Loose ReadLooseNumber(std::string_view cell,
+                      bool decimal_comma,
+                      bool other_mark,
+                      NumberForm* form) {
+  if (const std::size_t remark = cell.find(" #"); remark != cell.npos) {
+    const std::string_view number = Trimmed(cell.substr(0, remark));
+    return ReadNumberForm(number, decimal_comma, form) ? Loose::kRemark
+                                                       : Loose::kNone;
+  }
+  Loose kind = Loose::kDash;
+  std::string sign;
+  for (const std::string_view dash :
+       {"\xE2\x88\x92", "\xE2\x80\x93", "-", "+"}) {
+    if (!cell.starts_with(dash)) continue;
+    cell.remove_prefix(dash.size());
+    sign = dash == "+" ? "" : "-";
+    break;
+  }
+  if (cell.empty() || !IsNumeral(cell.front())) return Loose::kNone;
+  if (sign.empty() && cell.ends_with('-')) {  // as SAP writes it
+    cell.remove_suffix(1);
+    sign = "-";
+    kind = Loose::kMinusBehind;
+  }
+  if (ReadNumberForm(cell, decimal_comma, form)) {  // the dash was in the way
+    form->value = sign.empty() ? form->value : -form->value;
+    return kind;
+  }
+  if (kind == Loose::kDash) kind = Loose::kMarks;
+  std::string_view mark;
+  int groups = 0;
+  std::string number = TakeGroups(&cell, &mark, &groups);
+  if (number.empty()) return Loose::kNone;
+  const char decimal = decimal_comma && mark != "," ? ',' : '.';
+  const bool has_decimals = cell.size() > 1 &&
+                            (cell.front() == decimal || cell.front() == '.') &&
+                            DigitsOf(cell.substr(1)) + 1 == cell.size();
+  const bool is_doubtful = mark == "." || mark == ",";
+  if (!(cell.empty() || has_decimals) ||
+      (has_decimals && mark.front() == cell.front()) ||
+      (is_doubtful && groups < 2 && !has_decimals && !other_mark)) {
+    return Loose::kNone;
+  }
+  form->decimal_comma = has_decimals && cell.front() == ',';
+  form->decimal_point = has_decimals && cell.front() == '.';
+  if (has_decimals) number += "." + std::string(cell.substr(1));
+  return ParseNumber(sign + number, &form->value) ? kind : Loose::kNone;
+}
+
+void LooseNumbers::Add(Loose kind, std::size_t line) {
+  Seen& seen = seen_[static_cast<std::size_t>(kind)];
+  if (seen.count++ == 0) seen.first_line = line;
+}
+
+std::vector<std::string> LooseNumbers::Remarks() const {
+  constexpr auto kHow = std::to_array<std::string_view>(
+      {"",
+       " with a dash for the minus",
+       " less marks between thousands",
+       " less a remark behind",
+       " with the minus that stands behind, which changes the sign"});
+  static_assert(kHow.size() == std::tuple_size_v<decltype(seen_)>);
+  std::vector<std::string> remarks;
+  for (std::size_t i = 1; i < kHow.size(); ++i) {
+    const Seen& seen = seen_[i];
+    if (seen.count == 0) continue;
+    remarks.push_back(std::to_string(seen.count) +
+                      (seen.count == 1 ? " cell is read as a number"
+                                       : " cells are read as numbers") +
+                      std::string(kHow[i]) + " (the first on line " +
+                      std::to_string(seen.first_line) + ")");
+  }
+  return remarks;
+}
+
+namespace {
+
+// The numbers of cells that all carry one unit, or are missing.
+struct UnitCells {
+  std::string unit;
+  std::vector<std::optional<NumberForm>> numbers;  // (texts) none: missing
+};
+
+std::optional<UnitCells> ReadUnitCells(const CsvColumn& column,
+                                       bool decimal_comma) {
+  UnitCells cells;
+  for (const std::string& text : column.texts) {
+    cells.numbers.emplace_back();
+    if (IsMissingNumber(text)) continue;
+    const std::size_t size =
+        std::min(text.find_first_not_of("+-.,0123456789"), text.size());
+    NumberForm form;
+    const std::string_view behind =
+        Trimmed(std::string_view(text).substr(size));
+    std::string unit(behind);
+    if (behind.empty() || IsNumeral(behind.back()) ||
+        !ReadNumberForm(text.substr(0, size), decimal_comma, &form) ||
+        !ReadUnitCell(&unit) || unit.empty() ||
+        !(cells.unit.empty() || cells.unit == unit)) {
+      return std::nullopt;
+    }
+    cells.unit = unit;
+    cells.numbers.back() = form;
+  }
+  return cells.unit.empty() ? std::nullopt : std::optional(std::move(cells));
+}
+
+void TakeNumbers(const UnitCells& cells, CsvColumn* column) {
+  std::vector<std::pair<std::size_t, std::uint32_t>> missing;
+  for (const auto& cell : column->exceptions) {
+    if (const auto& number = cells.numbers[cell.second]) {
+      column->values.Own()[cell.first] = number->value;
+      column->NoteMarks(
+          cell.first, number->decimal_comma, number->decimal_point);
+    } else {
+      missing.push_back(cell);
+    }
+  }
+  column->exceptions = std::move(missing);
+}
+
+// "T1_2 [degF]" where "T1 [degF]" is another column's.
+std::optional<std::string> FreeNameWithUnit(const CsvTable& table,
+                                            const CsvColumn& column,
+                                            const std::string& unit) {
+  std::optional<std::string> name = NameWithUnit(column.name, unit);
+  for (int i = 2; name && *name != column.name && table.Find(*name) >= 0; ++i) {
+    name = NameWithUnit(column.name + "_" + std::to_string(i), unit);
+  }
+  return name;
+}
+
+}  // namespace
+
+void TakeUnitsOfCells(bool decimal_comma, CsvTable* table) {
+  for (CsvColumn& column : table->columns) {
+    if (!column.is_text() || column.values.empty()) continue;
+    const auto cells = ReadUnitCells(column, decimal_comma);
+    if (!cells) continue;
+    const auto name = FreeNameWithUnit(*table, column, cells->unit);
+    if (!name) continue;
+    column.name = *name;
+    TakeNumbers(*cells, &column);
+    table->remarks.push_back(PrintablePath(table->file) + ": the cells of " +
+                             QuotedName(column.name) + " carry their unit (" +
+                             cells->unit + "), which is read as the column's");
+  }
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "data/csv.h"
+#include "data/tables/csv_cells.h"
+
+namespace errmap::data {
+
+/// What makes a cell no number for programs; the rarest counts.
+enum class Loose { kNone, kDash, kMarks, kRemark, kMinusBehind };
+
+/// A number as people write it, which no program reads: thousands parted by
+/// blanks, apostrophes or the other decimal mark ("25 000.5", "25'000",
+/// "1.234.567,8"), a minus that is a dash or stands behind, a remark ("1.5 #
+/// door"). `other_mark`: one group of thousands is enough ("25,000" where
+/// points are decimal). Where a mark could be decimal it is none of these
+/// (kNone), and no value is given.
+Loose ReadLooseNumber(std::string_view cell,
+                      bool decimal_comma,
+                      bool other_mark,
+                      NumberForm* form);
+
+/// Those of a file, counted for its remarks.
+class LooseNumbers {
+ public:
+  void Add(Loose kind, std::size_t line);
+  /// "3 cells are read as numbers with the minus behind them, which changes
+  /// their sign (the first on line 5)".
+  std::vector<std::string> Remarks() const;
+
+ private:
+  struct Seen {
+    std::size_t count = 0;
+    std::size_t first_line = 0;
+  };
+  std::array<Seen, 5> seen_;  // of each Loose
+};
+
+/// Columns whose cells all are a number with one unit ("1.877 µm") become
+/// numbers, and the unit a part of the name.
+void TakeUnitsOfCells(bool decimal_comma, CsvTable* table);
+
+}  // namespace errmap::data

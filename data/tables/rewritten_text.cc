@@ -1,0 +1,109 @@
+#include "data/tables/rewritten_text.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "data/tables/csv_cells.h"
+#include "data/text.h"
+
+namespace errmap::data {
+namespace {
+
+constexpr std::size_t kLinesLooked = 50;
+
+// The first lines that are neither blank nor comments.
+std::vector<std::string_view> FirstLines(std::string_view text) {
+  std::vector<std::string_view> lines;
+  const char* const end = text.data() + text.size();
+  for (const char* p = text.data(); p != end && lines.size() < kLinesLooked;) {
+    const char* const stop = std::find_if(p, end, IsLineEnd);
+    const std::string_view line =
+        Trimmed({p, static_cast<std::size_t>(stop - p)});
+    if (!line.empty() && !line.starts_with('#')) lines.push_back(line);
+    p = PastLineEnd(stop, end);
+  }
+  return lines;
+}
+
+// 'x';'y': each quote at a line's end or beside a delimiter.
+bool IsInSingleQuotes(std::string_view line) {
+  constexpr std::string_view kBetween = ",;\t|";
+  if (line.size() < 2 || line.front() != '\'' || line.back() != '\'') {
+    return false;
+  }
+  for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+    if (line[i] == '"') return false;
+    if (line[i] == '\'' && kBetween.find(line[i - 1]) == kBetween.npos &&
+        kBetween.find(line[i + 1]) == kBetween.npos) {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::size_t CellsApart(std::string_view line) {
+  std::size_t cells = 1;
+  for (std::size_t at = line.find("  "); at != line.npos;
+       at = line.find("  ", at)) {
+    ++cells;
+    at = line.find_first_not_of(' ', at);
+  }
+  return cells;
+}
+
+std::size_t CellsByBlanks(std::string_view line) {
+  std::size_t cells = 1;
+  for (std::size_t at = line.find(' '); at != line.npos;
+       at = line.find(' ', at)) {
+    ++cells;
+    at = line.find_first_not_of(' ', at);
+  }
+  return cells;
+}
+
+// The names have single blanks in them, the rows as many cells as there are
+// names two blanks apart.
+bool IsSetApart(const std::vector<std::string_view>& lines) {
+  constexpr std::size_t kFewest = 3;
+  if (lines.size() < kFewest) return false;
+  const std::size_t names = CellsApart(lines[0]);
+  return names > 1 && CellsByBlanks(lines[0]) != names &&
+         std::ranges::all_of(lines, [&](std::string_view line) {
+           return line.find_first_of(",;\t|\"") == line.npos &&
+                  CellsApart(line) == names;
+         });
+}
+
+std::string WithTabs(std::string_view text) {
+  std::string parted;
+  parted.reserve(text.size());
+  for (std::size_t at = 0; at < text.size();) {
+    if (text[at] != ' ') {
+      parted += text[at++];
+      continue;
+    }
+    const std::size_t next =
+        std::min(text.find_first_not_of(' ', at), text.size());
+    const bool is_inside = !parted.empty() && !IsLineEnd(parted.back()) &&
+                           next < text.size() && !IsLineEnd(text[next]);
+    if (is_inside) parted += next - at > 1 ? '\t' : ' ';
+    at = next;
+  }
+  return parted;
+}
+
+}  // namespace
+
+std::optional<std::string> RewrittenText(std::string_view text) {
+  const std::vector<std::string_view> lines = FirstLines(text);
+  if (lines.size() > 1 && std::ranges::all_of(lines, IsInSingleQuotes)) {
+    std::string quoted(text);
+    std::ranges::replace(quoted, '\'', '"');
+    return quoted;
+  }
+  if (IsSetApart(lines)) return WithTabs(text);
+  return std::nullopt;
+}
+
+}  // namespace errmap::data

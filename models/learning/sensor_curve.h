@@ -1,0 +1,68 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/measurements/dataset.h"
+#include "models/history/view.h"
+#include "stats/not_a_number.h"
+
+namespace errmap::models {
+
+/// Error on unseen units as a function of the number of sensors (inputs that
+/// are not positions). The map is simple: linear in the view of each sensor,
+/// with a slope linear in the position, and quadratic in the position. Its
+/// ridge penalty is from inner hold-outs. The view is whichever does best with
+/// all sensors: raw, filtered, less the session's first value, or both.
+struct SensorCurve {
+  struct Point {
+    Eigen::Index sensors = 0;
+    double rmse = 0.0;  // held out, target's unit
+  };
+  struct Chosen {
+    std::string sensor;
+    double stability = 0.0;  // share of outer folds that also choose it
+    /// Rise of the held-out error if the best of all others replaces it.
+    /// Sensors that read alike replace each other at no cost. NaN if there is
+    /// no other.
+    double replaced_cost = stats::kNaN;
+    /// Sensors that could replace it for at most kTolerance times the error,
+    /// the most similar first.
+    std::vector<std::string> substitutes;
+  };
+  /// Errors within this factor of each other count as equal.
+  static constexpr double kTolerance = 1.05;
+
+  View view = View::kRaw;
+  std::string unit;           // the units held out whole: "day"
+  std::vector<Point> points;  // 0, 1, 2, ... chosen sensors
+  double all_rmse = 0.0;      // with every sensor
+  Eigen::Index all_sensors = 0;
+  /// Fewest sensors with at most kTolerance times the error of all; -1 if no
+  /// point reaches it.
+  Eigen::Index enough = -1;
+  /// As many sensors as `enough`, or else as `points` has, chosen from all
+  /// rows.
+  std::vector<Chosen> chosen;
+};
+
+struct SensorSearch {
+  Eigen::Index most_sensors = 8;
+  int jobs = 1;  // does not change results
+  const std::atomic<bool>* stop = nullptr;
+  /// Called by any thread after each of `all` searches.
+  std::function<void(int done, int all)> progress = {};
+};
+
+/// Chooses sensors by sequential replacement from several starting sets: inside
+/// folds of whole units for `points`, and from all rows for `chosen`. Throws
+/// std::invalid_argument if there are fewer than two sensors or units,
+/// fitting::Interrupted on a stop.
+SensorCurve LearnSensors(const data::Dataset& dataset,
+                         const SensorSearch& search);
+
+}  // namespace errmap::models

@@ -1,0 +1,265 @@
+#include "models/sensors/sensor_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "models/map_experience.h"
+#include "models/trained_range.h"
+#include "stats/not_a_number.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+const data::ColumnInfo& ColumnOf(const FittedModel& fitted, Index state) {
+  const Index input =
+      fitted.applicability->columns[static_cast<std::size_t>(state)];
+  return fitted.inputs[static_cast<std::size_t>(input)].column;
+}
+
+std::optional<SensorFaultFound> OfAnotherUnit(const FittedModel& fitted,
+                                              const MatrixXd& readings) {
+  for (const InputOutside& input : InputsOutside(fitted.inputs, readings)) {
+    if (input.looks_like.empty()) continue;
+    return SensorFaultFound{
+        .fault = SensorFault::kUnit,
+        .columns =
+            {fitted.inputs[static_cast<std::size_t>(input.input)].column},
+        .value = input.max,
+        .looks_like = input.looks_like};
+  }
+  return std::nullopt;
+}
+
+// Rows at the end of a column that repeat the last reading.
+Index LengthOfLastRun(const MatrixXd& states, Index column) {
+  Index length = 1;
+  while (length < states.rows() && states(states.rows() - 1 - length, column) ==
+                                       states(states.rows() - 1, column)) {
+    ++length;
+  }
+  return length;
+}
+
+// One reading for as long as hardly ever in training.
+std::optional<SensorFaultFound> Frozen(const FittedModel& fitted,
+                                       const MatrixXd& states) {
+  constexpr double kRare = 1e-3;  // of all columns together
+  const VectorXd& repeats = fitted.applicability->repeats;
+  std::vector<Index> lengths;
+  for (Index column = 0; column < repeats.size(); ++column) {
+    lengths.push_back(LengthOfLastRun(states, column));
+  }
+  for (Index column = 0; column < repeats.size(); ++column) {
+    const Index length = lengths[static_cast<std::size_t>(column)];
+    const double chance =
+        static_cast<double>(repeats.size()) *
+        std::pow(repeats[column], static_cast<double>(length - 1));
+    // A control that reads its sensors once a minute repeats them all.
+    const Index also = std::ranges::count_if(
+        lengths, [length](Index other) { return other >= length; });
+    if (length < 3 || !(chance < kRare) || 2 * also > repeats.size()) continue;
+    return SensorFaultFound{.fault = SensorFault::kFrozen,
+                            .columns = {ColumnOf(fitted, column)},
+                            .value = states(states.rows() - 1, column),
+                            .looks_like = ""};
+  }
+  return std::nullopt;
+}
+
+// The readings of a session, all columns together, against those of training.
+// Rows of a session are not independent: it counts as one draw, whose square
+// is the mean of theirs.
+class ReadingsTogether {
+ public:
+  ReadingsTogether(const Applicability& trained, const MatrixXd& states)
+      : sessions_(*trained.sessions),
+        scale_(trained.scale),
+        scaled_(states.array().rowwise() / scale_.transpose().array()) {
+    const VectorXd mean = trained.mean.cwiseQuotient(scale_);
+    const MatrixXd apart = scaled_.rowwise() - mean.transpose();
+    pulled_ = apart * sessions_.precision;
+    square_ = apart.cwiseProduct(pulled_).rowwise().sum().mean();
+  }
+
+  // By how much a column is higher than all others tell, its unit.
+  double Shift(Index column) const {
+    return pulled_.col(column).mean() / sessions_.precision(column, column) *
+           scale_[column];
+  }
+  // Of the square, what such a shift, or an exchange of two, explains.
+  double ByShift(Index column) const {
+    const double mean = pulled_.col(column).mean();
+    return mean * mean / sessions_.precision(column, column);
+  }
+  double ByExchange(Index i, Index j) const {
+    const MatrixXd& precision = sessions_.precision;
+    const Eigen::ArrayXd apart = scaled_.col(i) - scaled_.col(j);
+    const double own =
+        precision(i, i) + precision(j, j) - 2.0 * precision(i, j);
+    return (2.0 * apart * (pulled_.col(i) - pulled_.col(j)).array() -
+            own * apart.square())
+        .mean();
+  }
+
+  // Log-likelihood gained, by a Student t of as many degrees of freedom as
+  // sessions were seen. What all columns leave tells its scale, of a column
+  // that scattered more than others `scatter` times that.
+  double Gain(double explained, double scatter = 1.0) const {
+    const auto freedom =
+        static_cast<double>(std::max<Index>(sessions_.units, 1));
+    const auto columns = static_cast<double>(scale_.size());
+    const double left = std::max(square_ - explained, 0.0);
+    const double scaled = std::max(explained, 0.0) * (freedom + columns) /
+                          (freedom + left) / scatter;
+    return 0.5 * (freedom + 1.0) * std::log1p(scaled / freedom);
+  }
+
+ private:
+  const SessionReadings& sessions_;
+  const VectorXd& scale_;
+  MatrixXd scaled_;
+  MatrixXd pulled_;  // scaled, less their mean, times the precision
+  double square_ = 0.0;
+};
+
+// A fault that may be, and by how much more likely it makes the readings than
+// is asked of it.
+struct Suspect {
+  SensorFaultFound found;
+  double likelier = 0.0;
+  double shown = 0.0;  // as `likelier`, by how its column itself scatters
+};
+
+// What is asked: more of a shift, which is fitted, than of an exchange. Of
+// sound sessions one in a hundred shows as much (tests/benchmarks/mornings.py).
+constexpr double kExchanged = 2.75;
+constexpr double kShifted = 3.75;
+
+std::vector<Suspect> SuspectsOf(const FittedModel& fitted,
+                                const MatrixXd& states) {
+  std::vector<Suspect> suspects;
+  const ReadingsTogether readings(*fitted.applicability, states);
+  const VectorXd& scatter = fitted.applicability->sessions->scatter;
+  for (Index i = 0; i < states.cols(); ++i) {
+    const double explained = readings.ByShift(i);
+    suspects.push_back(
+        {.found = {.fault = SensorFault::kOff,
+                   .columns = {ColumnOf(fitted, i)},
+                   .value = readings.Shift(i),
+                   .looks_like = ""},
+         .likelier = readings.Gain(explained) - kShifted,
+         .shown = readings.Gain(explained, scatter[i]) - kShifted});
+    for (Index j = i + 1; j < states.cols(); ++j) {
+      if (ColumnOf(fitted, i).unit.symbol != ColumnOf(fitted, j).unit.symbol) {
+        continue;
+      }
+      const double gain = readings.Gain(readings.ByExchange(i, j)) - kExchanged;
+      suspects.push_back(
+          {.found = {.fault = SensorFault::kSwapped,
+                     .columns = {ColumnOf(fitted, i), ColumnOf(fitted, j)},
+                     .looks_like = ""},
+           .likelier = gain,
+           .shown = gain});
+    }
+  }
+  return suspects;
+}
+
+MatrixXd WholeRows(const MatrixXd& states) {
+  std::vector<Index> rows;
+  for (Index row = 0; row < states.rows(); ++row) {
+    if (states.row(row).allFinite()) rows.push_back(row);
+  }
+  return states(rows, Eigen::all);
+}
+
+// The fault that explains best how the readings go together.
+std::optional<SensorFaultFound> AgainstTheOthers(const FittedModel& fitted,
+                                                 const MatrixXd& states) {
+  // Of two, neither is told by others.
+  if (!fitted.applicability->sessions || states.cols() < 3) return std::nullopt;
+  const std::vector<Suspect> suspects = SuspectsOf(fitted, states);
+  const auto best = std::ranges::max_element(suspects, {}, &Suspect::likelier);
+  return best->shown > 0.0 ? std::optional(best->found) : std::nullopt;
+}
+
+std::vector<double> WithoutEmpty(const VectorXd& readings) {
+  std::vector<double> values;
+  for (const double value : readings) {
+    if (!std::isnan(value)) values.push_back(value);
+  }
+  return values;
+}
+
+// A sensor without any reading: no row is whole, so the others cannot be held
+// against each other.
+std::optional<SensorFaultFound> Silent(const FittedModel& fitted,
+                                       const MatrixXd& states) {
+  for (Index column = 0; column < states.cols(); ++column) {
+    if (!states.col(column).array().isNaN().all()) continue;
+    return SensorFaultFound{.fault = SensorFault::kDead,
+                            .columns = {ColumnOf(fitted, column)},
+                            .value = stats::kNaN,
+                            .looks_like = ""};
+  }
+  return std::nullopt;
+}
+
+// A column that reads one value where it cannot be.
+void CallDead(const FittedModel& fitted,
+              const MatrixXd& readings,
+              SensorFaultFound* found) {
+  if (found->fault != SensorFault::kOff) return;
+  for (std::size_t i = 0; i < fitted.inputs.size(); ++i) {
+    const TrainedInput& input = fitted.inputs[i];
+    if (input.column.name != found->columns.front().name) continue;
+    const std::vector<double> values =
+        WithoutEmpty(readings.col(static_cast<Index>(i)));
+    const double value = values.front();
+    const double width = input.max - input.min;
+    const double beyond = std::max(input.min - value, value - input.max);
+    if (std::ranges::count(values, value) == std::ssize(values) &&
+        (value == 0.0 ? beyond > 0.0 : beyond > 2.0 * width)) {
+      found->fault = SensorFault::kDead;
+      found->value = value;
+    }
+  }
+}
+
+}  // namespace
+
+std::string_view ToString(SensorFault fault) {
+  switch (fault) {
+    case SensorFault::kUnit:
+      return "unit";
+    case SensorFault::kDead:
+      return "dead";
+    case SensorFault::kFrozen:
+      return "frozen";
+    case SensorFault::kSwapped:
+      return "swapped";
+    case SensorFault::kOff:
+      return "off";
+  }
+  return "";
+}
+
+std::optional<SensorFaultFound> FindSensorFault(const FittedModel& fitted,
+                                                const MatrixXd& readings) {
+  if (auto unit = OfAnotherUnit(fitted, readings)) return unit;
+  if (fitted.applicability == nullptr) return std::nullopt;
+  const MatrixXd all = readings(Eigen::all, fitted.applicability->columns);
+  if (auto silent = Silent(fitted, all)) return silent;
+  const MatrixXd states = WholeRows(all);
+  if (states.rows() == 0) return std::nullopt;
+  auto found = AgainstTheOthers(fitted, states);
+  if (!found) found = Frozen(fitted, states);
+  if (found) CallDead(fitted, readings, &*found);
+  return found;
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,236 @@
+#include "models/session/map_rows.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "data/measurements/column_checks.h"
+#include "data/measurements/joined_tables.h"
+#include "data/measurements/measured_files.h"
+#include "data/measurements/reading/directions.h"
+#include "data/measurements/reading/read_table.h"
+#include "data/measurements/row_filters.h"
+#include "data/measurements/sessions.h"
+#include "stats/indices.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+
+data::DatasetSelection SelectionFor(const FittedModel& fitted,
+                                    const data::CsvTable& table,
+                                    const MapRowsOptions& options) {
+  data::DatasetSelection selection{
+      .target = fitted.target.name,
+      .inputs = {},
+      .exclude = {},
+      .group = "",
+      .time = options.log.time,
+      .session = options.log.session,
+      .weight = "",
+      .align = fitted.align,
+      .missing = options.missing,
+      .faults = options.faults,
+      .keep_dead = true,
+      .where = FiltersFor(fitted, table),
+      .only_to_judge = true,
+      .with_log = fitted.align != data::Alignment::kNone};
+  for (const TrainedInput& input : fitted.inputs) {
+    selection.inputs.push_back(input.column.name);
+  }
+  return selection;
+}
+
+// Its column of positions; "" where nothing tells it.
+std::string PositionOf(const FittedModel& fitted) {
+  if (fitted.reading != nullptr && fitted.reading->position.column) {
+    return *fitted.reading->position.column;
+  }
+  for (const TrainedInput& input : fitted.inputs) {
+    if (data::IsPosition(input.column)) return input.column.name;
+  }
+  return "";
+}
+
+data::Dataset WithMapLog(const data::Dataset& dataset, const MapLog& map) {
+  if (map.log == nullptr) return dataset;
+  std::vector<Index> log_rows;
+  for (const Index row : dataset.rows()) {
+    log_rows.push_back(map.first_row + row);
+  }
+  return dataset.WithLog(map.log, std::move(log_rows));
+}
+
+data::FoundSessions FindSessionsOf(const FittedModel& fitted,
+                                   const data::CsvTable& table,
+                                   const std::vector<Index>& rows,
+                                   const MapLogArguments& arguments) {
+  data::DatasetSelection selection;
+  selection.time = arguments.time;
+  selection.session = arguments.session;
+  if (selection.session.empty() && fitted.history != nullptr &&
+      table.Find(fitted.history->session) >= 0) {
+    selection.session = fitted.history->session;
+  }
+  if (fitted.history != nullptr && fitted.history->gap > 0.0) {
+    selection.gap = data::CsvNumber(fitted.history->gap);
+  }
+  return data::FindSessions(table, selection, rows);
+}
+
+}  // namespace
+
+std::vector<data::ColumnFilter> FiltersFor(const FittedModel& fitted,
+                                           const data::CsvTable& table) {
+  std::vector<data::ColumnFilter> filters;
+  for (const data::ColumnFilter& filter : fitted.where) {
+    if (table.Find(filter.column) >= 0) filters.push_back(filter);
+  }
+  return filters;
+}
+
+std::vector<bool> RowsMadeFor(const FittedModel& fitted,
+                              const data::CsvTable& table) {
+  std::vector<bool> made_for(table.num_rows, true);
+  for (const data::ColumnFilter& filter : FiltersFor(fitted, table)) {
+    data::KeepPassing(table, filter, &made_for);
+  }
+  return made_for;
+}
+
+std::string MadeForText(const FittedModel& fitted,
+                        const data::CsvTable& table,
+                        const std::vector<bool>& made_for) {
+  const auto count = std::ranges::count(made_for, true);
+  if (count == std::ssize(made_for)) return "";
+  return fmt::format("{} of {} rows have {}, for which the map is made",
+                     count,
+                     made_for.size(),
+                     data::FiltersText(FiltersFor(fitted, table)));
+}
+
+data::TableForMap ReadForMap(const FittedModel& fitted,
+                             const std::vector<std::string>& files,
+                             MapColumns columns) {
+  std::vector<data::ColumnInfo> of_map;
+  for (const TrainedInput& input : fitted.inputs) {
+    of_map.push_back(input.column);
+  }
+  if (columns == MapColumns::kInputsAndTarget) of_map.push_back(fitted.target);
+  data::DatasetSelection selection;
+  if (fitted.history != nullptr) selection.session = fitted.history->session;
+  const bool by_file = selection.session == data::kFileColumn;
+  // Another column is looked for later, where --session may name it.
+  if (!by_file) selection.session.clear();
+  data::JoinedTable read = data::ReadTables(files, selection);
+  if (by_file && read.table.Find(data::kFileColumn) < 0) {
+    data::AddFileColumn(data::FileLabel(read.table.file), &read.table);
+  }
+  data::AddDerivedColumns(
+      fitted.where,
+      PositionOf(fitted),
+      columns == MapColumns::kInputsAndTarget ? fitted.target.name : "",
+      &read.table);
+  data::TableForMap result = data::InMapUnits(std::move(read.table), of_map);
+  result.remarks.insert(
+      result.remarks.begin(), read.remarks.begin(), read.remarks.end());
+  return result;
+}
+
+MomentsOfRows MomentsOf(const FittedModel& fitted,
+                        const data::CsvTable& table,
+                        const std::vector<Index>& rows,
+                        const MapLogArguments& arguments) {
+  const data::FoundSessions found =
+      FindSessionsOf(fitted, table, rows, arguments);
+  const bool has_times = found.time_column >= 0;
+  MomentsOfRows moments{.at = {}, .session_column = found.sessions.column};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto session = static_cast<std::size_t>(found.sessions.codes[i]);
+    moments.at.push_back(
+        {.session = found.sessions.labels[session],
+         .time = has_times ? found.time[static_cast<Index>(i)] : 0.0});
+  }
+  return moments;
+}
+
+Eigen::VectorXd ElapsedSinceStart(const FittedModel& fitted,
+                                  const MapRows& rows,
+                                  const MapLogArguments& arguments) {
+  const std::vector<Index> all =
+      stats::AllIndices(static_cast<Index>(rows.table.num_rows));
+  const std::vector<Moment> moments =
+      MomentsOf(fitted, rows.table, all, arguments).at;
+  std::map<std::string, double> start;
+  const auto begin = [&](const std::string& session, double time) {
+    const auto [at, is_new] = start.try_emplace(session, time);
+    if (!is_new) at->second = std::min(at->second, time);
+  };
+  for (const Moment& moment : moments) {
+    begin(moment.session, moment.time);
+  }
+  // The log of a map with a memory holds the rows before these, too.
+  if (const data::SessionLog* log = rows.dataset.log().get();
+      log != nullptr && log->time_unit == "s") {
+    for (std::size_t row = 0; row < log->sessions.codes.size(); ++row) {
+      const auto session = static_cast<std::size_t>(log->sessions.codes[row]);
+      begin(log->sessions.labels[session], log->time[static_cast<Index>(row)]);
+    }
+  }
+  Eigen::VectorXd elapsed(rows.dataset.num_rows());
+  for (Index i = 0; i < elapsed.size(); ++i) {
+    const Index row = rows.dataset.rows()[static_cast<std::size_t>(i)];
+    const Moment& moment = moments[static_cast<std::size_t>(row)];
+    elapsed[i] = moment.time - start.at(moment.session);
+  }
+  return elapsed;
+}
+
+Eigen::VectorXd PositionsOf(const FittedModel& fitted, const MapRows& rows) {
+  if (fitted.held_out == nullptr) return {};
+  const std::string& name = fitted.held_out->position;
+  const std::ptrdiff_t column = name.empty() ? -1 : rows.table.Find(name);
+  if (column < 0) return {};
+  const Eigen::VectorXd positions =
+      data::ValuesOfRows(rows.table.At(column), rows.dataset.rows());
+  return positions.allFinite() ? positions : Eigen::VectorXd{};
+}
+
+MapRows MakeMapRows(const FittedModel& fitted,
+                    data::CsvTable table,
+                    const MapRowsOptions& options) {
+  data::PreparedDataset prepared =
+      data::MakeDataset(table, SelectionFor(fitted, table, options));
+  if (std::string made_for =
+          MadeForText(fitted, table, RowsMadeFor(fitted, table));
+      !made_for.empty()) {
+    prepared.remarks.push_back(std::move(made_for));
+  }
+  MapLog map =
+      options.with_memory ? MakeMapLog(fitted, table, options.log) : MapLog{};
+  data::Dataset dataset = WithMapLog(prepared.dataset, map);
+  Missing missing = Missing::kNothing;
+  std::vector<Missing> missing_before(
+      static_cast<std::size_t>(dataset.num_rows()), Missing::kNothing);
+  if (map.log != nullptr) {
+    std::size_t at = 0;
+    for (const Index row : dataset.log_rows()) {
+      const Missing here = map.missing[static_cast<std::size_t>(row)];
+      missing_before[at++] = here;
+      if (here == Missing::kStart || missing == Missing::kNothing) {
+        missing = here;
+      }
+    }
+  }
+  return {.table = std::move(table),
+          .prepared = std::move(prepared),
+          .dataset = std::move(dataset),
+          .missing = missing,
+          .missing_before = std::move(missing_before),
+          .warnings = std::move(map.warnings)};
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "models/history/history.h"
+#include "models/map_experience.h"
+#include "models/sensors/sensor_check.h"
+#include "models/session/session_forecast.h"
+
+namespace errmap::models {
+
+/// Whether a map holds in a session, by a few measurements of it.
+enum class SessionStatus {
+  kHolds,
+  kOff,
+  kUnknown,
+  kHoldsSoFar,  // up to the last probe; of the rest nothing is known yet
+  kSensor,      // a sensor is at fault: its readings explain nothing
+};
+/// "holds", "off", "unknown", "holds so far", "sensor".
+std::string_view ToString(SessionStatus status);
+
+/// What would help where it does not.
+enum class Remedy {
+  kNone,
+  kRezero,   // an offset explains the error
+  kRefit,    // the shape is wrong
+  kUnknown,  // these probes cannot tell
+  kGain,     // the errors are so many times those predicted
+  kSign,     // they are those predicted, with the other sign
+};
+/// "none", "re-zero", "refit", "unknown", "gain", "sign".
+std::string_view ToString(Remedy remedy);
+
+/// A session is off where its RMSE is above so many times the one promised.
+inline constexpr double kOffRatio = 1.5;
+
+/// Whether an offset explains errors of this mean and RMS: it is three quarters
+/// or more of what their mean square has beyond the promised one. Re-zeroing
+/// then halves the error, or leaves no more than was promised.
+bool OffsetExplains(double mean, double rms, double promised);
+
+/// The RMSE of a part of the session, as probes tell it.
+struct RmseForecast {
+  double low = 0.0;  // 80 % lie between; target's unit
+  double high = 0.0;
+  double off_probability = 0.0;  // that it is above kOffRatio times the promise
+};
+
+struct SessionCheck {
+  /// What the map's memory lacks before a probe: what it says here is not what
+  /// it says in use, so nothing is known.
+  Missing missing = Missing::kNothing;
+  std::optional<SensorFaultFound> sensor;
+  SessionStatus status = SessionStatus::kUnknown;
+  Remedy remedy = Remedy::kNone;
+  Eigen::Index probes = 0;
+  double promised = 0.0;       // RMSE on unseen units, target's unit
+  double probe_rms = 0.0;      // likewise
+  double probe_mean = 0.0;     // likewise
+  double probe_scatter = 0.0;  // sd about their mean; NaN for one probe
+  double gain = 1.0;           // errors over predictions, of kGain and kSign
+  RmseForecast so_far;         // up to the last probe
+  std::optional<RmseForecast> later;  // after it; nothing where it ended
+  RmseForecast session;
+  /// Of the rest of the session, once the remedy was applied: its median RMSE.
+  double left = 0.0;
+  /// s since the session began: from then on it is not known whether the map
+  /// holds; nothing where no time is.
+  std::optional<double> next_probe;
+};
+
+/// Judges the probes of a session by what they make of its errors
+/// (ForecastSession). It holds where both the errors so far and those of the
+/// rest of the session are sure enough to be within kOffRatio times the
+/// promise, and is off where it is sure enough that those of the session are
+/// not. A remedy is one that is sure enough to leave no more than is there
+/// without it, and re-zeroing, a gain or a sign only where it leaves a session
+/// within the limit. `missing`, `sensor`: see SessionCheck; nothing else is
+/// judged then. Throws std::invalid_argument on no probes, other sizes, or what
+/// is not finite.
+SessionCheck CheckSession(const HeldOutErrors& errors,
+                          const SessionProbes& probes,
+                          Missing missing = Missing::kNothing,
+                          std::optional<SensorFaultFound> sensor = {});
+
+/// How well one probe at some time and place tells a unit's RMSE.
+struct ProbeSite {
+  double from = 0.0;  // elapsed, s; all of them without times in seconds
+  double until = 0.0;
+  double position_from = 0.0;  // NaN where no position is known
+  double position_until = 0.0;
+  /// In half of the cases the probe's size is within this factor of the unit's
+  /// RMSE.
+  double factor = 0.0;
+};
+
+/// Sites of held-out probes, the most telling first: quarters of the units'
+/// length by thirds of the positions. Left out are sites where half of the
+/// errors are 0: they tell nothing of a unit's size.
+std::vector<ProbeSite> RankProbeSites(const HeldOutErrors& errors);
+
+}  // namespace errmap::models

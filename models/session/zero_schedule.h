@@ -1,0 +1,78 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "models/error_model.h"
+#include "models/map_experience.h"
+
+namespace errmap::models {
+
+/// A map's offset is set anew, by a probe, where
+/// age / time + |change| / temperature reaches 1: of the time since the last
+/// probe and of what a temperature changed since then.
+struct ZeroTrigger {
+  double time = std::numeric_limits<double>::infinity();         // s
+  double temperature = std::numeric_limits<double>::infinity();  // its unit
+
+  bool is_clock() const;
+  double Spent(double age, double change) const;
+};
+
+/// What held-out sessions err by where a trigger is kept. A row at which a
+/// probe is due is judged by the old offset, then gives the new one; a
+/// session's first row is a probe. Unlike `compare --rezero` it judges rows
+/// after a gap longer than the interval, too: in use they come before a probe.
+struct ZeroedErrors {
+  ZeroTrigger trigger;
+  double probes = 0.0;     // a session
+  double rmse = 0.0;       // target's unit
+  double within_90 = 0.0;  // 90 % of the errors are at most that
+};
+
+/// When to probe again so that 90 % of a map's errors stay within a goal.
+struct ZeroSchedule {
+  std::size_t sessions = 0;
+  ZeroedErrors none;                 // the map as it is, no probe taken
+  std::vector<ZeroedErrors> clocks;  // by rising interval, the last infinite
+  /// The longest of them that serves; nothing where no probe serves as well.
+  std::optional<ZeroedErrors> clock;
+  bool no_probe_serves = false;  // 90 % of the errors are within the goal as is
+
+  /// Time and temperature beside that clock. Each session by what the others
+  /// chose, with no more probes on those than the clock takes.
+  struct Rule {
+    ZeroTrigger trigger;      // by all sessions
+    double rmse = 0.0;        // of sessions that had no part in it
+    double clock_rmse = 0.0;  // the best clock with no more probes than it took
+    std::size_t better = 0;   // sessions where it errs less than the clock
+    bool established = false;  // by enough of them, and by enough
+  };
+  std::optional<Rule> rule;  // nothing without a temperature or a clock
+
+  /// Whether anything keeps 90 % of the errors within the goal.
+  bool serves() const { return no_probe_serves || clock.has_value(); }
+  /// What to keep to: the rule where it is established. Never due where nothing
+  /// is to be kept to.
+  ZeroTrigger advised() const;
+};
+
+/// Whether the map's held-out errors are of whole sessions with times in s.
+bool KnowsAges(const FittedModel& fitted);
+
+/// Of such errors. `goal`: target's unit, above 0; NaN: the clocks alone.
+/// Throws std::invalid_argument where fewer than two sessions have two rows.
+ZeroSchedule ScheduleZeros(const HeldOutErrors& errors, double goal);
+
+/// The temperature (n x columns) whose changes go best with those of the
+/// residuals (n) of the same session, -1: none. `sessions`: the rows of each in
+/// order of time.
+Eigen::Index TellingTemperature(
+    const Eigen::MatrixXd& temperatures,
+    const Eigen::VectorXd& residuals,
+    const std::vector<std::vector<Eigen::Index>>& sessions);
+
+}  // namespace errmap::models

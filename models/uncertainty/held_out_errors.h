@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/measurements/dataset.h"
+#include "models/error_model.h"
+#include "models/map_experience.h"
+#include "models/study/study.h"
+
+namespace errmap::models {
+
+/// Of a model's predictions of `holdout`'s held-out rows; nothing where
+/// PromiseOf has nothing. `inputs` are those that the map reads: their
+/// temperatures alone can say in use when the next probe is due. A position is
+/// known from where a probe is taken, so it may be one that the map does not
+/// read.
+std::optional<HeldOutErrors> HeldOutErrorsOf(
+    const data::Dataset& dataset,
+    const Holdout& holdout,
+    const HoldoutResult& result,
+    const std::vector<TrainedInput>& inputs);
+
+/// Time since the first row of its session, for each row; zeros without a log.
+Eigen::VectorXd ElapsedOf(const data::Dataset& dataset);
+
+}  // namespace errmap::models

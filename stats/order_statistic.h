@@ -1,0 +1,26 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace errmap::stats {
+
+/// The value that stands at `rank` (0: the smallest) when `values`, a
+/// std::vector or an Eigen vector, are sorted. rank < values.size(); no NaN.
+template <typename Values>
+auto OrderStatistic(Values values, std::size_t rank) {
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// The median, of an even number of values the upper of the middle two: always
+/// one of the values. At least one, no NaN.
+template <typename Values>
+auto UpperMedian(Values values) {
+  const auto middle = static_cast<std::size_t>(values.size()) / 2;
+  return OrderStatistic(std::move(values), middle);
+}
+
+}  // namespace errmap::stats

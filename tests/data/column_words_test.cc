@@ -1,0 +1,38 @@
+#include "data/column_words.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace errmap::data {
+namespace {
+
+TEST(ErrorSign, TurnsWithEveryWordForACorrection) {
+  for (const char* name : {"correction_um",
+                           "abw_korr [um]",
+                           "Abw. Komp. [um]",
+                           "x comp [um]",
+                           "-error_um",
+                           "nominal - actual [um]"}) {
+    EXPECT_EQ(ErrorSign(name), -1) << name;
+  }
+  EXPECT_EQ(ErrorSign("Abweichung [um]"), 1);
+  EXPECT_EQ(ErrorSign("company"), 0);
+}
+
+TEST(IsCalled, TakesNoToolForADay) {
+  EXPECT_FALSE(IsCalled("gun", Word::kSession));
+  EXPECT_TRUE(IsCalled("Messtag", Word::kSession));
+}
+
+TEST(IsCalledPosition, IsInNoUnitOfErrors) {
+  EXPECT_TRUE(IsCalledPosition("X [mm]"));
+  EXPECT_TRUE(IsCalledPosition("Sollposition [mm]"));
+  for (const char* unit : {"um", "0.1um", "0.0001in", "nm", "arcsec"}) {
+    EXPECT_FALSE(IsCalledPosition("pos dev [" + std::string(unit) + "]"));
+    EXPECT_FALSE(IsCalledPosition("X [" + std::string(unit) + "]"));
+  }
+}
+
+}  // namespace
+}  // namespace errmap::data

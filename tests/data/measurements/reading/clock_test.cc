@@ -1,0 +1,218 @@
+#include "data/measurements/reading/clock.h"
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "data/csv.h"
+#include "data/measurements/dataset.h"
+#include "data/measurements/reading/reading.h"
+
+namespace errmap::data {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// Three days of four cycles to and fro over five positions; what stands in the
+// first columns of row i of 120 is given.
+using BeginOfRow = std::function<std::string(int row, double warm)>;
+
+std::string Days(const std::string& header, const BeginOfRow& cells) {
+  std::string text = header + ",x [mm],error [um]\n";
+  for (int i = 0; i < 120; ++i) {
+    const int cycle = i / 10 % 4;
+    const int at = i % 10 < 5 ? i % 10 : 9 - i % 10;
+    const double warm = 20.0 + 2.0 * cycle + i / 40;
+    const double noise = std::sin(12.9898 * (i + 1)) * 1e4;
+    const double error = 0.01 * at * (warm - 20.0) + (i % 10 < 5 ? 2.0 : -2.0) +
+                         0.1 * (noise - std::floor(noise));
+    text += cells(i, warm) + "," + std::to_string(100 * at) + "," +
+            CsvNumber(error) + "\n";
+  }
+  return text;
+}
+
+PreparedDataset MadeOf(const std::string& text,
+                       const DatasetSelection& selection = {}) {
+  return MakeDataset(ParseCsv(text, "f.csv"), selection);
+}
+
+std::string TwoDigits(int number) {
+  return (number < 10 ? "0" : "") + std::to_string(number);
+}
+
+// From 8:00 on.
+std::string HourOf(int minutes) {
+  return TwoDigits(8 + minutes / 60) + ":" + TwoDigits(minutes % 60);
+}
+
+// Rows 30 s apart in a unit of so many seconds, counted from `first`.
+PreparedDataset CountedIn(const std::string& name,
+                          double seconds,
+                          double first) {
+  return MadeOf(Days(name, [&](int i, double /*warm*/) {
+    const double elapsed = 30.0 * i + 54000.0 * (i / 40);
+    return std::to_string(first + elapsed / seconds);
+  }));
+}
+
+TEST(Clock, CountsInTheUnitThatItsNameStates) {
+  for (const char* name : {"t [d]", "Time (days)"}) {
+    const Reading reading = CountedIn(name, 86400.0, 0.0).reading;
+    EXPECT_EQ(reading.time.column, name);
+    EXPECT_EQ(reading.time.unit, "days");
+    EXPECT_TRUE(reading.time.sure);
+    EXPECT_NEAR(*reading.time.step_s, 30.0, 0.1);
+  }
+}
+
+// Windows counts 100 ns from 1601: 2024-03-04 08:00.
+TEST(Clock, KnowsTheTicksOfWindows) {
+  const Reading reading = CountedIn("FileTime", 1e-7, 1.3354012e17).reading;
+  EXPECT_EQ(reading.time.unit, "100ns");
+  EXPECT_NEAR(*reading.time.step_s, 30.0, 1e-3);
+  EXPECT_EQ(reading.sessions.count, 3);
+}
+
+// Each cycle its own clock: as many sessions as cycles, or one of them all.
+TEST(Clock, ThatBeginsAnewInEachCycleMakesTheSessionsUnsure) {
+  const Reading reading = MadeOf(Days("t_s", [](int i, double /*warm*/) {
+                            return std::to_string(5 * (i % 10));
+                          })).reading;
+  EXPECT_EQ(reading.sessions.count, 12);
+  EXPECT_FALSE(reading.sessions.sure);
+  EXPECT_THAT(ReadingLines(reading),
+              Contains(HasSubstr("or one, if the clock begins anew")));
+}
+
+TEST(Clock, IsNoThermometer) {
+  for (const char* name : {"temp data", "tempo", "heating time temp", "cas"}) {
+    const PreparedDataset prepared =
+        MadeOf(Days(name, [](int, double warm) { return CsvNumber(warm); }));
+    EXPECT_EQ(prepared.reading.time.column, std::nullopt) << name;
+    EXPECT_THAT(prepared.reading.sensors, ElementsAre(name));
+    EXPECT_EQ(prepared.reading.sessions.count, 1);
+  }
+  const PreparedDataset drifting =
+      MadeOf(Days("temp data", [](int i, double warm) {
+        return CsvNumber(warm + 0.01 * i);
+      }));
+  EXPECT_EQ(drifting.reading.time.column, std::nullopt);
+}
+
+TEST(Clock, IsWhatGoesOnByTheNameOfATime) {
+  for (const char* name : {"tempo", "czas", "hora inicio"}) {
+    const Reading reading = MadeOf(Days(name, [](int i, double) {
+                              return std::to_string(30 * i);
+                            })).reading;
+    EXPECT_EQ(reading.time.column, name);
+  }
+  // In another order, too.
+  const Reading shuffled = MadeOf(Days("tempo", [](int i, double) {
+                             return std::to_string(30 * (i * 7 % 120));
+                           })).reading;
+  EXPECT_EQ(shuffled.time.column, "tempo");
+}
+
+TEST(Clock, TakesNumbersFrom1970ForWhatTheyAre) {
+  struct Case {
+    const char* name;
+    double scale;
+    const char* unit;
+    const char* other;
+  };
+  for (const Case& epoch : {Case{"time [min]", 1.0, "s", "min"},
+                            Case{"timestamp_ms", 1.0, "s", "ms"},
+                            Case{"time [s]", 1000.0, "ms", "s"}}) {
+    const Reading reading =
+        MadeOf(Days(epoch.name, [&](int i, double) {
+          return CsvNumber(epoch.scale * (1772438400.0 + 60.0 * i));
+        })).reading;
+    EXPECT_EQ(reading.time.unit, epoch.unit) << epoch.name;
+    EXPECT_EQ(reading.time.origin, "1970");
+    EXPECT_EQ(reading.time.step_s, 60.0);
+    EXPECT_FALSE(reading.time.sure);
+    EXPECT_EQ(reading.time.alternative, epoch.other);
+  }
+  EXPECT_TRUE(MadeOf(Days("time [s]", [](int i, double) {
+                return CsvNumber(1772438400.0 + 60.0 * i);
+              })).reading.time.sure);
+}
+
+TEST(Clock, GoesOnWhereSummerTimeEndsAndSaysSo) {
+  // A row each minute; from row 60 on the clock is back by `minutes`.
+  const auto read = [](int minutes) {
+    return MadeOf(Days("time", [=](int i, double) {
+      return "2026-10-25 " + HourOf(i - (i >= 60 ? minutes : 0));
+    }));
+  };
+  const PreparedDataset summer = read(60);
+  EXPECT_EQ(summer.reading.sessions.count, 1);
+  EXPECT_THAT(summer.remarks,
+              Contains(HasSubstr("line 62 (data row 60), column 'time': the "
+                                 "clock is set back by an hour")));
+  for (const int minutes : {4, 20, 45}) {
+    const PreparedDataset set = read(minutes);
+    EXPECT_EQ(set.reading.sessions.count, 2) << minutes;
+    EXPECT_THAT(set.remarks, Not(Contains(HasSubstr("summer time"))));
+  }
+}
+
+TEST(Clock, TakesMidnightAt24ForTheEndOfADay) {
+  const auto read = [](bool at_24) {
+    return MadeOf(Days("time",
+                       [=](int i, double) {
+                         const int minutes = (20 * 60 + 3 * i) % (24 * 60);
+                         if (minutes == 0 && at_24) return std::string("24:00");
+                         return TwoDigits(minutes / 60) + ":" +
+                                TwoDigits(minutes % 60);
+                       }))
+        .reading;
+  };
+  EXPECT_EQ(read(true).sessions.count, read(false).sessions.count);
+  EXPECT_EQ(read(true).time.origin, "midnight");
+}
+
+TEST(Clock, KeepsTheDaysWhereACellLacks) {
+  // By Excel's numbers, and by words.
+  const auto of_excel = [](bool whole) {
+    return Days("Date,Time", [=](int i, double) {
+      return std::to_string(46000 + i / 40) + "," +
+             (i == 7 && !whole ? "" : CsvNumber(0.33 + 0.002 * (i % 40)));
+    });
+  };
+  const PreparedDataset excel =
+      MadeOf(of_excel(false), {.missing = MissingPolicy::kDropRows});
+  EXPECT_EQ(excel.reading.time.column, "Date + Time");
+  EXPECT_EQ(excel.reading.sessions.count, 3);
+  EXPECT_EQ(MadeOf(of_excel(true)).reading.sessions.count, 3);
+  // Without leave to drop rows there is no time, but no days as seconds either.
+  EXPECT_EQ(MadeOf(of_excel(false)).reading.time.column, std::nullopt);
+  const PreparedDataset words = MadeOf(Days("Datum,Uhrzeit", [](int i, double) {
+    return (i == 7 ? "" : TwoDigits(2 + i / 40) + ".03.2026") + "," +
+           HourOf(2 * (i % 40));
+  }));
+  EXPECT_EQ(words.reading.time.column, "Datum + Uhrzeit");
+  EXPECT_EQ(words.reading.sessions.count, 3);
+}
+
+TEST(Clock, ReadsNoDaysAsSeconds) {
+  const Reading reading =
+      MadeOf(Days("Date",
+                  [](int i, double) { return std::to_string(46000 + i / 40); }),
+             {.time = "Date"})
+          .reading;
+  EXPECT_EQ(reading.time.unit, "Excel days");
+  EXPECT_EQ(reading.time.step_s, 86400.0);
+}
+
+}  // namespace
+}  // namespace errmap::data

@@ -1,0 +1,155 @@
+#include "models/sensors/sensor_check.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "models/map_experience.h"
+#include "models/recipe_catalog.h"
+#include "models/uncertainty/promise.h"
+#include "tests/models/simulated_days.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using errmap::testing::FirstSessions;
+using errmap::testing::SimulatedDays;
+
+constexpr int kTrained = 6;
+constexpr int kLater = 4;
+
+// A map with a memory of six simulated days, and four later ones.
+class SensorsOfAThermalMachine : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const data::Dataset days = SimulatedDays(3, kTrained + kLater, 8);
+    const data::Dataset training = FirstSessions(days, kTrained);
+    map_ = new FittedModel(
+        MakeRecipe("poly:ridge:view=history:terms=linear")->Fit(training, {}));
+    AddExperience(training, map_);
+    later_ = new data::Dataset(FirstSessions(days, kTrained, false));
+  }
+  static void TearDownTestSuite() {
+    delete map_;
+    delete later_;
+  }
+
+  static MatrixXd Day(Index day) {
+    std::vector<Index> rows;
+    const std::vector<Index> sessions = later_->session_codes();
+    for (std::size_t i = 0; i < sessions.size(); ++i) {
+      if (sessions[i] == kTrained + day) rows.push_back(static_cast<Index>(i));
+    }
+    std::vector<Index> columns;
+    for (const TrainedInput& input : map_->inputs) {
+      columns.push_back(later_->FindInput(input.column.name));
+    }
+    return later_->input_values()(rows, columns);
+  }
+  static Index At(const std::string& name) {
+    for (std::size_t i = 0; i < map_->inputs.size(); ++i) {
+      if (map_->inputs[i].column.name == name) return static_cast<Index>(i);
+    }
+    ADD_FAILURE() << name;
+    return 0;
+  }
+  static std::string Found(const MatrixXd& readings) {
+    const auto found = FindSensorFault(*map_, readings);
+    if (!found) return "";
+    std::string text(ToString(found->fault));
+    for (const data::ColumnInfo& column : found->columns) {
+      text += " " + column.name;
+    }
+    return text;
+  }
+
+  static inline FittedModel* map_ = nullptr;
+  static inline data::Dataset* later_ = nullptr;
+};
+
+TEST_F(SensorsOfAThermalMachine, AreSoundOnDaysLikeThoseOfTraining) {
+  for (Index day = 0; day < kLater; ++day) {
+    EXPECT_EQ(Found(Day(day)), "") << day;
+    EXPECT_EQ(Found(Day(day).topRows(5)), "") << day;
+  }
+}
+
+TEST_F(SensorsOfAThermalMachine, AreNamedWhereOneIsOffDeadOrFrozen) {
+  for (const char* name : {"t05_degC", "t13_degC", "t28_degC"}) {
+    for (Index day = 0; day < kLater; ++day) {
+      MatrixXd off = Day(day);
+      off.col(At(name)).array() += 10.0;
+      EXPECT_EQ(Found(off), std::string("off ") + name) << day;
+      EXPECT_EQ(Found(off.topRows(5)), std::string("off ") + name) << day;
+      MatrixXd dead = Day(day);
+      dead.col(At(name)).setZero();
+      EXPECT_EQ(Found(dead), std::string("dead ") + name) << day;
+      MatrixXd frozen = Day(day);
+      frozen.col(At(name)).setConstant(frozen(0, At(name)));
+      const std::string found = Found(frozen);
+      EXPECT_NE(found.find(name), std::string::npos) << found;
+    }
+  }
+}
+
+TEST_F(SensorsOfAThermalMachine, AreNamedWhereCellsAreEmpty) {
+  const double empty = std::numeric_limits<double>::quiet_NaN();
+  MatrixXd dead = Day(0);
+  dead.col(At("t13_degC")).setZero();
+  dead(0, At("t13_degC")) = empty;
+  EXPECT_EQ(Found(dead), "dead t13_degC");
+  // Without a row that is whole nothing else could be judged.
+  MatrixXd silent = Day(0);
+  silent.col(At("t13_degC")).setConstant(empty);
+  EXPECT_EQ(Found(silent), "dead t13_degC");
+  EXPECT_TRUE(std::isnan(FindSensorFault(*map_, silent)->value));
+  MatrixXd often = Day(0);
+  often.col(At("t13_degC")).head(6 * often.rows() / 10).setConstant(empty);
+  EXPECT_EQ(Found(often), "");
+}
+
+TEST_F(SensorsOfAThermalMachine, AreNamedInTheUnitThatTheirFiguresFit) {
+  MatrixXd kelvin = Day(0);
+  kelvin.col(At("t05_degC")).array() += 273.15;
+  const auto found = FindSensorFault(*map_, kelvin);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->fault, SensorFault::kUnit);
+  EXPECT_EQ(found->looks_like, "K");
+}
+
+TEST_F(SensorsOfAThermalMachine, AreNamedWhereTwoAreSwapped) {
+  const std::vector<Index>& sensors = map_->applicability->columns;
+  int pairs = 0;
+  int named = 0;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    for (std::size_t j = i + 1; j < sensors.size(); ++j) {
+      MatrixXd swapped = Day(pairs % kLater);
+      swapped.col(sensors[i]).swap(swapped.col(sensors[j]));
+      const auto& inputs = map_->inputs;
+      const std::string wanted =
+          "swapped " +
+          inputs[static_cast<std::size_t>(sensors[i])].column.name + " " +
+          inputs[static_cast<std::size_t>(sensors[j])].column.name;
+      ++pairs;
+      named += Found(swapped) == wanted ? 1 : 0;
+    }
+  }
+  EXPECT_GE(pairs, 10);
+  EXPECT_GE(named, 0.95 * pairs);
+}
+
+TEST_F(SensorsOfAThermalMachine, AreSoundInAStateThatIsUnlikeInAllOfThem) {
+  MatrixXd warmer = Day(0);
+  for (const Index sensor : map_->applicability->columns) {
+    warmer.col(sensor).array() += 8.0;
+  }
+  EXPECT_EQ(Found(warmer), "");
+}
+
+}  // namespace
+}  // namespace errmap::models
