@@ -60,7 +60,9 @@ constexpr auto kWords = std::to_array<std::string_view>({
     // kCounter
     "segment record index row id sample messung versuch durchgang nr no "
     "number nummer zeile test trial repeat block batch hour hr minute min "
-    "second sec stunde sekunde ms msec",
+    "second sec stunde sekunde ms msec night nacht nuit notte noche week "
+    "woche semaine settimana semana visit campaign kampagne sitzung warmup "
+    "experiment dataset doy",
     // kPart
     "machine maschine tool werkzeug pallet palette station operator",
     // kComponent

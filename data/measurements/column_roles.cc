@@ -477,9 +477,14 @@ bool CountsRows(const CsvColumn& column) {
 }
 
 bool KeepsRecord(std::string_view name) {
-  return IsCalled(name, Word::kCounter) || IsCalled(name, Word::kCycle) ||
-         IsCalled(name, Word::kSession) || IsCalled(name, Word::kRun) ||
-         NamesTime(name) || StartsWithIgnoringCase(name, "truth");
+  const std::vector<std::string> words = WordsOf(name);
+  const bool is_number_of = words.size() > 1 &&
+                            IsOneOf(words.back(), "no nr number nummer num") &&
+                            !IsCalled(name, Word::kPart);
+  return is_number_of || IsCalled(name, Word::kCounter) ||
+         IsCalled(name, Word::kCycle) || IsCalled(name, Word::kSession) ||
+         IsCalled(name, Word::kRun) || NamesTime(name) ||
+         StartsWithIgnoringCase(name, "truth");
 }
 
 bool IsSensor(const ColumnInfo& column) {

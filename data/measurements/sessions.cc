@@ -33,7 +33,9 @@ class SessionFinder : private RowColumns {
         clock_(std::move(clues.clock)),
         nights_(clues.nights),
         passes_(std::move(clues.passes)),
-        cycle_(clues.cycle) {
+        cycles_(std::move(clues.cycles)),
+        blocks_(clues.blocks),
+        rows_repeat_(clues.rows_repeat) {
     found_.ordered = clues.ordered;
   }
 
@@ -59,6 +61,32 @@ class SessionFinder : private RowColumns {
     found_.date_column = clock_.date_column;
     found_.dated = clock_.dated;
     found_.time_unit = clock_.is_found() ? "s" : "rows";
+    if (!selection_.time.empty() || !BeginsAnewInPasses()) return;
+    PassOver(false,
+             QuotedName(TimeColumn().name) +
+                 " begins anew with each pass along the axis, so it tells no "
+                 "pauses between them",
+             "",
+             &found_.remarks);
+    UseRowNumbers();
+  }
+
+  // Whether the time goes back where nearly each pass begins, and nowhere else.
+  bool BeginsAnewInPasses() const {
+    constexpr Index kFewestPasses = 3;
+    if (!clock_.is_found() || passes_.empty() ||
+        passes_.back() + 1 < kFewestPasses) {
+      return false;
+    }
+    Index back = 0;
+    for (std::size_t i = 1; i < passes_.size(); ++i) {
+      const auto at = static_cast<Index>(i);
+      if (!(found_.time[at] < found_.time[at - 1])) continue;
+      if (passes_[i] == passes_[i - 1]) return false;
+      ++back;
+    }
+    constexpr Index kNearlyAll = 90;  // percent
+    return 100 * back >= kNearlyAll * passes_.back();
   }
 
   void UseRowNumbers() {
@@ -128,13 +156,18 @@ class SessionFinder : private RowColumns {
     }
     // A column of dates tells the days where the time does not.
     if (found_.time_column >= 0 && !clock_.hours_alone) return;
+    const std::optional<std::size_t> date = DateColumn();
+    if (date && TakeSessions(*date, false)) found_.by = "dates";
+  }
+
+  // The only column of dates without hours.
+  std::optional<std::size_t> DateColumn() const {
     const auto dates = ColumnsOf([&](const CsvColumn& column) {
       const TextTimes times = ReadTimes(column);
       return column.is_text() && times.all && times.any && !times.any_hours;
     });
-    if (dates.size() == 1 && TakeSessions(dates.front(), false)) {
-      found_.by = "dates";
-    }
+    if (dates.size() != 1) return std::nullopt;
+    return dates.front();
   }
 
   // Whether one clock runs through all of several files, so that its pauses
@@ -163,9 +196,14 @@ class SessionFinder : private RowColumns {
     const std::vector<Index>& codes = found_.sessions.codes;
     const CsvColumn& column = table_.columns[index];
     if (found_.sessions.labels.size() < 2) return "";
-    if (Says(column.name, Word::kRun) && !passes_.empty() &&
-        IsPassOfEach(codes)) {
+    // Days, and what is called a session, may be of one pass each.
+    const bool is_surely = Says(column.name, Word::kDay) ||
+                           EqualsIgnoringCase(column.name, "session");
+    if (!is_surely && !passes_.empty() && IsPassOfEach(codes)) {
       return "numbers passes along the axis, which are no sessions";
+    }
+    if (come_again_ && (found_.dated || DateColumn())) {
+      return "comes again on other days";
     }
     if (!found_.dated || column.name == kFileColumn) return "";
     // A shift goes on over midnight.
@@ -243,10 +281,41 @@ class SessionFinder : private RowColumns {
                        ArgumentName("session"));
     }
     sessions.codes = std::move(codes);
+    if (!named && !rows_repeat_) PartWhatComesAgain(&sessions);
     found_.sessions = std::move(sessions);
     found_.by = "column";
     found_.evidence = Evidence::kName;
     return true;
+  }
+
+  // "day", "night", "day" are three sessions, the last of them "day (2)".
+  void PartWhatComesAgain(Grouping* sessions) {
+    constexpr std::size_t kFewestRows = 8;
+    const std::vector<Index> starts = RunStarts(sessions->codes);
+    come_again_ = starts.size() > sessions->labels.size();
+    if (!found_.ordered || !come_again_ ||
+        rows_.size() < kFewestRows * starts.size()) {
+      return;
+    }
+    std::vector<Index> times(sessions->labels.size(), 0);
+    std::vector<std::string> labels;
+    std::vector<Index> codes = sessions->codes;
+    for (std::size_t run = 0; run < starts.size(); ++run) {
+      const auto first = static_cast<std::size_t>(starts[run]);
+      const auto code = static_cast<std::size_t>(sessions->codes[first]);
+      const std::size_t end = run + 1 < starts.size()
+                                  ? static_cast<std::size_t>(starts[run + 1])
+                                  : codes.size();
+      std::fill(codes.begin() + static_cast<std::ptrdiff_t>(first),
+                codes.begin() + static_cast<std::ptrdiff_t>(end),
+                static_cast<Index>(run));
+      const Index time = ++times[code];
+      labels.push_back(
+          sessions->labels[code] +
+          (time > 1 ? " (" + std::to_string(time) + ")" : std::string()));
+    }
+    sessions->labels = std::move(labels);
+    sessions->codes = std::move(codes);
   }
 
   void RefuseTimeGoingBack() const {
@@ -300,13 +369,28 @@ class SessionFinder : private RowColumns {
     found_.evidence =
         selection_.gap.empty() ? Evidence::kValues : Evidence::kUser;
     if (found_.by != "one") return;
-    if (CountsAnew()) {
-      CutWhere(
-          [&](std::size_t i) { return CellOfCycle(i) < CellOfCycle(i - 1); });
-      found_.by = "counter";
-    } else if (found_.time_column < 0 && found_.ordered) {
-      TakeBlocksOfWords();
+    if (CutWhereCyclesCountAnew()) return;
+    if (found_.time_column >= 0 || !found_.ordered) return;
+    if (blocks_ >= 0 &&
+        TakeSessions(static_cast<std::size_t>(blocks_), false)) {
+      found_.evidence = Evidence::kValues;
+      return;
     }
+    TakeBlocksOfWords();
+  }
+
+  bool CutWhereCyclesCountAnew() {
+    for (const std::ptrdiff_t column : cycles_) {
+      if (column < 0 || !CountsAnew(table_.At(column))) continue;
+      const ColumnValues& cycle = table_.At(column).values;
+      CutWhere([&](std::size_t i) {
+        return cycle[DataRow(i)] < cycle[DataRow(i - 1)];
+      });
+      found_.by = "counter";
+      found_.counter = table_.At(column).name;
+      return true;
+    }
+    return false;
   }
 
   // Where there is no clock, words that change a few times down the rows and
@@ -362,32 +446,29 @@ class SessionFinder : private RowColumns {
     }
   }
 
-  double CellOfCycle(std::size_t i) const {
-    return table_.At(cycle_).values[DataRow(i)];
-  }
-
-  // Whether cycles count from the first one again, some rows each.
-  bool CountsAnew() const {
-    if (cycle_ < 0 || !found_.ordered || table_.At(cycle_).is_text() ||
-        !table_.At(cycle_).exceptions.empty()) {
+  // Whether cycles, some rows each, count anew now and then.
+  bool CountsAnew(const CsvColumn& column) const {
+    if (!found_.ordered || column.is_text() || !column.exceptions.empty()) {
       return false;
     }
     std::size_t runs = 1;
-    bool anew = false;
+    std::size_t back = 0;
     for (std::size_t i = 1; i < rows_.size(); ++i) {
-      const double step = CellOfCycle(i) - CellOfCycle(i - 1);
+      const double step =
+          column.values[DataRow(i)] - column.values[DataRow(i - 1)];
       runs += step != 0.0 ? 1 : 0;
-      if (!(step < 0.0)) continue;
-      if (CellOfCycle(i) > CellOfCycle(0)) return false;
-      anew = true;
+      back += step < 0.0 ? 1 : 0;
     }
-    return anew && rows_.size() >= 2 * runs;
+    return back > 0 && runs >= 2 * back && rows_.size() >= 2 * runs;
   }
 
   Clock clock_;
   Nights nights_;
   std::vector<Index> passes_;
-  std::ptrdiff_t cycle_;
+  std::vector<std::ptrdiff_t> cycles_;
+  std::ptrdiff_t blocks_;
+  bool rows_repeat_;
+  bool come_again_ = false;  // names of sessions, after others
   FoundSessions found_;
 };
 

@@ -55,7 +55,8 @@ struct FoundSessions {
   std::vector<bool> known;          // (n) false: the time or session is missing
   bool ordered = true;     // false: sorted by something else, no time is known
   std::string by = "one";  // Reading::Sessions
-  double gap = 0.0;        // s, of a night; 0: not looked for
+  std::string counter = {};  // column that begins anew with each, if one does
+  double gap = 0.0;          // s, of a night; 0: not looked for
   Evidence evidence = Evidence::kNone;
   /// What was found, one line each; nothing of one run without a time.
   std::vector<std::string> remarks;
@@ -71,8 +72,9 @@ struct FoundSessions {
 /// kSessionColumns that there is, else of several files kFileColumn, else,
 /// where time has no dates, the only column that holds nothing but dates;
 /// without one they are cut where time goes back or leaps by more than 20
-/// median steps. A column that nobody named and that will not do is passed over
-/// with a remark; "none" names none, save where a column is called so. The
+/// median steps. What comes again after another ("day", "night", "day") begins
+/// another session. A column that nobody named and that will not do is passed
+/// over with a remark; "none" names none, save where a column is called so. The
 /// target and the weight are neither.
 ///
 /// Throws InputError, with row and remedy, where a named column is not there,
@@ -87,9 +89,11 @@ FoundSessions FindSessions(const CsvTable& table,
 struct SessionClues {
   Clock clock;
   Nights nights;
-  std::vector<Eigen::Index> passes = {};  // (n) along the axis; may be empty
-  std::ptrdiff_t cycle = -1;              // index of the column of cycles
+  std::vector<Eigen::Index> passes = {};    // (n) along the axis; may be empty
+  std::vector<std::ptrdiff_t> cycles = {};  // columns that count them; -1: none
+  std::ptrdiff_t blocks = -1;  // column that counts blocks of several cycles
   bool ordered = true;
+  bool rows_repeat = false;  // some stand twice: what comes again is the same
 };
 FoundSessions FindSessions(const CsvTable& table,
                            const DatasetSelection& selection,

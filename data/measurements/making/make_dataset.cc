@@ -122,14 +122,14 @@ class DatasetBuilder {
     inputs_ = std::move(chosen.inputs);
     dropped_ = std::move(chosen.dropped);
     words_ = std::move(chosen.words);
-    LeaveOutMeasuredPositions();
+    LeaveOutWhatMeasuresNothing();
     remarks_.insert(
         remarks_.end(), chosen.remarks.begin(), chosen.remarks.end());
   }
 
   // Where a position was measured is known after the fact only; what numbers
-  // the positions says them once more.
-  void LeaveOutMeasuredPositions() {
+  // the positions says them once more, and what counts measures nothing.
+  void LeaveOutWhatMeasuresNothing() {
     const std::string axis = NameInRemark(read_.position);
     for (const std::size_t column : read_.axis.measured) {
       LeaveOut(column,
@@ -139,6 +139,13 @@ class DatasetBuilder {
     }
     for (const std::size_t column : read_.axis.numbers) {
       LeaveOut(column, "numbers the positions of " + axis);
+    }
+    for (const Counter& counter : read_.counters) {
+      if (counter.counts == Counted::kElapsed) continue;
+      LeaveOut(counter.column, std::string(ToString(counter.counts)));
+    }
+    for (const std::size_t column : read_.date_parts) {
+      LeaveOut(column, "is a part of the date");
     }
   }
 

@@ -111,7 +111,7 @@ class ClockFinder : private RowColumns {
         if (IsMeasured(i)) continue;
         if (CountsFrom1970(column)) found[0].push_back(i);
         if (!GoesOn(column)) continue;
-        (IsCalledTime(column.name) ? found[1] : found[2]).push_back(i);
+        (IsCalledTime(column) ? found[1] : found[2]).push_back(i);
       }
     }
     return found;
@@ -124,10 +124,9 @@ class ClockFinder : private RowColumns {
     const Unit unit = UnitOfColumn(column.name);
     const bool says_time = Says(column.name, Word::kTime);
     const bool says_date = Says(column.name, Word::kDate);
-    if (!(says_time || says_date) || Says(column.name, Word::kTemperature)) {
-      return false;
-    }
+    if (!(says_time || says_date)) return false;
     if (unit.quantity == Quantity::kTime) return true;
+    if (Says(column.name, Word::kTemperature)) return false;
     if (!unit.symbol.empty() || CountsCycles({column.name, {}})) return false;
     const std::vector<double> values = ValuesOf(column);
     const Pace pace = PaceOf(values);
@@ -167,23 +166,26 @@ class ClockFinder : private RowColumns {
     return 100 * even >= kNearlyAll * std::ssize(steps);
   }
 
-  // In a unit of time, or called by one ("ms", "t").
-  static bool IsCalledTime(std::string_view name) {
-    return UnitOfColumn(name).quantity == Quantity::kTime ||
-           StatedUnit(name) != nullptr || EqualsIgnoringCase(name, "t");
+  // In a unit of time, or called by one ("ms", "t", "MJD").
+  bool IsCalledTime(const CsvColumn& column) const {
+    return UnitOfColumn(column.name).quantity == Quantity::kTime ||
+           StatedUnit(column.name) != nullptr ||
+           EqualsIgnoringCase(column.name, "t") ||
+           NamedEpoch(column.name, PaceOf(ValuesOf(column)));
   }
 
   // What goes on with the rows: in a unit of time most often, else with each
   // row but where it begins anew, in steps that are not all the same, as those
   // of a number of the row are.
   bool GoesOn(const CsvColumn& column) const {
-    const bool called = IsCalledTime(column.name);
+    const bool called = IsCalledTime(column);
     if (column.is_text() || !column.exceptions.empty() || rows_.size() < 2 ||
         !(called || UnitOfColumn(column.name).symbol.empty())) {
       return false;
     }
     const std::vector<double> values = ValuesOf(column);
-    if (called) return GoesForward(values);
+    if (NamedEpoch(column.name, PaceOf(values))) return true;
+    if (called) return GoesForward(values) || AreEven(values);
     if (Says(column.name, Word::kTemperature) ||
         (Says(column.name, Word::kDate) && AreWholeDays(values))) {
       return false;
@@ -191,7 +193,9 @@ class ClockFinder : private RowColumns {
     std::size_t back = 0;
     std::size_t on = 0;
     bool even = true;
+    bool whole = values[0] == std::floor(values[0]);
     for (std::size_t i = 1; i < values.size(); ++i) {
+      whole = whole && values[i] == std::floor(values[i]);
       on += values[i] > values[i - 1] ? 1 : 0;
       back += values[i] < values[i - 1] ? 1 : 0;
       even = even && (i < 2 || std::abs(values[i] + values[i - 2] -
@@ -199,7 +203,7 @@ class ClockFinder : private RowColumns {
     }
     constexpr std::size_t kFewest = 24;
     constexpr std::size_t kHardly = 50;
-    return values.size() >= kFewest && !even &&
+    return values.size() >= kFewest && !even && !whole &&
            kHardly * back < values.size() && on + back + 1 == values.size() &&
            !CountsCycles({column.name, {}}) && !IsCalledPosition(column.name);
   }
@@ -273,8 +277,12 @@ class ClockFinder : private RowColumns {
                       : as_numbers ? Evidence::kName
                                    : Evidence::kNameAndValues;
     if (as_numbers) {
-      AddDaysOfExcel(&values, &known);
-      ToSeconds(column.name, named, &values);
+      if (ArePartsOfDays(column.name, values)) {
+        Scale(*FindTimeUnit("days"), 0.0, &values);
+      } else {
+        ToSeconds(column.name, named, &values);
+      }
+      if (!clock_.dated && TellsTheHour(values)) AddDates(&values, &known);
     } else {
       clock_.unit = "date";
       clock_.dated = times.all_dates;
@@ -283,6 +291,7 @@ class ClockFinder : private RowColumns {
                       : times.elapsed ? "begin"
                                       : "midnight";
       SayOrder(column, times);
+      if (times.elapsed) RefuseMinutesAlone(column, values);
       if (clock_.hours_alone) AddDates(&values, &known);
     }
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -292,10 +301,59 @@ class ClockFinder : private RowColumns {
     HoldLast(clock_.known, &clock_.time);
   }
 
+  // Minutes and seconds that begin again after the 60th minute, as spreadsheets
+  // show a clock (59:58.1, 00:03.1): how many hours passed, nobody can tell.
+  void RefuseMinutesAlone(const CsvColumn& column,
+                          const std::vector<double>& values) const {
+    constexpr double kHour = 3600.0;
+    constexpr double kNearTheEnd = 300.0;
+    const Pace pace = PaceOf(values);
+    if (pace.most >= kHour || pace.most < kHour - kNearTheEnd ||
+        pace.least > kNearTheEnd) {
+      return;
+    }
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      if (!(values[i] < values[i - 1])) continue;
+      throw InputError(table_.Where(DataRow(i), column.name) + ": " +
+                       QuotedText(table_.CellText(column, DataRow(i))) +
+                       " comes after " +
+                       QuotedText(table_.CellText(column, DataRow(i - 1))) +
+                       ", so the hours are missing; write hours, minutes and "
+                       "seconds (08:59:58.1), or leave the clock out with " +
+                       ArgumentName("time", "none"));
+    }
+  }
+
   void SayOrder(const CsvColumn& column, const TextTimes& times) {
     if (times.order.empty()) return;
     clock_.remarks.push_back("the dates of " + NameInRemark(column.name) +
                              " are read as " + times.order);
+  }
+
+  // As Excel counts hours beside a column of dates.
+  bool ArePartsOfDays(const std::string& name,
+                      const std::vector<double>& values) const {
+    return StatedUnit(name) == nullptr && DateColumn() >= 0 &&
+           std::ranges::none_of(
+               values, [](double part) { return part < 0.0 || part >= 1.0; });
+  }
+
+  // Whether seconds may be those of each day: below 86400, and back or far on
+  // where the date beside them changes, which what runs through the days is
+  // not.
+  bool TellsTheHour(const std::vector<double>& values) const {
+    const std::ptrdiff_t date = DateColumn();
+    if (date < 0) return false;
+    const CsvColumn& dates = table_.At(date);
+    const double pause = kLeapSteps * PaceOf(values).step;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (values[i] < 0.0 || values[i] >= kSecondsOfDay) return false;
+      const bool same =
+          i == 0 || dates.TextAt(DataRow(i)) == dates.TextAt(DataRow(i - 1));
+      const double step = same ? 0.0 : values[i] - values[i - 1];
+      if (step > 0.0 && step <= pause) return false;
+    }
+    return true;
   }
 
   // The days of hours that stand in a column of their own.
@@ -318,22 +376,6 @@ class ClockFinder : private RowColumns {
     clock_.hours_alone = false;
     clock_.origin = "1970";
     SayOrder(column, dates);
-  }
-
-  // Parts of a day beside a column of Excel's numbers of days.
-  void AddDaysOfExcel(std::vector<double>* values, std::vector<bool>* known) {
-    if (std::ranges::any_of(
-            *values, [](double part) { return part < 0.0 || part >= 1.0; })) {
-      return;
-    }
-    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
-      const CsvColumn& column = table_.columns[i];
-      if (!IsCalled(column.name, Word::kDate) || column.is_text()) continue;
-      std::vector<double> days = ValuesOf(column);
-      if (!AreWholeDays(days)) continue;
-      AddDays(static_cast<std::ptrdiff_t>(i), std::move(days), values, known);
-      return;
-    }
   }
 
   // Adds the days (NaN: missing) of another column to times of day. Between
@@ -400,6 +442,12 @@ class ClockFinder : private RowColumns {
       return;
     }
     const Pace pace = PaceOf(*values);
+    if (const auto epoch = NamedEpoch(name, pace)) {
+      Scale(*epoch->unit, epoch->offset, values);
+      TakeEpoch(*epoch);
+      clock_.unit = "days";
+      return;
+    }
     const bool is_date = Says(name, Word::kDate) && AreWholeDays(*values);
     const bool is_time = named || Says(name, Word::kTime) ||
                          Says(name, Word::kDate) || NamesTime(name);

@@ -36,6 +36,7 @@ void DescribeSessions(const CsvTable& table,
     sessions.column = found.sessions.column;
   }
   sessions.by = found.by;
+  sessions.counter = found.counter;
   sessions.count = std::ssize(found.sessions.labels);
   sessions.evidence = found.evidence;
   sessions.sure = found.by != "one" || nights.sure;
@@ -80,12 +81,6 @@ void DescribeSessions(const CsvTable& table,
   if (group != kNoColumn) {
     read->reading.cycles.count = std::ssize(cycles);
   }
-  constexpr std::int64_t kFewest = 3;
-  if (found.by == "clock" && sessions.count >= kFewest &&
-      read->reading.cycles.count == sessions.count) {
-    sessions.sure = false;
-    sessions.alternative = "one, if the clock begins anew in each cycle";
-  }
 }
 
 void DescribeTime(const CsvTable& table,
@@ -129,7 +124,8 @@ void DescribeReading(const CsvTable& given,
   } else {
     reading.position.sure = true;
   }
-  DescribeTime(table, clock, &reading.time);
+  const bool is_used = !selection.with_log || read->found.time_column >= 0;
+  DescribeTime(table, is_used ? clock : Clock(), &reading.time);
   if (!read->found.sessions.labels.empty()) {
     DescribeSessions(table, clock, nights, read);
   }

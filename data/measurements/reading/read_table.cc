@@ -15,8 +15,8 @@
 #include "data/measurements/faults/row_faults.h"
 #include "data/measurements/reading/derived_columns.h"
 #include "data/measurements/reading/describe_reading.h"
+#include "data/measurements/reading/digit_dates.h"
 #include "data/measurements/reading/directions.h"
-#include "data/measurements/reading/pass_counter.h"
 #include "data/measurements/row_filters.h"
 #include "data/text.h"
 
@@ -51,6 +51,7 @@ class TableReader {
 
   ReadTable Read() {
     read_.where = selection_.where;
+    TakeDigitDates();
     TakeTarget();
     read_.roles = ChooseRoles(table(), WithoutDerivedCycles());
     read_.reading.rows = static_cast<std::int64_t>(given_.num_rows);
@@ -62,6 +63,14 @@ class TableReader {
     }
     FindOrder();
     FindDirection();
+    if (ordered_) {
+      const Motion& motion = Passes();
+      read_.counters = FindCounters(table(),
+                                    selection_,
+                                    read_.roles.target,
+                                    base_rows_,
+                                    motion.is_commanded ? motion : Motion());
+    }
     FindCycles();
     if (!selection_.group.empty() && read_.roles.group == kNoColumn) {
       RequireColumn(table(), selection_.group, ArgumentName("group"));
@@ -80,6 +89,18 @@ class TableReader {
   }
   const std::string& Name(std::size_t column) const {
     return table().columns[column].name;
+  }
+
+  void TakeDigitDates() {
+    DigitDates dates = FindDigitDates(given_);
+    for (DigitDates::Rewritten& rewritten : dates.columns) {
+      AddColumn(std::move(rewritten.text));
+      if (rewritten.column >= given_.columns.size()) continue;
+      std::swap(read_.table->columns[rewritten.column],
+                read_.table->columns.back());
+      read_.table->columns.pop_back();
+    }
+    read_.date_parts = std::move(dates.parts);
   }
 
   // "-correction_um": the error that a correction is against; or a difference.
@@ -421,8 +442,7 @@ class TableReader {
         given_.Find(kCycleColumn) >= 0) {
       return;
     }
-    const std::ptrdiff_t counter = PassCounter(
-        table(), selection_, read_.roles.target, base_rows_, motion);
+    const std::ptrdiff_t counter = FirstThatCounts(Counted::kPasses);
     if (counter >= 0) {
       read_.roles.group = counter;
       cycles = {.column = table().At(counter).name,
@@ -444,6 +464,15 @@ class TableReader {
               .count = motion.num_passes,
               .evidence = Evidence::kValues,
               .sure = true};
+  }
+
+  // -1: none.
+  std::ptrdiff_t FirstThatCounts(Counted counted) const {
+    const auto found =
+        std::ranges::find(read_.counters, counted, &Counter::counts);
+    return found == read_.counters.end()
+               ? -1
+               : static_cast<std::ptrdiff_t>(found->column);
   }
 
   // ---- Rows and sessions.
@@ -482,8 +511,13 @@ class TableReader {
     SessionClues clues{.clock = clock_,
                        .nights = nights_,
                        .passes = {},
-                       .cycle = read_.roles.group,
-                       .ordered = ordered_};
+                       .cycles = {read_.roles.group,
+                                  FirstThatCounts(Counted::kPasses),
+                                  FirstThatCounts(Counted::kElapsed),
+                                  FirstThatCounts(Counted::kWays)},
+                       .blocks = FirstThatCounts(Counted::kBlocks),
+                       .ordered = ordered_,
+                       .rows_repeat = !read_.repeated_rows.empty()};
     const bool has_passes = Passes().is_commanded;
     if (read_.log_rows.size() == base_rows_.size()) {
       if (has_passes) clues.passes = Passes().passes;
@@ -555,7 +589,7 @@ FoundSessions FindSessions(const CsvTable& table,
   if (!axis.motion.is_sorted) GoOnOverMidnight(table, rows, &clues.clock);
   if (axis.motion.is_commanded) clues.passes = axis.motion.passes;
   clues.nights = NightsOf(clues.clock, axis.motion, selection);
-  clues.cycle = CycleColumn(table);
+  clues.cycles = {CycleColumn(table)};
   return FindSessions(table, selection, rows, std::move(clues));
 }
 

@@ -8,6 +8,7 @@
 #include "data/measurements/column_roles.h"
 #include "data/measurements/dataset.h"
 #include "data/measurements/reading/axis.h"
+#include "data/measurements/reading/counting.h"
 #include "data/measurements/reading/reading.h"
 #include "data/measurements/sessions.h"
 
@@ -26,7 +27,9 @@ struct ReadTable {
   std::vector<Eigen::Index> log_rows;       // that pass; none without a log
   FoundSessions found;                      // of those
   Axis axis;
-  std::string position;  // column of the axis, or ""
+  std::vector<Counter> counters;
+  std::vector<std::size_t> date_parts;  // of a date that is one more column
+  std::string position;                 // column of the axis, or ""
   Reading reading;
 };
 

@@ -24,8 +24,7 @@ std::string SessionsText(const Reading& reading) {
     text += " (by nights in " + NameInRemark(reading.time.column.value_or("")) +
             ")";
   } else if (sessions.by == "counter") {
-    text += " (" + NameInRemark(reading.cycles.column.value_or("")) +
-            " begins anew)";
+    text += " (" + NameInRemark(sessions.counter) + " begins anew)";
   } else if (sessions.by == "file") {
     text += " (one a file)";
   } else if (sessions.column) {

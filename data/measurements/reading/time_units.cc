@@ -24,7 +24,20 @@ constexpr auto kTimeUnits = std::to_array<TimeUnit>({{"s", 1.0},
                                                      {"h", 3600.0},
                                                      {"days", kSecondsOfDay}});
 
-constexpr double kExcelDaysTo1970 = 25569.0;
+// Units as words.
+constexpr auto kSpelledOut =
+    std::to_array<std::pair<std::string_view, std::string_view>>(
+        {{"s",
+          "sec secs second seconds sek sekunde sekunden seconde secondes "
+          "secondi segundo segundos sekunder"},
+         {"us", "us"},
+         {"ns", "ns"},
+         {"min",
+          "min mins minute minutes minuten minuti minuto minutos minuter"},
+         {"h",
+          "hr hrs hour hours std stunde stunden heure heures ore hora horas "
+          "timmar"},
+         {"days", "days tage jours giorni dias doy"}});
 
 }  // namespace
 
@@ -43,16 +56,20 @@ const TimeUnit* StatedUnit(std::string_view column) {
       EqualsIgnoringCase(header.unit_text, "days")) {
     return FindTimeUnit("days");
   }
-  const std::vector<std::string> words = WordsOf(column);
-  const std::string last = words.empty() ? "" : words.back();
-  if (std::ranges::count(words, "seconds") > 0) return FindTimeUnit("s");
-  if (last == "d" || last == "day" || last == "days" || last == "tage") {
-    return words.size() > 1 ? FindTimeUnit("days") : nullptr;
+  std::vector<std::string> words = WordsOf(column);
+  // "seconds since the start", "sec_of_day".
+  const auto of = std::ranges::find_if(words, [](const std::string& word) {
+    return IsOneOf(word, "of since seit depuis from");
+  });
+  if (of != words.begin()) words.erase(of, words.end());
+  if (words.empty()) return nullptr;
+  // "Day" alone is a session.
+  if (words.size() > 1 && IsOneOf(words.back(), "d day tag jour giorno dia")) {
+    return FindTimeUnit("days");
   }
-  for (const std::string& text : {last, header.unit_text}) {
-    if (text == "us" || text == "ns") return FindTimeUnit(text);
-    if (text == "sec" || text == "seconds" || text == "sek") {
-      return FindTimeUnit("s");
+  for (const std::string& text : {words.back(), header.unit_text}) {
+    for (const auto& [unit, said] : kSpelledOut) {
+      if (IsOneOf(text, said)) return FindTimeUnit(unit);
     }
   }
   return nullptr;
@@ -131,6 +148,29 @@ std::optional<Epoch> EpochOf(const Pace& pace, Named called) {
     }
   }
   return std::nullopt;
+}
+
+std::optional<Epoch> NamedEpoch(std::string_view column, const Pace& pace) {
+  constexpr double kJulianTo1970 = 2440587.5;
+  constexpr double kModifiedJulianTo1970 = 40587.0;
+  constexpr double kFrom = 3650.0;  // days from 1970
+  constexpr double kTo = 36500.0;
+  const std::vector<std::string> words = WordsOf(column);
+  const auto says = [&](std::string_view known) {
+    return std::ranges::any_of(
+        words, [&](const std::string& word) { return IsOneOf(word, known); });
+  };
+  std::optional<double> days_to_1970;
+  if (says("mjd")) days_to_1970 = kModifiedJulianTo1970;
+  if (says("jd bjd hjd julian")) days_to_1970 = kJulianTo1970;
+  if (says("days tage jours") && column.find("1970") != column.npos) {
+    days_to_1970 = 0.0;
+  }
+  if (!days_to_1970 || pace.least - *days_to_1970 < kFrom ||
+      pace.most - *days_to_1970 > kTo) {
+    return std::nullopt;
+  }
+  return Epoch{FindTimeUnit("days"), -*days_to_1970 * kSecondsOfDay};
 }
 
 bool AreWholeDays(const std::vector<double>& values) {

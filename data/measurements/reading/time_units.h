@@ -45,7 +45,12 @@ enum class Named { kNothing, kTime, kDate };
 /// (and MATLAB's) days are numbers as others, too: of a date any, of a time
 /// such as part days.
 std::optional<Epoch> EpochOf(const Pace& pace, Named called);
+/// The days that a column counts by its name, if its values fit: "JD", "BJD",
+/// "HJD" (from noon, 4713 BC), "MJD", "days since 1970".
+std::optional<Epoch> NamedEpoch(std::string_view column, const Pace& pace);
 
+/// Excel counts days from 30 December 1899.
+inline constexpr double kExcelDaysTo1970 = 25569.0;
 /// Whether all are Excel's numbers of days, 1990 to 2060, or missing (NaN).
 bool AreWholeDays(const std::vector<double>& values);
 

@@ -463,11 +463,7 @@ TEST(MessyFiles, CountersAreNoInputsAndCyclesAreGroups) {
     EXPECT_THAT(InputNames(prepared.dataset),
                 ElementsAre("position_mm", "t1_degC", "t2_degC"))
         << name;
-    // Without a name that says it, the passes along the axis are the cycles,
-    // which "Nr." numbers; runs and measurements may be sessions.
-    const bool is_cycle = name != "Lauf" && name != "run" && name != "Messung";
-    EXPECT_EQ(prepared.dataset.groups().column, is_cycle ? name : "cycle")
-        << name;
+    EXPECT_EQ(prepared.dataset.groups().column, name);
     EXPECT_EQ(prepared.dataset.groups().labels.size(),
               static_cast<std::size_t>(kDays * kCycles))
         << name;

@@ -126,10 +126,10 @@ TEST(Sessions, DatesHaveTheOrderThatGoesForward) {
   constexpr double kDay = 86400.0;
   const auto day_first = times("30/04/2024 7:00\n01/05/2024 7:00\n");
   EXPECT_EQ(day_first.first, kDay);
-  EXPECT_THAT(day_first.second, HasSubstr("dates read as day/month/year"));
+  EXPECT_THAT(day_first.second, HasSubstr("are read as day/month/year"));
   const auto month_first = times("4/30/2024 7:00\n5/1/2024 7:00\n");
   EXPECT_EQ(month_first.first, kDay);
-  EXPECT_THAT(month_first.second, HasSubstr("dates read as month/day/year"));
+  EXPECT_THAT(month_first.second, HasSubstr("are read as month/day/year"));
   // 3 April and 2 May, or 4 March and 5 February.
   EXPECT_EQ(times("03/04/2024 7:00\n02/05/2024 7:00\n").first, 29 * kDay);
   EXPECT_EQ(times("04/03/2024 7:00\n05/02/2024 7:00\n").first, 29 * kDay);

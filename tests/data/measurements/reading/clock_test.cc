@@ -4,12 +4,14 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "data/csv.h"
+#include "data/input_error.h"
 #include "data/measurements/dataset.h"
 #include "data/measurements/reading/reading.h"
 
@@ -74,6 +76,66 @@ TEST(Clock, CountsInTheUnitThatItsNameStates) {
   }
 }
 
+TEST(Clock, IsCalledByItsUnitInSeveralLanguages) {
+  const std::vector<std::pair<const char*, double>> units = {
+      {"secs", 1.0},
+      {"seconds since start", 1.0},
+      {"sec_of_run", 1.0},
+      {"Minuten", 60.0},
+      {"minute", 60.0},
+      {"hours", 3600.0},
+      {"Stunden", 3600.0},
+      {"heures", 3600.0},
+      {"ore", 3600.0},
+      {"Tage", 86400.0}};
+  for (const auto& [name, seconds] : units) {
+    const Reading reading = CountedIn(name, seconds, 0.0).reading;
+    EXPECT_EQ(reading.time.column, name);
+    EXPECT_NEAR(*reading.time.step_s, 30.0, 0.1) << name;
+    EXPECT_EQ(reading.sessions.count, 3) << name;
+  }
+}
+
+// 2024-03-04 08:00 in the days of astronomers and of computers.
+TEST(Clock, KnowsTheDaysOfAstronomers) {
+  const double days = 19786.0 + 8.0 / 24.0;  // from 1970
+  for (const auto& [name, first] : std::vector<std::pair<const char*, double>>{
+           {"MJD", days + 40587.0},
+           {"JD", days + 2440587.5},
+           {"BJD_TDB", days + 2440587.5},
+           {"days since 1970", days}}) {
+    const Reading reading = CountedIn(name, 86400.0, first).reading;
+    EXPECT_EQ(reading.time.column, name);
+    EXPECT_EQ(reading.time.origin, "1970") << name;
+    EXPECT_NEAR(*reading.time.step_s, 30.0, 0.2) << name;
+    EXPECT_EQ(reading.sessions.count, 3) << name;
+  }
+}
+
+// As a spreadsheet shows a clock: 59:58.0 is followed by 00:28.0.
+TEST(Clock, IsRefusedWithoutItsHours) {
+  const auto shown = [](int i, double /*warm*/) {
+    const int seconds = 298 * i;
+    return TwoDigits(seconds / 60 % 60) + ":" + TwoDigits(seconds % 60) + ".0";
+  };
+  try {
+    MadeOf(Days("Time", shown));
+    ADD_FAILURE() << "hours are guessed";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the hours are missing"));
+    EXPECT_THAT(error.what(), HasSubstr("time = none"));
+  }
+}
+
+TEST(Clock, OfHoursCountsWithTheDateBesideIt) {
+  const Reading reading = MadeOf(Days("Date,hour", [](int i, double /*warm*/) {
+                            return "2024-03-0" + std::to_string(4 + i / 40) +
+                                   "," + CsvNumber(8.0 + i % 40 / 120.0);
+                          })).reading;
+  EXPECT_EQ(reading.time.column, "Date + hour");
+  EXPECT_EQ(reading.sessions.count, 3);
+}
+
 // Windows counts 100 ns from 1601: 2024-03-04 08:00.
 TEST(Clock, KnowsTheTicksOfWindows) {
   const Reading reading = CountedIn("FileTime", 1e-7, 1.3354012e17).reading;
@@ -82,15 +144,15 @@ TEST(Clock, KnowsTheTicksOfWindows) {
   EXPECT_EQ(reading.sessions.count, 3);
 }
 
-// Each cycle its own clock: as many sessions as cycles, or one of them all.
-TEST(Clock, ThatBeginsAnewInEachCycleMakesTheSessionsUnsure) {
+// Each cycle its own clock: what was between them, nobody can tell.
+TEST(Clock, ThatBeginsAnewInEachPassIsPassedOver) {
   const Reading reading = MadeOf(Days("t_s", [](int i, double /*warm*/) {
                             return std::to_string(5 * (i % 10));
                           })).reading;
-  EXPECT_EQ(reading.sessions.count, 12);
-  EXPECT_FALSE(reading.sessions.sure);
-  EXPECT_THAT(ReadingLines(reading),
-              Contains(HasSubstr("or one, if the clock begins anew")));
+  EXPECT_EQ(reading.sessions.count, 1);
+  EXPECT_EQ(reading.time.column, std::nullopt);
+  EXPECT_THAT(reading.remarks,
+              Contains(HasSubstr("'t_s' begins anew with each pass")));
 }
 
 TEST(Clock, IsNoThermometer) {
@@ -210,7 +272,7 @@ TEST(Clock, ReadsNoDaysAsSeconds) {
                   [](int i, double) { return std::to_string(46000 + i / 40); }),
              {.time = "Date"})
           .reading;
-  EXPECT_EQ(reading.time.unit, "Excel days");
+  EXPECT_EQ(reading.time.unit, "date");
   EXPECT_EQ(reading.time.step_s, 86400.0);
 }
 

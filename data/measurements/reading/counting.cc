@@ -1,0 +1,149 @@
+#include "data/measurements/reading/counting.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "data/column_words.h"
+#include "data/measurements/column_roles.h"
+#include "data/units.h"
+
+namespace errmap::data {
+namespace {
+
+using Eigen::Index;
+
+constexpr Index kNearlyAll = 90;  // percent
+
+bool AreNearlyAll(Index part, Index of) {
+  return 100 * part >= kNearlyAll * of;
+}
+
+// Where a column changes, and how.
+class ChangesOf {
+ public:
+  // False in `is_whole` where a value is no whole number.
+  ChangesOf(const CsvColumn& column,
+            const std::vector<Index>& rows,
+            const Motion& motion)
+      : motion_(motion), has_passes_(motion.num_passes >= 2) {
+    double before = std::nan("");
+    Index length = 0;  // of the block so far: passes, or rows without any
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double now = column.values[static_cast<std::size_t>(rows[i])];
+      is_whole_ = is_whole_ && now == std::floor(now);  // NaN is not
+      if (!is_whole_) return;
+      if (i == 0) {
+        first_ = now;
+      } else if (now != before) {
+        Note(now - before, PlaceOf(i));
+        shortest_ = std::min(shortest_, length);
+        length = 0;
+      } else if (PlaceOf(i) == Place::kPass) {
+        ++passes_without_;
+      } else if (PlaceOf(i) == Place::kTurn) {
+        ++turns_without_;
+      }
+      const bool begins = i == 0 || !has_passes_ || PlaceOf(i) == Place::kPass;
+      if (begins) ++length;
+      before = now;
+    }
+  }
+
+  Counted Counts(bool is_called) const {
+    const Index changes = passes_with_ + turns_with_ + inside_;
+    if (!is_whole_ || changes == 0 || 2 * by_one_ <= changes) {
+      return Counted::kNothing;
+    }
+    if (has_passes_ && inside_ > 0) return Counted::kNothing;
+    const bool every_pass =
+        has_passes_ &&
+        AreNearlyAll(passes_with_, passes_with_ + passes_without_);
+    if (every_pass && turns_with_ == 0) return Counted::kPasses;
+    if (every_pass && AreNearlyAll(turns_with_, turns_with_ + turns_without_)) {
+      return Counted::kWays;
+    }
+    constexpr Index kFewestPasses = 2;
+    constexpr Index kFewestRows = 8;
+    const bool begins_so =
+        is_called || first_ == 1.0 || (first_ == 0.0 && changes >= 2);
+    const bool are_blocks =
+        back_ == 0 && turns_with_ == 0 && begins_so &&
+        shortest_ >= (has_passes_ ? kFewestPasses : kFewestRows);
+    return are_blocks ? Counted::kBlocks : Counted::kNothing;
+  }
+
+ private:
+  enum class Place { kInside, kPass, kTurn };
+
+  Place PlaceOf(std::size_t i) const {
+    if (!has_passes_) return Place::kInside;
+    if (motion_.passes[i] != motion_.passes[i - 1]) return Place::kPass;
+    const bool turns =
+        motion_.both_ways && motion_.directions[i] != motion_.directions[i - 1];
+    return turns ? Place::kTurn : Place::kInside;
+  }
+
+  void Note(double step, Place place) {
+    (place == Place::kPass   ? passes_with_
+     : place == Place::kTurn ? turns_with_
+                             : inside_)++;
+    by_one_ += step == 1.0 ? 1 : 0;
+    back_ += step < 0.0 ? 1 : 0;
+  }
+
+  const Motion& motion_;
+  bool has_passes_;
+  bool is_whole_ = true;
+  double first_ = 0.0;
+  Index passes_with_ = 0;
+  Index passes_without_ = 0;
+  Index turns_with_ = 0;
+  Index turns_without_ = 0;
+  Index inside_ = 0;
+  Index by_one_ = 0;
+  Index back_ = 0;
+  Index shortest_ = std::numeric_limits<Index>::max();
+};
+
+}  // namespace
+
+std::string_view ToString(Counted counted) {
+  constexpr auto kNames =
+      std::to_array<std::string_view>({"counts nothing",
+                                       "counts the passes along the axis",
+                                       "counts the passes so far",
+                                       "counts the ways along the axis",
+                                       "counts days or other blocks of rows"});
+  return NameOf(kNames, counted);
+}
+
+std::vector<Counter> FindCounters(const CsvTable& table,
+                                  const DatasetSelection& selection,
+                                  std::size_t target,
+                                  const std::vector<Index>& rows,
+                                  const Motion& motion) {
+  std::vector<Counter> found;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const CsvColumn& column = table.columns[i];
+    const bool is_named =
+        std::ranges::count(selection.inputs, column.name) > 0 ||
+        column.name == selection.session;
+    if (i == target || is_named || column.is_text() ||
+        !UnitOfColumn(column.name).symbol.empty() ||
+        Says(column.name, Word::kTemperature)) {
+      continue;
+    }
+    Counted counts =
+        ChangesOf(column, rows, motion).Counts(KeepsRecord(column.name));
+    if (counts == Counted::kPasses && !KeepsRecord(column.name) &&
+        CountsCycles({.name = column.name, .unit = {}})) {
+      counts = Counted::kElapsed;
+    }
+    if (counts != Counted::kNothing) found.push_back({i, counts});
+  }
+  return found;
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/csv.h"
+#include "data/measurements/dataset.h"
+#include "data/measurements/reading/motion.h"
+
+namespace errmap::data {
+
+/// What a column of whole numbers counts.
+enum class Counted {
+  kNothing,
+  kPasses,   // along the axis
+  kElapsed,  // passes, by a name that may be a state ("elapsed_cycles")
+  kWays,     // up and down
+  kBlocks,   // of several passes each: days, warm-ups, files
+};
+/// "counts the passes along the axis", and so on.
+std::string_view ToString(Counted counted);
+
+struct Counter {
+  std::size_t column;  // index into the table
+  Counted counts;
+};
+
+/// The columns that count, whatever they are called: whole numbers without a
+/// unit, that change only where a pass or a way begins, mostly by one. Blocks
+/// never count back; where nothing else says that they count, they begin at 1
+/// (three of them or more at 0). Without passes, a block has 8 rows or more.
+/// Neither the target nor what `selection` names. `motion` is that of `rows`,
+/// which are in the order of measurement.
+std::vector<Counter> FindCounters(const CsvTable& table,
+                                  const DatasetSelection& selection,
+                                  std::size_t target,
+                                  const std::vector<Eigen::Index>& rows,
+                                  const Motion& motion);
+
+}  // namespace errmap::data

@@ -1,0 +1,248 @@
+#include "data/measurements/reading/digit_dates.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "data/column_words.h"
+#include "data/measurements/date_time.h"
+#include "data/measurements/reading/time_units.h"
+#include "data/measurements/text_times.h"
+#include "data/text.h"
+
+namespace errmap::data {
+namespace {
+
+// A column of text where there was one of numbers; empty where a number has no
+// text. `text_of` takes the number of a row.
+template <typename TextOf>
+CsvColumn AsText(const std::string& name,
+                 std::size_t num_rows,
+                 const TextOf& text_of) {
+  CsvColumn column{.name = name};
+  column.values =
+      std::vector<double>(num_rows, std::numeric_limits<double>::quiet_NaN());
+  std::map<std::string, std::uint32_t> indices;
+  for (std::size_t row = 0; row < num_rows; ++row) {
+    const auto [at, is_new] = indices.try_emplace(
+        text_of(row), static_cast<std::uint32_t>(column.texts.size()));
+    if (is_new) column.texts.push_back(at->first);
+    column.exceptions.emplace_back(row, at->second);
+  }
+  return column;
+}
+
+// Of each number that is none of the missing ones.
+template <typename Is>
+bool All(const CsvColumn& column, const Is& is) {
+  double before = std::nan("");  // dates repeat down the rows
+  for (const double value : column.values) {
+    if (std::isnan(value) || value == before) continue;
+    if (!is(value)) return false;
+    before = value;
+  }
+  return !std::isnan(before);
+}
+
+std::string DateOfDigits(double digits) {
+  if (!(digits >= 19800101.0 && digits < 20700101.0) ||
+      digits != std::floor(digits)) {
+    return "";
+  }
+  const auto number = static_cast<long>(digits);
+  std::string date = fmt::format(
+      "{:04}-{:02}-{:02}", number / 10000, number / 100 % 100, number % 100);
+  return ParseDateTime(date) ? date : "";
+}
+
+// "20240304" as often as not names a part or an order: dates follow one
+// another.
+bool AreDatesOfDigits(const CsvColumn& column) {
+  constexpr double kMostSpan = 100000.0;  // ten years
+  const auto is_date = [](double value) {
+    return !DateOfDigits(value).empty();
+  };
+  if (!All(column, is_date)) return false;
+  double least = INFINITY;
+  double most = -INFINITY;
+  for (const double value : column.values) {
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  return most - least < kMostSpan;
+}
+
+std::string DateOfExcel(double days) {
+  if (std::isnan(days)) return "";
+  const std::chrono::year_month_day date{std::chrono::sys_days(
+      std::chrono::days(static_cast<int>(days - kExcelDaysTo1970)))};
+  return fmt::format("{:04}-{:02}-{:02}",
+                     static_cast<int>(date.year()),
+                     static_cast<unsigned>(date.month()),
+                     static_cast<unsigned>(date.day()));
+}
+
+std::string ClockOfDigits(double digits) {
+  if (!(digits >= 0.0 && digits < 240000.0)) return "";
+  const auto whole = static_cast<long>(digits);
+  if (whole / 100 % 100 > 59 || whole % 100 > 59) return "";
+  return fmt::format("{:02}:{:02}:{:09.6f}",
+                     whole / 10000,
+                     whole / 100 % 100,
+                     digits - static_cast<double>(whole / 100 * 100));
+}
+
+// Columns of one number each that make a date together, "" where none.
+class DateParts {
+ public:
+  explicit DateParts(const CsvTable& table) : table_(table) {
+    constexpr auto kNames = std::to_array<std::string_view>(
+        {"year jahr annee anno ano yyyy",
+         "month monat mois mese mes mm",
+         "day tag jour giorno dia dd",
+         "hour hr stunde heure ora hora hh",
+         "minute min minuto",
+         "second sec sekunde seconde secondo segundo ss"});
+    for (const std::string_view names : kNames) columns_.push_back(Find(names));
+  }
+
+  bool are_found() const {
+    return columns_[0] && columns_[1] && columns_[2] && FromTo(0, 1980, 2070) &&
+           FromTo(1, 1, 12) && FromTo(2, 1, 31);
+  }
+
+  CsvColumn Joined() const {
+    const bool has_clock = HasClock();
+    return AsText(Name(), table_.num_rows, [&](std::size_t row) {
+      std::string text = fmt::format("{:04.0f}-{:02.0f}-{:02.0f}",
+                                     Value(0, row),
+                                     Value(1, row),
+                                     Value(2, row));
+      if (!has_clock) return text;
+      return text + fmt::format(" {:02.0f}:{:02.0f}:{:09.6f}",
+                                Value(3, row),
+                                Value(4, row),
+                                columns_[5] ? Value(5, row) : 0.0);
+    });
+  }
+
+  std::vector<std::size_t> columns() const {
+    std::vector<std::size_t> used;
+    for (std::size_t i = 0; i < NumUsed(); ++i) {
+      if (columns_[i]) used.push_back(*columns_[i]);
+    }
+    return used;
+  }
+
+ private:
+  std::optional<std::size_t> Find(std::string_view names) const {
+    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+      const CsvColumn& column = table_.columns[i];
+      const std::vector<std::string> words = WordsOf(column.name);
+      if (words.size() == 1 && IsOneOf(words[0], names) && !column.is_text() &&
+          column.exceptions.empty()) {
+        return i;
+      }
+    }
+    return std::nullopt;
+  }
+
+  bool FromTo(std::size_t part, double least, double most) const {
+    return All(table_.columns[*columns_[part]], [&](double value) {
+      return value >= least && value <= most &&
+             (part == 5 || value == std::floor(value));
+    });
+  }
+
+  bool HasClock() const {
+    return columns_[3] && columns_[4] && FromTo(3, 0, 23) && FromTo(4, 0, 59) &&
+           (!columns_[5] || FromTo(5, 0, 59.999999));
+  }
+
+  std::size_t NumUsed() const { return HasClock() ? columns_.size() : 3; }
+
+  std::string Name() const {
+    std::string name;
+    for (const std::size_t column : columns()) {
+      name += (name.empty() ? "" : " + ") + table_.columns[column].name;
+    }
+    return name;
+  }
+
+  double Value(std::size_t part, std::size_t row) const {
+    return table_.columns[*columns_[part]].values[row];
+  }
+
+  const CsvTable& table_;
+  std::vector<std::optional<std::size_t>> columns_;
+};
+
+bool IsDateText(const CsvColumn& column) {
+  if (!column.is_text()) return false;
+  const TextTimes times = ReadTimes(column);
+  return times.all && times.any && !times.any_hours;
+}
+
+bool IsCalledTimeOfDay(const CsvColumn& column) {
+  return IsCalled(column.name, Word::kTime) ||
+         std::ranges::count(WordsOf(column.name), "hhmmss") > 0;
+}
+
+// 60 to 99 never stand in the last digits of a clock, 0 to 59 all do.
+bool AreClocksOfDigits(const CsvColumn& column) {
+  constexpr double kOneHour = 10000.0;
+  return All(column,
+             [](double value) { return !ClockOfDigits(value).empty(); }) &&
+         std::ranges::any_of(column.values,
+                             [](double value) { return value >= kOneHour; });
+}
+
+}  // namespace
+
+DigitDates FindDigitDates(const CsvTable& table) {
+  DigitDates found;
+  bool has_date = std::ranges::any_of(table.columns, IsDateText);
+  const auto rewrite = [&](std::size_t i, std::string (*text_of)(double)) {
+    const CsvColumn& column = table.columns[i];
+    found.columns.push_back(
+        {i, AsText(column.name, table.num_rows, [&](std::size_t row) {
+           return text_of(column.values[row]);
+         })});
+  };
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const CsvColumn& column = table.columns[i];
+    if (column.is_text()) continue;
+    const bool is_excel =
+        IsCalled(column.name, Word::kDate) &&
+        All(column, [](double day) { return AreWholeDays({day}); });
+    if (is_excel || AreDatesOfDigits(column)) {
+      rewrite(i, is_excel ? DateOfExcel : DateOfDigits);
+      has_date = true;
+    }
+  }
+  for (std::size_t i = 0; has_date && i < table.columns.size(); ++i) {
+    const CsvColumn& column = table.columns[i];
+    if (!column.is_text() && IsCalledTimeOfDay(column) &&
+        AreClocksOfDigits(column)) {
+      rewrite(i, ClockOfDigits);
+    }
+  }
+  if (const DateParts parts(table); parts.are_found()) {
+    found.columns.push_back({table.columns.size(), parts.Joined()});
+    found.parts = parts.columns();
+  }
+  return found;
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,165 @@
+#include "data/measurements/reading/counting.h"
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "data/csv.h"
+#include "data/measurements/dataset.h"
+#include "data/measurements/reading/reading.h"
+
+namespace errmap::data {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// Where a row stands: three days of four cycles to and fro over five positions.
+struct Place {
+  int row;
+  int day;    // 0 to 2
+  int cycle;  // 0 to 3 in each day
+  int way;    // 0 to 1 in each cycle
+};
+
+constexpr int kDays = 3;
+constexpr int kCycles = 4;
+constexpr int kPositions = 5;
+
+using Cell = std::function<std::string(const Place&)>;
+
+PreparedDataset MadeWith(const std::string& header, const Cell& cell) {
+  std::string text = header + ",x [mm],t1_degC,error_um\n";
+  for (int row = 0; row < kDays * kCycles * 2 * kPositions; ++row) {
+    const int way = row / kPositions % 2;
+    const Place place{.row = row,
+                      .day = row / (2 * kPositions * kCycles),
+                      .cycle = row / (2 * kPositions) % kCycles,
+                      .way = way};
+    const int at =
+        way == 0 ? row % kPositions : kPositions - 1 - row % kPositions;
+    const double warm = 20.0 + 2.0 * place.cycle + 0.3 * place.day + 0.01 * row;
+    const double noise = std::sin(12.9898 * (row + 1)) * 1e4;
+    const double error = 0.1 * at * (warm - 20.0) + 2.0 * way +
+                         0.1 * (noise - std::floor(noise));
+    text += cell(place) + "," + std::to_string(100 * at) + "," +
+            CsvNumber(warm) + "," + CsvNumber(error) + "\n";
+  }
+  return MakeDataset(ParseCsv(text, "f.csv"), {});
+}
+
+std::string Number(int number) { return std::to_string(number); }
+
+int CycleInAll(const Place& at) { return kCycles * at.day + at.cycle; }
+
+// What a column of numbers or words means is told by where it changes.
+TEST(Counting, TellsSessionsWhateverItsColumnIsCalled) {
+  const Cell day = [](const Place& at) { return Number(at.day + 1); };
+  const Cell later_day = [](const Place& at) { return Number(at.day + 7); };
+  const Cell cycle = [](const Place& at) { return Number(at.cycle + 1); };
+  const Cell later_cycle = [](const Place& at) {
+    return Number(at.cycle + at.day % 2 + 1);
+  };
+  const Cell in_all = [](const Place& at) { return Number(CycleInAll(at)); };
+  const Cell way = [](const Place& at) {
+    return Number(2 * CycleInAll(at) + at.way + 1);
+  };
+  const Cell way_anew = [](const Place& at) {
+    return Number(2 * at.cycle + at.way + 1);
+  };
+  const Cell turns = [](const Place& at) {
+    return std::string(at.day % 2 == 0 ? "A" : "B");
+  };
+  const Cell turns_in_numbers = [](const Place& at) {
+    return Number(at.day % 2 + 1);
+  };
+  const Cell date_of_digits = [](const Place& at) {
+    return Number(20240304 + at.day);
+  };
+  const Cell date_of_excel = [](const Place& at) {
+    return Number(45355 + at.day);
+  };
+  struct Case {
+    const char* header;
+    Cell cell;
+    int sessions;
+    const char* by;
+  };
+  const std::vector<Case> cases = {
+      {"night", later_day, 3, "column"},
+      {"Versuchstag", day, 3, "column"},
+      {"lot", day, 3, "column"},
+      {"lot", later_day, 1, "one"},  // nothing says that it counts
+      {"campaign", later_day, 3, "column"},
+      {"Messreihe", in_all, 1, "one"},
+      {"Serie", cycle, 3, "counter"},
+      {"Lauf", cycle, 3, "counter"},
+      {"block", later_cycle, 3, "counter"},
+      {"warmup_cycle", cycle, 3, "counter"},
+      {"sweep", way, 1, "one"},
+      {"pass", way_anew, 3, "counter"},
+      {"Shift", turns, 3, "column"},
+      {"run", turns_in_numbers, 3, "column"},
+      {"date", date_of_digits, 3, "dates"},
+      {"Datum", date_of_excel, 3, "dates"},
+  };
+  for (const Case& test : cases) {
+    SCOPED_TRACE(test.header);
+    const Reading reading = MadeWith(test.header, test.cell).reading;
+    EXPECT_EQ(reading.sessions.count, test.sessions);
+    EXPECT_EQ(reading.sessions.by, test.by);
+    EXPECT_EQ(reading.cycles.count, kDays * kCycles);
+    if (test.sessions > 1 || reading.cycles.column == test.header) {
+      EXPECT_THAT(reading.sensors, Not(Contains(test.header)));
+    }
+  }
+}
+
+TEST(Counting, IsNoInput) {
+  const Reading ways = MadeWith("scan", [](const Place& at) {
+                         return Number(2 * CycleInAll(at) + at.way);
+                       }).reading;
+  ASSERT_EQ(ways.left_out.size(), 1U);
+  EXPECT_EQ(ways.left_out[0].column, "scan");
+  EXPECT_EQ(ways.left_out[0].why, "counts the ways along the axis");
+  const Reading parts = MadeWith("part_no", [](const Place& at) {
+                          return Number(101 + 3 * CycleInAll(at));
+                        }).reading;
+  EXPECT_THAT(parts.sensors, ElementsAre("t1_degC"));
+  // Whole degrees change within a pass, too.
+  const Reading degrees = MadeWith("T2", [](const Place& at) {
+                            return Number(1 + at.cycle + at.row / 7);
+                          }).reading;
+  EXPECT_THAT(degrees.sensors, Contains("T2"));
+}
+
+// A name that comes again beside a date: the date tells.
+TEST(Counting, LeavesWhatComesAgainToTheDate) {
+  const Reading reading = MadeWith("Date,Shift", [](const Place& at) {
+                            return "2024-03-0" + Number(4 + at.day) + "," +
+                                   (at.day % 2 == 0 ? "day" : "night");
+                          }).reading;
+  EXPECT_EQ(reading.sessions.column, "Date");
+  EXPECT_EQ(reading.sessions.count, 3);
+}
+
+TEST(Counting, JoinsYearMonthAndDay) {
+  const Reading reading =
+      MadeWith("Year,Month,Day,Hour,Minute,Second", [](const Place& at) {
+        const int seconds = 5 * (at.row % 40);
+        return "2024,3," + Number(4 + at.day) + ",8," + Number(seconds / 60) +
+               "," + Number(seconds % 60);
+      }).reading;
+  EXPECT_EQ(reading.time.column, "Year + Month + Day + Hour + Minute + Second");
+  EXPECT_EQ(reading.sessions.count, 3);
+  EXPECT_THAT(reading.sensors, ElementsAre("t1_degC"));
+}
+
+}  // namespace
+}  // namespace errmap::data
