@@ -33,6 +33,13 @@ class Scanner {
     return true;
   }
 
+  // Also those that do not break a line, as Windows writes before AM and PM.
+  void TakeBlanks() {
+    while (Take(' ') || TakeIgnoringCase("\u00a0") ||
+           TakeIgnoringCase("\u202f")) {
+    }
+  }
+
   // Of the characters of `some`; nothing where another comes next.
   std::optional<char> TakeOneOf(std::string_view some) {
     if (done() || some.find(rest_.front()) == std::string_view::npos) {
@@ -74,6 +81,8 @@ class Scanner {
            rest_.find_first_of("0123456789", at) > at + 2;
   }
 
+  bool AtDigit() const { return !done() && IsDigit(rest_.front()); }
+
   // Exactly two digits, at most `most`.
   std::optional<int> TakePair(int most) {
     const auto number = TakeNumber(2);
@@ -86,9 +95,16 @@ class Scanner {
   // Whether the last fraction was there, be it 0.
   bool TookPoint() const { return took_point_; }
 
-  // Of a point or comma and digits; 0 where there is none.
+  // Of a point or comma and digits, or a colon and three of them, as some
+  // loggers write milliseconds; 0 where there is none.
   double TakeFraction() {
-    took_point_ = TakeOneOf(".,").has_value();
+    constexpr std::size_t kMilliseconds = 4;  // with the colon
+    const bool after_colon = rest_.starts_with(':') &&
+                             std::min(rest_.find_first_not_of("0123456789", 1),
+                                      rest_.size()) == kMilliseconds;
+    const bool before_digit = rest_.size() > 1 && IsDigit(rest_[1]);
+    took_point_ =
+        before_digit && TakeOneOf(after_colon ? ":" : ".,").has_value();
     if (!took_point_) return 0.0;
     double value = 0.0;
     double place = 1.0;
@@ -170,15 +186,42 @@ std::optional<double> TakeNamedMonth(Scanner* text,
   return DaysSeconds(WholeYear(*year), month, day.value);
 }
 
-std::optional<double> TakeDate(Scanner* text, DateOrder order) {
+// Of "0304" behind the year of "20240304".
+std::optional<double> TakePacked(Scanner* text, int year) {
+  const auto month = text->TakePair(12);
+  const auto day = month ? text->TakePair(31) : std::nullopt;
+  return day ? DaysSeconds(year, *month, *day) : std::nullopt;
+}
+
+// Of the day of a year, from 1 on.
+std::optional<double> DayOfYear(int year, int day) {
+  const auto first = DaysSeconds(year, 1, 1);
+  const auto next = DaysSeconds(year + 1, 1, 1);
+  if (!first || !next || day < 1) return std::nullopt;
+  const double seconds = *first + kSecondsOfDay * (day - 1);
+  return seconds < *next ? std::optional(seconds) : std::nullopt;
+}
+
+std::optional<double> TakeDate(Scanner* text,
+                               DateOrder order,
+                               DateTime* parsed) {
   const auto first = text->TakeNumber(4);
-  if (first && first->digits <= 2 && text->WordIsNear()) {
+  if (!first) return std::nullopt;
+  if (first->digits <= 2 && text->WordIsNear()) {
     return TakeNamedMonth(text, *first);
   }
+  if (first->digits == 4 && text->AtDigit()) {
+    return TakePacked(text, first->value);
+  }
   const auto separator = text->TakeOneOf("-/.");
-  if (!first || !separator) return std::nullopt;
-  const auto second = text->TakeNumber(2);
-  if (!second || !text->Take(*separator)) return std::nullopt;
+  if (!separator) return std::nullopt;
+  const auto second = text->TakeNumber(3);
+  if (!second) return std::nullopt;
+  if (second->digits == 3) {
+    if (first->digits != 4 || *separator == '.') return std::nullopt;
+    return DayOfYear(first->value, second->value);
+  }
+  if (!text->Take(*separator)) return std::nullopt;
   const auto third = text->TakeNumber(4);
   if (!third) return std::nullopt;
   if (first->digits == 4) {
@@ -191,6 +234,7 @@ std::optional<double> TakeDate(Scanner* text, DateOrder order) {
     return std::nullopt;
   }
   const bool day_first = *separator == '.' || order == DateOrder::kDayFirst;
+  parsed->by_order = *separator != '.';
   const Scanner::Number& day = day_first ? *first : *second;
   const Scanner::Number& month = day_first ? *second : *first;
   return DaysSeconds(WholeYear(*third), month.value, day.value);
@@ -200,6 +244,20 @@ std::optional<double> TakeDate(Scanner* text, DateOrder order) {
 std::optional<int> HourOf(int hour, bool afternoon) {
   if (hour < 1 || hour > kHoursOfHalfADay) return std::nullopt;
   return hour % kHoursOfHalfADay + (afternoon ? kHoursOfHalfADay : 0);
+}
+
+// Of "AM", "p.m.", "a. m.": whether it is the second half of the day.
+std::optional<bool> TakeHalf(Scanner* text) {
+  Scanner ahead = *text;
+  const auto half = ahead.TakeOneOf("aApP");
+  if (!half) return std::nullopt;
+  const bool has_point = ahead.Take('.');
+  if (has_point) ahead.TakeBlanks();
+  if (!ahead.TakeOneOf("mM") || (has_point && !ahead.Take('.'))) {
+    return std::nullopt;
+  }
+  *text = ahead;
+  return *half == 'p' || *half == 'P';
 }
 
 // Of "8:05", "08:05:12.5", "08h05" and, elapsed, "29:05:12" or
@@ -224,11 +282,9 @@ std::optional<double> TakeTime(Scanner* text, bool points, DateTime* parsed) {
       return kMinute * *hour + *minute + fraction;
     }
   }
-  text->Take(' ');
-  const bool am =
-      text->TakeIgnoringCase("am") || text->TakeIgnoringCase("a.m.");
-  if (am || text->TakeIgnoringCase("pm") || text->TakeIgnoringCase("p.m.")) {
-    hour = HourOf(*hour, !am);
+  text->TakeBlanks();
+  if (const std::optional<bool> afternoon = TakeHalf(text)) {
+    hour = HourOf(*hour, *afternoon);
     parsed->in_halves = true;
   }
   text->TakeIgnoringCase("Uhr");
@@ -239,26 +295,27 @@ std::optional<double> TakeTime(Scanner* text, bool points, DateTime* parsed) {
   return of_day;
 }
 
-// Of "Z", "UTC", "CET", "+01", "+01:00" or "-0530"; 0 where the text is at its
-// end. Of a zone's letters the hours count alone: they are the same down a file
-// but for summer time.
-std::optional<double> TakeOffset(Scanner* text) {
+// What a zone's letters add to the hours of its winter: they are the same down
+// a file but for summer time. Nothing where they are no zone's.
+std::optional<double> SecondsOfZone(std::string_view zone) {
   constexpr auto kSummer = std::to_array<std::string_view>(
       {"CEST", "MESZ", "BST", "EEST", "EDT", "CDT", "MDT", "PDT"});
-  text->Take(' ');
-  if (const std::string_view zone = text->TakeWord(); !zone.empty()) {
-    constexpr std::size_t kMostLetters = 5;
-    const bool are_capitals =
-        std::ranges::all_of(zone, [](char c) { return c >= 'A' && c <= 'Z'; });
-    if (!are_capitals || zone.size() > kMostLetters ||
-        (zone.size() == 1 && zone != "Z")) {
-      return std::nullopt;
-    }
-    if (text->done()) {
-      return std::ranges::count(kSummer, zone) > 0 ? kHour : 0.0;
-    }
+  constexpr std::size_t kMostLetters = 5;
+  const bool are_capitals =
+      std::ranges::all_of(zone, [](char c) { return c >= 'A' && c <= 'Z'; });
+  if (!are_capitals || zone.size() > kMostLetters ||
+      (zone.size() == 1 && zone != "Z")) {
+    return std::nullopt;
   }
-  if (text->done()) return 0.0;
+  return std::ranges::count(kSummer, zone) > 0 ? kHour : 0.0;
+}
+
+// Of "Z", "UTC", "CET", "+01", "+01:00" or "-0530"; 0 where the text is at its
+// end.
+std::optional<double> TakeOffset(Scanner* text) {
+  text->Take(' ');
+  const auto of_zone = SecondsOfZone(text->TakeWord());
+  if (!of_zone || text->done()) return of_zone;
   const auto sign = text->TakeOneOf("+-");
   if (!sign) return std::nullopt;
   const auto hour = text->TakePair(23);
@@ -272,17 +329,128 @@ std::optional<double> TakeOffset(Scanner* text) {
   return *sign == '+' ? seconds : -seconds;
 }
 
-// Of "2 03:04:05" and "2.03:04:05", elapsed: the days, else 0.
+// Of "2 03:04:05", "2.03:04:05" and "2 days, 3:04:05", elapsed: the days, else
+// 0.
 double TakeDays(Scanner* text) {
   Scanner ahead = *text;
   const auto days = ahead.TakeNumber(4);
-  if (!days || !ahead.TakeOneOf(" .d")) return 0.0;
-  ahead.Take(' ');
+  if (!days) return 0.0;
+  const bool is_apart = ahead.TakeOneOf(" .").has_value();
+  const bool is_named = ahead.TakeIgnoringCase("days") ||
+                        ahead.TakeIgnoringCase("day") || ahead.Take('d');
+  if (!is_apart && !is_named) return 0.0;
+  ahead.Take(',');
+  ahead.TakeBlanks();
   Scanner rest = ahead;
   const auto hour = rest.TakeNumber(2);
   if (!hour || !rest.Take(':')) return 0.0;
   *text = ahead;
   return kSecondsOfDay * days->value;
+}
+
+// Of "081446.5" or "0814" behind a packed date.
+std::optional<double> TakePackedTime(Scanner* text) {
+  const auto hour = text->TakePair(23);
+  const auto minute = hour ? text->TakePair(59) : std::nullopt;
+  if (!minute || (!text->done() && !text->AtDigit())) return std::nullopt;
+  const double seconds = kHour * *hour + kMinute * *minute;
+  if (text->done()) return seconds;
+  const auto second = text->TakePair(60);
+  if (!second) return std::nullopt;
+  return seconds + *second + text->TakeFraction();
+}
+
+// A time of day that ends the text, with a zone.
+std::optional<DateTime> WithTime(Scanner text, bool points, DateTime parsed) {
+  Scanner ahead = text;
+  auto time = parsed.has_date ? TakePackedTime(&ahead) : std::nullopt;
+  if (time) {
+    text = ahead;
+  } else {
+    time = TakeTime(&text, points, &parsed);
+  }
+  if (!time) return std::nullopt;
+  const auto offset = TakeOffset(&text);
+  if (!offset || !text.done()) return std::nullopt;
+  parsed.seconds += *time - *offset;
+  parsed.has_time = true;
+  return parsed;
+}
+
+// "2024-03-04", "4 Mar 2024 08:14:46".
+std::optional<DateTime> ReadDateFirst(Scanner text, DateOrder order) {
+  DateTime parsed;
+  const auto date = TakeDate(&text, order, &parsed);
+  if (!date) return std::nullopt;
+  parsed.seconds = *date;
+  parsed.has_date = true;
+  if (text.done()) return parsed;
+  if (!text.TakeOneOf("T ,_:-")) return std::nullopt;
+  text.TakeBlanks();
+  return WithTime(text, true, parsed);
+}
+
+// "08:14:46 04/03/2024".
+std::optional<DateTime> ReadTimeFirst(Scanner text, DateOrder order) {
+  constexpr double kMostOfDay = kSecondsOfDay - 1e-9;
+  DateTime parsed;
+  const auto time = TakeTime(&text, false, &parsed);
+  if (!time || *time > kMostOfDay) return std::nullopt;
+  text.Take(',');
+  text.TakeBlanks();
+  const auto date = TakeDate(&text, order, &parsed);
+  if (!date || !text.done()) return std::nullopt;
+  parsed.seconds = *date + *time;
+  parsed.has_date = parsed.has_time = true;
+  parsed.elapsed = false;
+  return parsed;
+}
+
+// "Mar 4, 2024 08:14:46" and, as C writes them, "Mar  4 08:14:46 CET 2024".
+std::optional<DateTime> ReadMonthFirst(Scanner text) {
+  const int month = TakeMonth(&text);
+  text.Take('.');
+  text.TakeBlanks();
+  const auto day = text.TakeNumber(2);
+  if (month == 0 || !day) return std::nullopt;
+  text.Take(',');
+  text.TakeBlanks();
+  DateTime parsed{.has_date = true};
+  Scanner behind = text;
+  const auto time = TakeTime(&behind, false, &parsed);
+  double offset = 0.0;
+  if (time) {
+    behind.TakeBlanks();
+    const auto of_zone = SecondsOfZone(behind.TakeWord());
+    if (!of_zone) return std::nullopt;
+    offset = *of_zone;
+    behind.TakeBlanks();
+    text = behind;
+  }
+  const auto year = text.TakeNumber(4);
+  if (!year || year->digits != 4) return std::nullopt;
+  const auto date = DaysSeconds(year->value, month, day->value);
+  if (!date) return std::nullopt;
+  parsed.seconds = *date + time.value_or(0.0) - offset;
+  parsed.has_time = time.has_value();
+  if (text.done()) return parsed;
+  text.Take(',');
+  text.TakeBlanks();
+  return time ? std::nullopt : WithTime(text, false, parsed);
+}
+
+// "Mon ", "Mo, "; else nothing.
+std::optional<Scanner> BehindWeekday(Scanner text) {
+  if (text.TakeWord().empty() || !text.TakeOneOf(" ,.")) return std::nullopt;
+  text.TakeBlanks();
+  return text;
+}
+
+std::optional<DateTime> ReadWithoutDate(Scanner text, bool points) {
+  DateTime parsed;
+  parsed.seconds = TakeDays(&text);
+  parsed.elapsed = parsed.seconds > 0.0;
+  return WithTime(text, points, parsed);
 }
 
 }  // namespace
@@ -291,39 +459,18 @@ std::optional<DateTime> ParseDateTime(std::string_view text, DateOrder order) {
   const std::string_view trimmed = Trimmed(text);
   const std::size_t digits = trimmed.find_first_not_of("0123456789");
   if (digits == std::string_view::npos) return std::nullopt;
-  Scanner scanner(trimmed);
-  DateTime parsed;
-  if (digits == 0) {  // "Mon 02 Mar 2026", "Mo, 02.03.2026"
-    if (scanner.TakeWord().empty() || !scanner.TakeOneOf(" ,.")) {
-      return std::nullopt;
-    }
-    scanner.Take(' ');
+  const Scanner begin(trimmed);
+  if (order == DateOrder::kNoDate) return WithTime(begin, true, {});
+  if (digits > 0) {
+    std::optional<DateTime> read = ReadDateFirst(begin, order);
+    if (!read) read = ReadTimeFirst(begin, order);
+    return read ? read : ReadWithoutDate(begin, false);
   }
-  const Scanner begin = scanner;
-  if (trimmed[digits] != ':' && order != DateOrder::kNoDate) {
-    if (const auto date = TakeDate(&scanner, order)) {
-      parsed.seconds = *date;
-      parsed.has_date = true;
-      parsed.by_order =
-          digits <= 2 && (trimmed[digits] == '/' || trimmed[digits] == '-');
-      if (scanner.done()) return parsed;
-      if (!scanner.TakeOneOf("T ,_")) return std::nullopt;
-      scanner.Take(' ');
-    } else {
-      scanner = begin;
-      parsed.seconds = TakeDays(&scanner);
-      parsed.elapsed = parsed.seconds > 0.0;
-      if (digits == 0) return std::nullopt;
-    }
-  }
-  const bool points = parsed.has_date || order == DateOrder::kNoDate;
-  const auto time = TakeTime(&scanner, points, &parsed);
-  if (!time) return std::nullopt;
-  const auto offset = TakeOffset(&scanner);
-  if (!offset || !scanner.done()) return std::nullopt;
-  parsed.seconds += *time - *offset;
-  parsed.has_time = true;
-  return parsed;
+  std::optional<DateTime> read = ReadMonthFirst(begin);
+  const std::optional<Scanner> behind = BehindWeekday(begin);
+  if (!read && behind) read = ReadDateFirst(*behind, order);
+  if (!read && behind) read = ReadMonthFirst(*behind);
+  return read;
 }
 
 }  // namespace errmap::data

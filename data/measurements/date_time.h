@@ -28,7 +28,12 @@ struct DateTime {
 ///   01.03.2024 12:00:05      the day first; also 1.3.24 (1970 to 2069)
 ///   3/1/2024 1:05 PM         in the order given
 ///   Fri 1-Mar-2024 12:00:05  also "1. März 2024, 12:00 Uhr", "12h05", "CET"
+///   Fri Mar  1 12:00:05 2024 as C writes it; also "March 1, 2024 12:00"
+///   12:00:05 01/03/2024      the time first
+///   20240301 120005          also with T or _ between; 2024-061T12:00:05
+///   12:00:05:250             milliseconds behind a colon
 ///   29:00:05, 1 05:00:05     elapsed: hours, or days; 125:03.5 in minutes
+///   1 day, 5:00:05           as Python writes it; also "1 days 05:00:05.5"
 ///
 /// Nothing where the text is none, or names a day or time that there is not.
 std::optional<DateTime> ParseDateTime(std::string_view text,

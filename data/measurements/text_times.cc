@@ -66,7 +66,36 @@ bool GoesBackLess(const CsvColumn& column,
   return of_month != of_day ? of_month < of_day : month_first.in_halves;
 }
 
+// Two numbers or more of four digits together: "2024-W10-1 08.14".
+bool LooksLikeTime(const std::string& text) {
+  constexpr int kFewestDigits = 4;
+  int digits = 0;
+  int numbers = 0;
+  bool in_number = false;
+  for (const char c : text) {
+    const bool is_digit = c >= '0' && c <= '9';
+    digits += is_digit ? 1 : 0;
+    numbers += is_digit && !in_number ? 1 : 0;
+    in_number = is_digit;
+  }
+  return digits >= kFewestDigits && numbers >= 2;
+}
+
 }  // namespace
+
+std::optional<std::size_t> FirstUnreadTime(const CsvColumn& column) {
+  const TextTimes times = ReadTimes(column);
+  std::optional<std::size_t> first;
+  std::size_t alike = 0;
+  std::size_t others = 0;
+  for (const auto& [row, text] : column.exceptions) {
+    const std::string& cell = column.texts[text];
+    if (IsMissingNumber(cell)) continue;
+    ++(LooksLikeTime(cell) ? alike : others);
+    if (!first && !times.seconds[text]) first = row;
+  }
+  return column.is_text() && alike > others ? first : std::nullopt;
+}
 
 TextTimes ReadTimes(const CsvColumn& column) {
   TextTimes day_first = ReadTimes(column, DateOrder::kDayFirst);

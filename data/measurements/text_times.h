@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,5 +30,9 @@ struct TextTimes {
 /// in time less often down the rows, else the one by which the file lasts less
 /// long, else the month with AM and PM, else the day.
 TextTimes ReadTimes(const CsvColumn& column);
+
+/// The first row of a column of text that looks like times by most of its
+/// cells, whose cell is no time that ParseDateTime reads; else nothing.
+std::optional<std::size_t> FirstUnreadTime(const CsvColumn& column);
 
 }  // namespace errmap::data

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "data/argument_name.h"
+#include "data/column_words.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/dataset.h"
@@ -26,6 +27,7 @@
 #include "data/measurements/rounded.h"
 #include "data/measurements/session_log.h"
 #include "data/measurements/sessions.h"
+#include "data/measurements/text_times.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -97,6 +99,7 @@ class DatasetBuilder {
 
   // Those that may be used, and their sessions.
   void ChooseRows() {
+    RefuseUnreadTimes();
     passes_ = std::move(read_.passes);
     repeated_rows_ = std::move(read_.repeated_rows);
     if (!selection_.with_log) return;
@@ -114,6 +117,27 @@ class DatasetBuilder {
       remarks_.push_back(std::to_string(num_unknown) + " of " +
                          std::to_string(log_rows_.size()) +
                          " rows have no time or session and are dropped");
+    }
+  }
+
+  // Without its clock a file is one session, and a promise of it is too good.
+  void RefuseUnreadTimes() const {
+    if (!selection_.with_log || !selection_.time.empty() ||
+        read_.found.time_column >= 0) {
+      return;
+    }
+    for (const CsvColumn& column : table_.columns) {
+      if (!Says(column.name, Word::kTime) && !Says(column.name, Word::kDate)) {
+        continue;
+      }
+      const std::optional<std::size_t> row = FirstUnreadTime(column);
+      if (!row) continue;
+      throw InputError(
+          table_.Where(*row, column.name) + ": " +
+          QuotedText(table_.CellText(column, *row)) +
+          " is no time; write it as 2024-03-01T12:00:05, or go without a "
+          "clock, by " +
+          ArgumentName("time", "none"));
     }
   }
 

@@ -36,7 +36,11 @@ TEST(DateTime, ReadsMonthsByNameZonesAndElapsedTimes) {
     EXPECT_EQ(parsed->seconds, day + 29107.0) << text;
   }
   EXPECT_EQ(Seconds("08h05"), 29100.0);
-  for (const char* text : {"29:05:07", "1 05:05:07", "1.05:05:07"}) {
+  for (const char* text : {"29:05:07",
+                           "1 05:05:07",
+                           "1.05:05:07",
+                           "1 day, 5:05:07",
+                           "1 days 05:05:07.000"}) {
     const auto parsed = ParseDateTime(text);
     ASSERT_TRUE(parsed && parsed->elapsed) << text;
     EXPECT_EQ(parsed->seconds, 104707.0) << text;
@@ -89,6 +93,48 @@ TEST(DateTime, ReadsWhatLoggersAndSpreadsheetsWrite) {
   EXPECT_EQ(Seconds("12:05 AM"), 300.0);
   EXPECT_EQ(Seconds("12:05PM"), 12 * 3600.0 + 300.0);
   EXPECT_FALSE(Seconds("13/4/2024", DateOrder::kMonthFirst).has_value());
+}
+
+TEST(DateTime, ReadsPackedDatesDaysOfTheYearAndTheTimeFirst) {
+  const double moment = *Seconds("2024-03-04") + 8 * 3600.0 + 14 * 60.0;
+  for (const char* text : {"20240304 0814",
+                           "20240304T081400",
+                           "20240304_081400",
+                           "20240304-081400",
+                           "20240304 08:14",
+                           "2024-064T08:14",
+                           "2024/064 08:14:00",
+                           "04-Mar-2024 08:14:00",
+                           "04/Mar/2024:08:14:00 +0000",
+                           "Mon Mar  4 08:14:00 2024",
+                           "Mon Mar  4 09:14:00 CEST 2024",
+                           "Mar 4, 2024 08:14 AM",
+                           "March 4 2024, 08:14:00",
+                           "08:14:00 04/03/2024",
+                           "08:14, 2024-03-04",
+                           "8:14 a. m. 04.03.2024",
+                           "04/03/2024 8:14\u202fa.\u00a0m.",
+                           "2024-03-04 08:14:00:000"}) {
+    const auto parsed = ParseDateTime(text);
+    ASSERT_TRUE(parsed && parsed->has_date && parsed->has_time) << text;
+    EXPECT_EQ(parsed->seconds, moment) << text;
+  }
+  EXPECT_EQ(Seconds("20240304 081400.5"), moment + 0.5);
+  EXPECT_EQ(Seconds("08:14:00:250"), 29640.25);
+  EXPECT_EQ(Seconds("08:14 p. m."), 29640.0 + 43200.0);
+  EXPECT_EQ(Seconds("08:14 3/4/2024", DateOrder::kMonthFirst), moment);
+  EXPECT_TRUE(ParseDateTime("08:14 3/4/2024")->by_order);
+  for (const char* text : {"20240304",
+                           "20241304 081400",
+                           "20240304 0814000",
+                           "2023-366T08:14",
+                           "2024-000",
+                           "25:14 04/03/2024",
+                           "Mon Mar 32 08:14:00 2024",
+                           "Foo 4 08:14:00 2024",
+                           "1:08:14:00"}) {
+    EXPECT_FALSE(ParseDateTime(text).has_value()) << text;
+  }
 }
 
 TEST(DateTime, GoesOnBeyondADayButNotAtItsEnd) {

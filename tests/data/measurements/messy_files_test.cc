@@ -483,5 +483,20 @@ TEST(MessyFiles, ATargetOfTwoUnitsIsAskedFor) {
                 "its unit in brackets at the end: 'error [um]'"));
 }
 
+TEST(MessyFiles, StopAtATimeThatCannotBeRead) {
+  const auto with_times = [](const std::string& begin) {
+    return Joined(Changed(Measured(), [&](std::size_t i, auto* cells) {
+      (*cells)[kTime] = i == 0 ? "time" : begin + std::to_string(100 + i);
+    }));
+  };
+  for (const char* begin : {"2024-W10-1 08.", "4/2024 8h", "W10 2024:"}) {
+    EXPECT_THAT(ErrorOf(with_times(begin)),
+                HasSubstr("is no time; write it as 2024-03-01T12:00:05, or go "
+                          "without a clock, by time = none"));
+    EXPECT_NO_THROW(Make(with_times(begin), {.time = "none"}));
+  }
+  EXPECT_NO_THROW(Make(with_times("shift ")));
+}
+
 }  // namespace
 }  // namespace errmap::data
