@@ -1,6 +1,7 @@
 #include "data/tables/csv_layout.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -114,9 +115,49 @@ class LayoutFinder {
   std::size_t FirstDataRow() const {
     for (std::size_t i = 0; i < records_.size(); ++i) {
       const CellCounts counts = CountsOf(records_[i].cells);
-      if (counts.numbers > counts.words) return i;
+      if (counts.numbers > counts.words && !AreNumberNames(i)) return i;
     }
     return kNone;
+  }
+
+  // "cycle, t1_degC, 0, 50, 100": names some of which are numbers that go one
+  // way, over a row with numbers below the words.
+  bool AreNumberNames(std::size_t row) const {
+    if (row + 1 >= records_.size() || records_[row].cells.size() != usual_ ||
+        records_[row + 1].cells.size() != usual_) {
+      return false;
+    }
+    for (std::size_t i = 0; i < row; ++i) {
+      if (MayBeNames(records_[i].cells)) return false;
+    }
+    std::vector<double> numbers;
+    bool is_named = false;
+    for (std::size_t i = 0; i < usual_; ++i) {
+      const std::string& cell = records_[row].cells[i];
+      const std::string& below = records_[row + 1].cells[i];
+      NumberForm form;
+      if (ReadNumberForm(cell, dialect_.decimal_comma, &form)) {
+        numbers.push_back(form.value);
+      } else if (!IsMissingNumber(cell) || (i == 0 && cell.empty())) {
+        is_named =
+            is_named || (!BeginsWithNumber(cell) && BeginsWithNumber(below));
+      }
+    }
+    return is_named && GoOneWay(numbers);
+  }
+
+  static bool BeginsWithNumber(std::string_view cell) {
+    return cell.find_first_of("0123456789") <=
+           (cell.starts_with('-') || cell.starts_with('+') ? 1U : 0U);
+  }
+
+  static bool GoOneWay(const std::vector<double>& numbers) {
+    constexpr std::size_t kFewest = 3;
+    return numbers.size() >= kFewest &&
+           (std::ranges::adjacent_find(numbers, std::greater_equal<>()) ==
+                numbers.end() ||
+            std::ranges::adjacent_find(numbers, std::less_equal<>()) ==
+                numbers.end());
   }
 
   // A separator at the rows' ends, or columns that no row reaches, make a line
@@ -129,6 +170,7 @@ class LayoutFinder {
 
   // The row of names above the first data row, or kNone.
   std::size_t NamesAbove(std::size_t first) const {
+    if (first > 0 && AreNumberNames(first - 1)) return first - 1;
     for (std::size_t i = first; i-- > 0;) {
       if (!MayBeNames(records_[i].cells)) continue;
       const bool is_below_names = i > 0 && MayBeNames(records_[i - 1].cells);

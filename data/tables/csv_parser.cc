@@ -176,8 +176,8 @@ class Parser {
     std::vector<std::string> names;
     for (const std::string& text : layout_.names) {
       names.push_back(AsUtf8(TextOf(text)));
-      RefuseNumber(names.back(), names.size());
     }
+    RefuseNumbers(names);
     NamedColumns named = NameColumns(names);
     table_.columns = std::move(named.columns);
     num_named_ = named.num_named;
@@ -192,15 +192,24 @@ class Parser {
         JoinWords(named.again, ", ") + (num > kMostShown ? ", ..." : ""));
   }
 
-  void RefuseNumber(const std::string& name, std::size_t number) const {
-    NumberForm form;
-    if (!ReadNumberForm(name, dialect_.decimal_comma, &form)) return;
+  // Numbers for names are positions, where FoldPositions takes them for such.
+  void RefuseNumbers(const std::vector<std::string>& names) const {
+    std::vector<double> numbers;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      NumberForm form;
+      if (!ReadNumberForm(names[i], dialect_.decimal_comma, &form)) continue;
+      if (numbers.empty()) first = i;
+      numbers.push_back(form.value);
+    }
+    if (numbers.empty() || AreSpacedPositions(numbers)) return;
+    const std::string shown = Printable(names[first], kShownName);
     ThrowAt(layout_.header_line,
-            "no header: cell " + std::to_string(number) + " is the number " +
-                QuotedText(name) +
+            "no header: cell " + std::to_string(first + 1) + " is the number " +
+                QuotedText(names[first]) +
                 " where a column name should be; put a line of column names "
                 "first (of errors at a position: error_um@" +
-                Printable(name, kShownName) + "mm)");
+                shown + "mm; of a run: Run " + shown + " [um])");
   }
 
   // The cells of a record from the cursor on, which stays.

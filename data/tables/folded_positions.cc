@@ -1,19 +1,19 @@
 #include "data/tables/folded_positions.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "data/column_words.h"
 #include "data/columns.h"
+#include "data/tables/numbered_names.h"
+#include "data/tables/row_figures.h"
 #include "data/text.h"
 #include "data/units.h"
 
@@ -21,145 +21,6 @@ namespace errmap::data {
 namespace {
 
 constexpr std::size_t kFewestPositions = 3;
-constexpr auto kLengths = std::to_array<std::string_view>(
-    {"mm", "um", "\u00b5m", "inch", "in", "m", "deg"});
-
-// What a name such as "e@-215.9mm_um" or "X=25 mm" says.
-struct PlacedName {
-  std::string quantity;  // "error_um"
-  std::string unit;      // of the position
-  double position;
-  bool is_marked = false;  // by "@" or "="
-};
-
-std::string QuantityOf(std::string_view before, std::string_view after) {
-  std::string name(Trimmed(before));
-  if (name.empty() || EqualsIgnoringCase(name, "e") ||
-      EqualsIgnoringCase(name, "err")) {
-    name = "error";
-  }
-  return name + std::string(after);
-}
-
-// What stands before a number without "@": nothing, an axis, a position, or an
-// error; thermometers have their places in their names, too. Letters directly
-// before a number name one of several: "A1 deg" is the first angle.
-std::optional<std::string_view> BeforePlace(std::string_view before) {
-  const bool is_apart = before.empty() || std::string_view("=: ").find(
-                                              before.back()) != before.npos;
-  before = Trimmed(before);
-  if (before.ends_with('=') || before.ends_with(':')) before.remove_suffix(1);
-  before = Trimmed(before);
-  if (!is_apart) return std::nullopt;
-  if (before.empty() ||
-      IsOneOf(before, "x y z a b c u v w pos pos. position at")) {
-    return std::string_view();
-  }
-  if (!IsOneOf(before, "e err error dev fehler abweichung"))
-    return std::nullopt;
-  return before;
-}
-
-std::optional<PlacedName> ReadPlacedName(std::string_view name) {
-  std::size_t at = name.find('@');
-  std::optional<std::string_view> before;
-  if (at != std::string_view::npos) {
-    before = name.substr(0, at);
-    ++at;
-  } else {
-    at = std::min(name.find_first_of("+-0123456789"), name.size());
-    before = BeforePlace(name.substr(0, at));
-  }
-  if (!before) return std::nullopt;
-  const bool has_at = at > 0 && name[at - 1] == '@';
-  std::string_view rest = Trimmed(name.substr(at));
-  if (rest.starts_with('+')) rest.remove_prefix(1);
-  PlacedName placed{
-      .quantity = {},
-      .unit = "",
-      .position = 0.0,
-      .is_marked = name.substr(0, at).find_first_of("@=") != name.npos};
-  const char* const end = rest.data() + rest.size();
-  const auto [stop, error] = std::from_chars(rest.data(), end, placed.position);
-  if (error != std::errc()) return std::nullopt;
-  rest = Trimmed({stop, static_cast<std::size_t>(end - stop)});
-  for (const std::string_view unit : kLengths) {
-    if (!rest.starts_with(unit)) continue;
-    placed.unit = unit;
-    rest.remove_prefix(unit.size());
-    break;
-  }
-  if (placed.unit.empty()) {
-    if (!has_at) return std::nullopt;
-    placed.unit = "mm";
-  }
-  // What follows is the unit of the quantity: "_um", " [um]", or nothing.
-  if (!rest.empty() &&
-      std::string_view("_ [(").find(rest.front()) == std::string_view::npos) {
-    return std::nullopt;
-  }
-  placed.quantity = QuantityOf(*before, rest);
-  return placed;
-}
-
-// What a name such as "Run 3 up [um]" says.
-struct RunName {
-  std::string quantity = {};  // "error [um]"
-  int run = 0;
-  std::string direction = {};  // "up", "down", or ""
-};
-
-// "up" and "down" of a sign that ends a name but for its unit: "Pass 1 - [um]".
-// The dash of "Pass 1-um" parts name and unit.
-std::string SignBehind(std::string_view name, std::string_view unit) {
-  if (!unit.empty()) {
-    name = name.substr(0, name.rfind(unit));
-    if (!name.empty()) name.remove_suffix(1);
-  }
-  name = Trimmed(name);
-  return name.ends_with('+') ? "up" : name.ends_with('-') ? "down" : "";
-}
-
-std::optional<RunName> ReadRunName(std::string_view name) {
-  constexpr std::string_view kRuns =
-      "run cycle pass traverse lauf zyklus messung messlauf ciclo cyclus";
-  constexpr std::string_view kUp = "up fwd forward pos vor f";
-  constexpr std::string_view kDown = "down dn rev reverse neg bwd backward r b";
-  const Header header = ReadHeader(name);
-  constexpr std::string_view kBetween = " _.#:-+";
-  RunName said{.direction = SignBehind(name, header.unit_text)};
-  bool is_run = false;
-  const std::string_view base = header.base;
-  for (std::size_t at = 0; at < base.size();) {
-    std::size_t end = at;
-    if (kBetween.find(base[at]) != kBetween.npos) {
-      ++at;
-      continue;
-    }
-    const bool digits = base[at] >= '0' && base[at] <= '9';
-    while (end < base.size() && kBetween.find(base[end]) == kBetween.npos &&
-           (base[end] >= '0' && base[end] <= '9') == digits) {
-      ++end;
-    }
-    const std::string_view word = base.substr(at, end - at);
-    if (digits) {
-      std::from_chars(word.data(), word.data() + word.size(), said.run);
-    } else if (IsOneOf(word, kRuns)) {
-      is_run = true;
-    } else if (IsOneOf(word, kUp)) {
-      said.direction = "up";
-    } else if (IsOneOf(word, kDown)) {
-      said.direction = "down";
-    } else {
-      return std::nullopt;
-    }
-    at = end;
-  }
-  if (!is_run || said.run <= 0) return std::nullopt;
-  said.quantity = "error";
-  if (!header.unit_text.empty()) said.quantity += " [" + header.unit_text + "]";
-  return said;
-}
 
 // Columns that become rows: each row of the table becomes one for each slot.
 struct Fold {
@@ -170,6 +31,7 @@ struct Fold {
   bool slot_by_slot = false;    // all rows of one, then those of the next
   std::vector<bool> backwards;  // (slots) the rows of one from the last up
   std::string what;             // "a column for each of 9 positions"
+  std::vector<std::string> made = {};  // columns that sheets make of these
 };
 
 // A column of errors beside those that might be folded.
@@ -180,9 +42,15 @@ const CsvColumn* ErrorBeside(const CsvTable& table, const Fold& fold) {
   return found == fold.kept.end() ? nullptr : &table.columns[*found];
 }
 
+bool HasPositionBeside(const CsvTable& table, const Fold& fold) {
+  return std::ranges::any_of(fold.kept, [&](std::size_t i) {
+    return IsCalledPosition(table.columns[i].name);
+  });
+}
+
 std::optional<Fold> FindPositions(const CsvTable& table) {
   Fold fold;
-  std::string unit;
+  std::optional<std::string> unit;
   bool are_marked = true;
   std::map<std::string, std::vector<double>> places;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
@@ -192,8 +60,8 @@ std::optional<Fold> FindPositions(const CsvTable& table) {
       fold.kept.push_back(i);
       continue;
     }
-    if (unit.empty()) unit = name->unit;
-    if (name->unit != unit) return std::nullopt;
+    if (!unit) unit = name->unit;
+    if (name->unit != *unit) return std::nullopt;
     are_marked = are_marked && name->is_marked;
     places[name->quantity].push_back(name->position);
     fold.quantities[name->quantity].push_back(i);
@@ -205,15 +73,19 @@ std::optional<Fold> FindPositions(const CsvTable& table) {
       places, [&](const auto& of) { return of.second == positions; });
   if (!are_alike || distinct.size() != positions.size() ||
       positions.size() < kFewestPositions ||
-      (!are_marked && ErrorBeside(table, fold) != nullptr)) {
+      (!are_marked && ErrorBeside(table, fold) != nullptr) ||
+      (unit->empty() &&
+       (!AreSpacedPositions(positions) || HasPositionBeside(table, fold)))) {
     return std::nullopt;
   }
+  const std::string shown = unit->empty() ? "mm" : *unit;
   fold.slots = positions.size();
   fold.backwards.assign(fold.slots, false);
-  fold.labels.push_back(NumberColumn("position_" + unit, positions));
+  fold.labels.push_back(NumberColumn("position_" + shown, positions));
   fold.what = "a column for each of " + std::to_string(fold.slots) +
               " positions (" + CsvNumber(*distinct.begin()) + " to " +
-              CsvNumber(*distinct.rbegin()) + " " + unit + ")";
+              CsvNumber(*distinct.rbegin()) +
+              (unit->empty() ? ", taken as " : " ") + shown + ")";
   return fold;
 }
 
@@ -286,6 +158,26 @@ std::optional<Fold> FindRuns(const CsvTable& table) {
   return fold;
 }
 
+// Leaves out means and ranges of the columns to be folded, or of those that go
+// one way: they hold the errors that a map is to tell.
+void LeaveOutFigures(const CsvTable& table, Fold* fold) {
+  std::vector<std::vector<std::size_t>> sets;
+  for (const auto& [name, sources] : fold->quantities) {
+    sets.push_back(sources);
+    sets.resize(sets.size() + 2);
+    for (std::size_t slot = 0; slot < fold->slots; ++slot) {
+      const std::size_t set = sets.size() - (fold->backwards[slot] ? 1 : 2);
+      sets[set].push_back(sources[slot]);
+    }
+  }
+  std::erase_if(fold->kept, [&](std::size_t column) {
+    const bool is_made = std::ranges::any_of(
+        sets, [&](const auto& set) { return IsRowFigure(table, column, set); });
+    if (is_made) fold->made.push_back(QuotedName(table.columns[column].name));
+    return is_made;
+  });
+}
+
 // Rows of the folded table: the row and the slot that each is from.
 struct Places {
   std::vector<std::ptrdiff_t> rows;
@@ -323,10 +215,23 @@ CsvColumn Folded(const CsvTable& table,
 
 }  // namespace
 
+bool AreSpacedPositions(const std::vector<double>& numbers) {
+  if (numbers.size() < kFewestPositions) return false;
+  const bool rise = numbers.front() < numbers.back();
+  bool by_ones = true;
+  for (std::size_t i = 1; i < numbers.size(); ++i) {
+    const double step = numbers[i] - numbers[i - 1];
+    if (step == 0.0 || (step > 0.0) != rise) return false;
+    by_ones = by_ones && std::abs(step) == 1.0;
+  }
+  return !by_ones;
+}
+
 void FoldPositions(CsvTable* table) {
   std::optional<Fold> fold = FindPositions(*table);
   if (!fold) fold = FindRuns(*table);
   if (!fold) return;
+  LeaveOutFigures(*table, &*fold);
   const Places places = PlacesOf(*fold, table->num_rows);
   const std::size_t rows = places.rows.size();
   std::vector<CsvColumn> columns;
@@ -347,10 +252,13 @@ void FoldPositions(CsvTable* table) {
     runs.emplace_back(
         row, table->LineOfRow(static_cast<std::size_t>(places.rows[row])));
   }
-  table->remarks.push_back(PrintablePath(table->file) + ": " +
-                           std::to_string(table->num_rows) + " rows with " +
-                           fold->what + " are read as " + std::to_string(rows) +
-                           " rows, of " + JoinWords(names, ", "));
+  table->remarks.push_back(
+      PrintablePath(table->file) + ": " + std::to_string(table->num_rows) +
+      " rows with " + fold->what + " are read as " + std::to_string(rows) +
+      " rows, of " + JoinWords(names, ", ") +
+      (fold->made.empty()
+           ? ""
+           : "; " + JoinWords(fold->made, ", ") + " made of these left out"));
   table->columns = std::move(columns);
   table->line_runs = std::move(runs);
   table->num_rows = rows;

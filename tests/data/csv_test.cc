@@ -361,7 +361,7 @@ TEST(ParseCsvError, NumberWhereANameShouldBe) {
   EXPECT_EQ(ErrorOf("a;1,5\n1;2\n"),
             "f.csv: line 1: no header: cell 2 is the number '1,5' where a "
             "column name should be; put a line of column names first (of "
-            "errors at a position: error_um@1,5mm)");
+            "errors at a position: error_um@1,5mm; of a run: Run 1,5 [um])");
 }
 
 TEST(ParseCsvError, RaggedRows) {

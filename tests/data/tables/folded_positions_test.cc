@@ -122,5 +122,96 @@ TEST(FoldedPositions, NeedAMarkWhereAnotherColumnSaysError) {
   EXPECT_EQ(ColumnsOf("x=1 mm,x=2 mm,x=3 mm,error [um]\n1,2,3,4\n").size(), 3U);
 }
 
+// A row of readings at 0, 50 and 120 below three names.
+CsvTable Sheet(const std::string& names) {
+  return ParseCsv("t1_degC;" + names + "\n20.5;1;2;3\n21;2;3;4\n", "f.csv");
+}
+
+TEST(FoldedPositions, AreNamedInManyWays) {
+  const struct {
+    const char* names;
+    const char* error;
+    std::vector<double> positions = {0.0, 50.0, 120.0};
+  } kCases[] = {
+      {"Error at 0 mm (um);Error at 50 mm (um);Error at 120 mm (um)",
+       "Error (um)"},
+      {"err_um@x=0;err_um@x=50;err_um@x=120", "err_um"},
+      {"e_0mm_um;e_50mm_um;e_120mm_um", "error_um"},
+      {"err_0;err_50;err_120", "error"},
+      {"err_0_um;err_50_um;err_120_um", "error_um"},
+      {"err_um_0;err_um_50;err_um_120", "err_um"},
+      {"Abweichung bei 0 mm [um];Abweichung bei 50 mm [um];Abweichung bei 120 "
+       "mm [um]",
+       "Abweichung [um]"},
+      {"0;50;120", "error"},
+      {"-12,5;50;120", "error", {-12.5, 50.0, 120.0}},
+      {"120;50;0", "error", {120.0, 50.0, 0.0}},
+  };
+  for (const auto& [names, error, positions] : kCases) {
+    const CsvTable table = Sheet(names);
+    ASSERT_EQ(table.num_rows, 6U) << names;
+    EXPECT_GE(table.Find(error), 0) << names;
+    const CsvColumn& position = table.At(table.Find("position_mm"));
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(position.values[i], positions[i]) << names;
+    }
+  }
+}
+
+TEST(FoldedPositions, AreNoneOfWhatMayBeSomethingElse) {
+  for (const char* names : {"err_1;err_2;err_3",
+                            "x_50;x_100;x_150",
+                            "t_50;t_100;t_150",
+                            "err_50;err_20;err_70",
+                            "position;err_50;err_70"}) {
+    EXPECT_EQ(Sheet(names).columns.size(), 4U) << names;
+  }
+}
+
+TEST(FoldedPositions, RefuseNumbersThatMayBeRuns) {
+  try {
+    Sheet("1;2;3");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                ::testing::HasSubstr("error_um@1mm; of a run: Run 1 [um]"));
+  }
+}
+
+TEST(FoldedRuns, AreNamedInManyWays) {
+  const struct {
+    const char* names;
+    std::vector<std::string> columns;
+  } kCases[] = {
+      {"Lauf 1 vorw\u00e4rts [\u00b5m];Lauf 1 r\u00fcckw\u00e4rts "
+       "[\u00b5m];Lauf 2 vorw\u00e4rts [\u00b5m]",
+       {"t1_degC", "cycle", "direction", "error [\u00b5m]"}},
+      {"1\u2191 (um);1\u2193 (um);2\u2191 (um)",
+       {"t1_degC", "cycle", "direction", "error [um]"}},
+      {"1 fwd;1 rev;2 fwd", {"t1_degC", "cycle", "direction", "error"}},
+      {"Deviation run 1 (um);Deviation run 2 (um);Deviation run 3 (um)",
+       {"t1_degC", "cycle", "error [um]"}},
+  };
+  for (const auto& [names, columns] : kCases) {
+    std::vector<std::string> found;
+    for (const CsvColumn& column : Sheet(names).columns) {
+      found.push_back(column.name);
+    }
+    EXPECT_EQ(found, columns) << names;
+  }
+}
+
+TEST(FoldedRuns, LeaveOutWhatASheetMakesOfThem) {
+  const std::string text =
+      "x [mm],Run 1 [um],Run 2 [um],Run 3 [um],Mean,Range,s,t1_degC\n"
+      "0,1,2,3.1,2.03,2.1,1.05,20\n50,4,5,7,5.33,3,1.53,21\n"
+      "90,2,2,5,3,3,1.73,20.5\n";
+  EXPECT_THAT(ColumnsOf(text),
+              ElementsAre("x [mm]", "t1_degC", "cycle", "error [um]"));
+  EXPECT_THAT(ParseCsv(text, "f.csv").remarks,
+              ::testing::Contains(::testing::HasSubstr(
+                  "; 'Mean', 'Range', 's' made of these left out")));
+}
+
 }  // namespace
 }  // namespace errmap::data

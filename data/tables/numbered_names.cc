@@ -1,0 +1,198 @@
+#include "data/tables/numbered_names.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "data/text.h"
+#include "data/units.h"
+
+namespace errmap::data {
+namespace {
+
+constexpr auto kLengths = std::to_array<std::string_view>(
+    {"mm", "um", "\u00b5m", "\u03bcm", "inch", "in", "m", "deg"});
+constexpr std::string_view kErrors =
+    "e err error dev deviation fehler abw abweichung";
+constexpr std::string_view kDigits = "0123456789";
+
+bool IsDigitOfName(char c) { return kDigits.find(c) != kDigits.npos; }
+
+std::string QuantityOf(std::string_view before, std::string_view after) {
+  std::string name(Trimmed(before));
+  if (name.empty() || EqualsIgnoringCase(name, "e") ||
+      EqualsIgnoringCase(name, "err")) {
+    name = "error";
+  }
+  return name + std::string(after);
+}
+
+// Less "at", "x" or "pos" at its end.
+std::string_view WithoutPlaceWord(std::string_view before) {
+  const std::size_t last = before.find_last_of(" _");
+  const std::string_view word =
+      last == before.npos ? before : before.substr(last + 1);
+  if (!IsOneOf(word, "x y z a b c u v w pos pos. position at bei")) {
+    return before;
+  }
+  return Trimmed(before.substr(0, before.size() - word.size()));
+}
+
+// What stands before a number without "@": nothing, an axis, a position, or an
+// error; thermometers have their places in their names, too. Letters directly
+// before a number name one of several: "A1 deg" is the first angle.
+std::optional<std::string_view> BeforePlace(std::string_view before) {
+  if (before.empty()) return before;
+  if (std::string_view("=: _").find(before.back()) == before.npos) {
+    return std::nullopt;
+  }
+  const bool is_line = before.ends_with('_');
+  while (!before.empty() &&
+         std::string_view("=: _").find(before.back()) != before.npos) {
+    before.remove_suffix(1);
+  }
+  before = Trimmed(WithoutPlaceWord(before));
+  if (before.ends_with('_')) before.remove_suffix(1);
+  // "x_1" is one of several, too.
+  if (before.empty()) return is_line ? std::nullopt : std::optional(before);
+  const bool is_error =
+      IsOneOf(ReadHeader(before).base, kErrors) || IsOneOf(before, kErrors);
+  return is_error ? std::optional(before) : std::nullopt;
+}
+
+// With a decimal point between digits.
+std::string WithPoints(std::string_view name) {
+  std::string text(name);
+  for (std::size_t i = 1; i + 1 < text.size(); ++i) {
+    if (text[i] == ',' && IsDigitOfName(text[i - 1]) && IsDigitOfName(text[i + 1])) {
+      text[i] = '.';
+    }
+  }
+  return text;
+}
+
+// Takes "50 mm" or "x=50 mm" off the front of a text.
+bool TakePlace(std::string_view* rest, PlacedName* placed) {
+  const std::size_t sign = rest->find('=');
+  if (sign != rest->npos && sign < rest->find_first_of(kDigits)) {
+    rest->remove_prefix(sign + 1);
+  }
+  *rest = Trimmed(*rest);
+  if (rest->starts_with('+')) rest->remove_prefix(1);
+  const char* const end = rest->data() + rest->size();
+  const auto [stop, error] =
+      std::from_chars(rest->data(), end, placed->position);
+  if (error != std::errc()) return false;
+  *rest = Trimmed({stop, static_cast<std::size_t>(end - stop)});
+  const auto* const unit = std::ranges::find_if(
+      kLengths,
+      [&](std::string_view length) { return rest->starts_with(length); });
+  if (unit != kLengths.end()) {
+    placed->unit = *unit;
+    rest->remove_prefix(unit->size());
+  }
+  return true;
+}
+
+// "x 1" is one of several; "50" and "50 [um]" may be positions.
+bool MayBeBare(std::size_t before, std::string_view rest) {
+  const Header header = ReadHeader("x" + std::string(rest));
+  return before == 0 && (rest.empty() || IsLengthOrAngle(header.unit));
+}
+
+// "up" and "down" of a sign that ends a name but for its unit: "Pass 1 - [um]".
+// The dash of "Pass 1-um" parts name and unit.
+std::string SignBehind(std::string_view name, std::string_view unit) {
+  if (!unit.empty()) {
+    name = name.substr(0, name.rfind(unit));
+    if (!name.empty()) name.remove_suffix(1);
+  }
+  name = Trimmed(name);
+  return name.ends_with('+') ? "up" : name.ends_with('-') ? "down" : "";
+}
+
+// The next word of a name, or its next number; "" at its end.
+std::string_view TakePart(std::string_view* rest) {
+  constexpr std::string_view kBetween = " _.#:-+()";
+  rest->remove_prefix(
+      std::min(rest->find_first_not_of(kBetween), rest->size()));
+  if (rest->empty()) return "";
+  const bool digits = IsDigitOfName(rest->front());
+  std::size_t end = 0;
+  while (end < rest->size() && kBetween.find((*rest)[end]) == kBetween.npos &&
+         IsDigitOfName((*rest)[end]) == digits) {
+    ++end;
+  }
+  const std::string_view part = rest->substr(0, end);
+  rest->remove_prefix(end);
+  return part;
+}
+
+}  // namespace
+
+std::optional<PlacedName> ReadPlacedName(std::string_view name) {
+  const std::string text = WithPoints(name);
+  name = text;
+  std::size_t at = name.find('@');
+  std::optional<std::string_view> before;
+  const bool has_at = at != name.npos;
+  if (has_at) {
+    before = name.substr(0, at);
+    ++at;
+  } else {
+    at = std::min(name.find_first_of("+-0123456789"), name.size());
+    before = BeforePlace(name.substr(0, at));
+  }
+  if (!before) return std::nullopt;
+  PlacedName placed;
+  placed.is_marked = name.substr(0, at).find_first_of("@=") != name.npos;
+  std::string_view rest = name.substr(at);
+  if (!TakePlace(&rest, &placed)) return std::nullopt;
+  if (placed.unit.empty() && has_at) placed.unit = "mm";
+  if (placed.unit.empty() && before->empty() && !MayBeBare(at, rest)) {
+    return std::nullopt;
+  }
+  // What follows is the unit of the quantity: "_um", " [um]", or nothing.
+  if (!rest.empty() &&
+      std::string_view("_ [(").find(rest.front()) == rest.npos) {
+    return std::nullopt;
+  }
+  placed.quantity = QuantityOf(*before, rest);
+  return placed;
+}
+
+std::optional<RunName> ReadRunName(std::string_view name) {
+  constexpr std::string_view kRuns =
+      "run cycle pass traverse lauf zyklus messung messlauf ciclo cyclus";
+  constexpr std::string_view kUp =
+      "up upwards fwd forward pos vor vorw\u00e4rts vorwaerts hin "
+      "aufw\u00e4rts aufwaerts \u2191 \u2192 f";
+  constexpr std::string_view kDown =
+      "down downwards dn rev reverse neg bwd backward zur\u00fcck zurueck "
+      "r\u00fcckw\u00e4rts rueckwaerts abw\u00e4rts abwaerts \u2193 \u2190 r b";
+  const Header header = ReadHeader(name);
+  RunName said{.direction = SignBehind(name, header.unit_text)};
+  bool is_run = false;
+  std::string_view rest = header.base;
+  for (std::string_view word = TakePart(&rest); !word.empty();
+       word = TakePart(&rest)) {
+    const bool is_up = IsOneOf(word, kUp);
+    if (IsDigitOfName(word.front())) {
+      std::from_chars(word.data(), word.data() + word.size(), said.run);
+    } else if (IsOneOf(word, kRuns)) {
+      is_run = true;
+    } else if (is_up || IsOneOf(word, kDown)) {
+      said.direction = is_up ? "up" : "down";
+      // "f1" may be anything, "1 fwd" is a run.
+      is_run = is_run || word.size() > 1;
+    } else if (!IsOneOf(word, kErrors)) {
+      return std::nullopt;
+    }
+  }
+  if (!is_run || said.run <= 0) return std::nullopt;
+  said.quantity = "error";
+  if (!header.unit_text.empty()) said.quantity += " [" + header.unit_text + "]";
+  return said;
+}
+
+}  // namespace errmap::data

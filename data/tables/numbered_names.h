@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace errmap::data {
+
+/// What the name of a column of readings at one position says, such as
+/// "e@-215.9mm_um", "X=25 mm", "Error at 50 mm (um)", "e_50mm_um".
+struct PlacedName {
+  std::string quantity;  // "error_um"
+  std::string unit;      // of the position; "" of "err_50" and "50"
+  double position = 0.0;
+  bool is_marked = false;  // by "@" or "="
+};
+std::optional<PlacedName> ReadPlacedName(std::string_view name);
+
+/// What the name of a column of one run says, such as "Run 3 up [um]",
+/// "Lauf 1 rückwärts", "2↓ (µm)".
+struct RunName {
+  std::string quantity = {};  // "error [um]"
+  int run = 0;
+  std::string direction = {};  // "up", "down", or ""
+};
+std::optional<RunName> ReadRunName(std::string_view name);
+
+}  // namespace errmap::data
