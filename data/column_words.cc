@@ -25,7 +25,7 @@ constexpr auto kWords = std::to_array<std::string_view>({
     // kPosition
     "position pos posn coordinate coord posicion posizione posicao quota "
     "weg stellung koordinate positie pozycja polozenie poloha pozice lage "
-    "asema konum ichi 位置",
+    "asema konum ichi travel verfahrweg 位置",
     // kNominal
     "nominal nom commanded command cmd setpoint target ziel soll sollwert "
     "sollposition consigne nominale consigna theorique teorica nominaal "

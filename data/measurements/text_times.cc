@@ -4,8 +4,11 @@
 #include <cmath>
 #include <cstddef>
 
+#include "data/argument_name.h"
+#include "data/column_words.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/date_time.h"
+#include "data/text.h"
 
 namespace errmap::data {
 namespace {
@@ -81,8 +84,8 @@ bool LooksLikeTime(const std::string& text) {
   return digits >= kFewestDigits && numbers >= 2;
 }
 
-}  // namespace
-
+// The first row whose cell is no time in a column that looks like times by most
+// of its cells; else nothing.
 std::optional<std::size_t> FirstUnreadTime(const CsvColumn& column) {
   const TextTimes times = ReadTimes(column);
   std::optional<std::size_t> first;
@@ -95,6 +98,23 @@ std::optional<std::size_t> FirstUnreadTime(const CsvColumn& column) {
     if (!first && !times.seconds[text]) first = row;
   }
   return column.is_text() && alike > others ? first : std::nullopt;
+}
+
+}  // namespace
+
+void RefuseUnreadTimes(const CsvTable& table) {
+  for (const CsvColumn& column : table.columns) {
+    if (!Says(column.name, Word::kTime) && !Says(column.name, Word::kDate)) {
+      continue;
+    }
+    const std::optional<std::size_t> row = FirstUnreadTime(column);
+    if (!row) continue;
+    throw InputError(table.Where(*row, column.name) + ": " +
+                     QuotedText(table.CellText(column, *row)) +
+                     " is no time; write it as 2024-03-01T12:00:05, or go "
+                     "without a clock, by " +
+                     ArgumentName("time", "none"));
+  }
 }
 
 TextTimes ReadTimes(const CsvColumn& column) {

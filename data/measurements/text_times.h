@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,8 +30,9 @@ struct TextTimes {
 /// long, else the month with AM and PM, else the day.
 TextTimes ReadTimes(const CsvColumn& column);
 
-/// The first row of a column of text that looks like times by most of its
-/// cells, whose cell is no time that ParseDateTime reads; else nothing.
-std::optional<std::size_t> FirstUnreadTime(const CsvColumn& column);
+/// Throws InputError, with the place and the form that works, where a column
+/// that is called a time or a date looks like times by most of its cells and
+/// one of them is none that ParseDateTime reads.
+void RefuseUnreadTimes(const CsvTable& table);
 
 }  // namespace errmap::data

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "data/argument_name.h"
-#include "data/column_words.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/dataset.h"
@@ -126,23 +125,14 @@ class DatasetBuilder {
         read_.found.time_column >= 0) {
       return;
     }
-    for (const CsvColumn& column : table_.columns) {
-      if (!Says(column.name, Word::kTime) && !Says(column.name, Word::kDate)) {
-        continue;
-      }
-      const std::optional<std::size_t> row = FirstUnreadTime(column);
-      if (!row) continue;
-      throw InputError(
-          table_.Where(*row, column.name) + ": " +
-          QuotedText(table_.CellText(column, *row)) +
-          " is no time; write it as 2024-03-01T12:00:05, or go without a "
-          "clock, by " +
-          ArgumentName("time", "none"));
-    }
+    data::RefuseUnreadTimes(table_);
   }
 
   void TakeChosenInputs() {
-    ChosenInputs chosen = ChooseInputs(table_, selection_, roles_, found_);
+    DatasetSelection selection = selection_;
+    // An axis by its values is no error, whatever its unit.
+    if (selection.position.empty()) selection.position = read_.position;
+    ChosenInputs chosen = ChooseInputs(table_, selection, roles_, found_);
     inputs_ = std::move(chosen.inputs);
     dropped_ = std::move(chosen.dropped);
     words_ = std::move(chosen.words);

@@ -135,15 +135,17 @@ class AxisFinder {
     return found;
   }
 
-  // Of no name that says it: lengths, angles, and what has no unit.
+  // Of no name that says it: lengths, angles, and what has no unit. In a unit
+  // of errors only what rows pass through as they do where an axis is sent.
   std::vector<Candidate> ByValues() const {
     constexpr std::size_t kMostLooked = 200;
     std::vector<Candidate> found;
     std::size_t looked = 0;
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       const Unit unit = UnitOfColumn(Name(i));
-      const bool is_error = IsUnitOfErrors(unit) && !IsAxisLetter(Name(i));
-      if (!IsFree(i) || is_error || IsCalledPosition(Name(i)) ||
+      const bool may_err = IsUnitOfErrors(unit) && !IsAxisLetter(Name(i));
+      if (!IsFree(i) || (may_err && ErrorSign(Name(i)) != 0) ||
+          IsCalledPosition(Name(i)) ||
           !(IsLengthOrAngle(unit) || unit.symbol.empty()) ||
           Says(Name(i), Word::kTemperature) ||
           Says(Name(i), Word::kDirection) ||
@@ -153,7 +155,8 @@ class AxisFinder {
       }
       Candidate candidate = Look(i, kRowsLooked);
       if (candidate.motion.is_commanded ||
-          (candidate.motion.is_sorted && candidate.levels.come_alike)) {
+          (!may_err && candidate.motion.is_sorted &&
+           candidate.levels.come_alike)) {
         found.push_back(std::move(candidate));
       }
     }

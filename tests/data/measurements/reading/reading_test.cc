@@ -198,12 +198,18 @@ TEST(Reading, TakesWhatIsCommandedForTheAxisWhateverItsName) {
                                  "Achse Z [mm]",
                                  "posizione [mm]",
                                  "axis_x_mm",
-                                 "reach [mm]"}) {
+                                 "reach [mm]",
+                                 "travel_um",
+                                 "stroke_um",
+                                 "target_um",
+                                 "Soll [\u00b5m]",
+                                 "Weg [um]"}) {
     const Reading reading = Read(Text("time_s," + name + ",t1_degC,error_um",
                                       Log().Rows(),
                                       TimePositionTempError));
     EXPECT_EQ(reading.position.column, name);
     EXPECT_THAT(reading.direction.values, ElementsAre("up")) << name;
+    EXPECT_THAT(reading.left_out, IsEmpty()) << name;
   }
 }
 
