@@ -11,6 +11,7 @@
 
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
+#include "data/measurements/faults/believed_temperatures.h"
 
 namespace errmap::data {
 namespace {
@@ -18,10 +19,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 using Rows = std::vector<Index>;
-
-// A machine in a shop: beyond these a thermometer is broken or in other units.
-constexpr double kColdest = -50.0;  // degC
-constexpr double kHottest = 200.0;  // degC
 
 // An outlying value lies this many ranges of all others away from them.
 constexpr double kFarRanges = 10.0;
@@ -247,7 +244,7 @@ class CellFaultFinder {
       const Bounds possible{Converted(kColdest, kDegC, UnitOf(input)),
                             Converted(kHottest, kDegC, UnitOf(input))};
       wrong = RowsBeyond(values, possible, &others);
-      if (GoTogether(values, wrong, others)) wrong.clear();
+      if (!wrong.empty() && AreBelieved(measured_, input, wrong)) wrong.clear();
       if (!wrong.empty()) {
         if (static_cast<Index>(wrong.size()) == values.size()) {
           others = {values.minCoeff(), values.maxCoeff()};
@@ -285,20 +282,6 @@ class CellFaultFinder {
     Add(FaultKind::kOutlying, input, rows, values[rows.front()], others);
     found_.faults.back().of_cells = true;
     return rows;
-  }
-
-  // Whether it really was that cold: readings that vary, and with no gap to
-  // those within the bounds, if there are any.
-  static bool GoTogether(const VectorXd& values,
-                         const Rows& wrong,
-                         const Bounds& others) {
-    if (wrong.empty() || values.maxCoeff() > 0.0 ||
-        !HasLevels(values, kFewestLevels)) {
-      return false;
-    }
-    if (static_cast<Index>(wrong.size()) == values.size()) return true;
-    const double nearest = values(wrong).maxCoeff();
-    return others.low - nearest <= kFarRangesOfCode * (others.high - nearest);
   }
 
   // One number for "no reading" in up to half of the rows is no fault of the

@@ -112,6 +112,57 @@ TEST(FindColumnFaults, DoubtsTheUnitOfAColumnThatIsAllImpossible) {
   EXPECT_THAT(RowsOfCellFaults({fault}), IsEmpty());
 }
 
+// A day's curve from `low` to `high` and back, with a little noise.
+void GoThrough(double low, double high, Index column, Machine* machine) {
+  for (int i = 0; i < kRows; ++i) {
+    const double way = 0.5 - 0.5 * std::cos(2.0 * kPi * (i % 60) / 60.0);
+    const double reading = low + (high - low) * way + 0.03 * Noise(i);
+    machine->values(i, column) = std::round(100.0 * reading) / 100.0;
+  }
+}
+
+TEST(FindColumnFaults, BelievesWhatGoesTogetherHoweverColdOrHot) {
+  const struct {
+    const char* unit;
+    double low;
+    double high;
+  } kCases[] = {{"K", 77.0, 77.4},
+                {"K", 4.2, 4.6},
+                {"degC", 600.0, 640.0},
+                {"degC", 20.0, 640.0},
+                {"degC", 180.0, 230.0},
+                {"degC", -72.0, -49.0},
+                {"degF", 350.0, 430.0}};
+  for (const auto& [unit, low, high] : kCases) {
+    Machine machine(unit);
+    for (Index t = 1; t <= 5; ++t) GoThrough(low, high, t, &machine);
+    EXPECT_THAT(machine.Faults(), IsEmpty()) << unit << " " << high;
+    // One alone among others of a shop.
+    if (high - low < 5.0) continue;
+    machine = Machine(unit);
+    GoThrough(low, high, 3, &machine);
+    for (const ColumnFault& fault : machine.Faults()) {
+      EXPECT_NE(fault.kind, FaultKind::kImpossible) << unit << " " << high;
+    }
+  }
+}
+
+TEST(FindColumnFaults, DoubtsOneInAnotherUnitThanItsLikeOrNotConnected) {
+  const struct {
+    const char* unit;
+    double low;
+    double high;
+  } kCases[] = {{"degC", 292.0, 301.0},    // in K
+                {"K", 19.0, 27.0},         // in degC
+                {"degC", 1372.0, 1372.0},  // open: noise about one value
+                {"degC", -290.0, -280.0}};
+  for (const auto& [unit, low, high] : kCases) {
+    Machine machine(unit);
+    GoThrough(low, high, 3, &machine);
+    EXPECT_EQ(machine.OnlyFault().kind, FaultKind::kImpossible) << low;
+  }
+}
+
 TEST(FindColumnFaults, NamesCodesAndFarValuesOfTargetAndPosition) {
   Machine machine;
   machine.errors[5] = 9999.0;
