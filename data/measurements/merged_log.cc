@@ -4,12 +4,16 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "data/argument_name.h"
 #include "data/columns.h"
 #include "data/measurements/column_checks.h"
+#include "data/measurements/log_channels.h"
+#include "data/measurements/reading/clock.h"
 #include "data/measurements/sessions.h"
+#include "data/measurements/text_times.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -17,15 +21,41 @@ namespace {
 
 using Eigen::Index;
 
-FoundSessions TimesOf(const CsvTable& table,
-                      const DatasetSelection& selection) {
-  FoundSessions found = FindSessions(table, selection, AllRows(table.num_rows));
-  if (found.time_column < 0) {
+// Of each row, in whatever order the rows are.
+struct Times {
+  Eigen::VectorXd time;
+  std::vector<bool> known;
+  bool dated = false;
+  std::vector<std::ptrdiff_t> columns;  // that they are read from
+};
+
+Times TimesOf(const CsvTable& table, const DatasetSelection& selection) {
+  std::vector<Index> rows = AllRows(table.num_rows);
+  Clock clock = FindClock(table, selection, rows);
+  if (!clock.is_found()) {
+    RefuseUnreadTimes(table);
     ThrowUnusable(table,
                   "no column of times to join " + ArgumentName("with") +
                       " by; name one with " + ArgumentName("time"));
   }
-  return found;
+  const Index steps = std::ssize(rows) - 1;
+  if (2 * TimesBack(clock.time) > steps) {  // the newest first
+    std::ranges::reverse(rows);
+    clock = FindClock(table, selection, rows);
+  }
+  // Rows in another order pass no midnight.
+  if (4 * TimesBack(clock.time) <= steps) {
+    GoOnOverMidnight(table, rows, &clock);
+  }
+  Times times{.time = Eigen::VectorXd(std::ssize(rows)),
+              .known = std::vector<bool>(rows.size()),
+              .dated = clock.dated,
+              .columns = {clock.column, clock.date_column}};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    times.time[rows[i]] = clock.time[static_cast<Index>(i)];
+    times.known[static_cast<std::size_t>(rows[i])] = clock.known[i];
+  }
+  return times;
 }
 
 double OffsetOf(const std::string& text) {
@@ -46,10 +76,12 @@ double OffsetOf(const std::string& text) {
 // The readings of a log in order of time.
 class Readings {
  public:
-  Readings(const FoundSessions& times, double ahead) {
-    for (Index row = 0; row < times.time.size(); ++row) {
-      if (!times.known[static_cast<std::size_t>(row)]) continue;
-      readings_.emplace_back(times.time[row] - ahead, row);
+  // `rows`: of the log.
+  Readings(const std::vector<Index>& rows,
+           const Eigen::VectorXd& time,
+           double ahead) {
+    for (const Index row : rows) {
+      readings_.emplace_back(time[row] - ahead, row);
     }
     std::ranges::sort(readings_);
     Eigen::VectorXd in_order(std::ssize(readings_));
@@ -97,6 +129,44 @@ void ForgetMarks(CsvColumn* column) {
   column->first_decimal_comma = column->first_decimal_point = -1;
 }
 
+// What was found for the rows of a table, at worst.
+struct Joined {
+  double step = 0.0;  // s
+  std::size_t num_later = 0;
+  std::size_t num_without = 0;
+  std::vector<std::string> names;
+};
+
+// The row of the log for each of the table; -1: none.
+std::vector<Index> RowsOf(const Readings& readings,
+                          const Times& times,
+                          Joined* joined) {
+  std::vector<Index> rows;
+  std::size_t num_later = 0;
+  for (const double at : times.time) {
+    bool is_later = false;
+    rows.push_back(readings.RowAt(at, &is_later));
+    num_later += rows.back() >= 0 && is_later ? 1 : 0;
+  }
+  const auto num_without =
+      static_cast<std::size_t>(std::ranges::count(rows, -1));
+  joined->step = std::max(joined->step, readings.step());
+  joined->num_later = std::max(joined->num_later, num_later);
+  joined->num_without = std::max(joined->num_without, num_without);
+  return rows;
+}
+
+std::string TextOf(const Joined& joined, std::size_t num_rows) {
+  return JoinWords(joined.names, ", ") +
+         " joined by time: the last reading of up to " +
+         CsvNumber(joined.step) + " s before, for " +
+         std::to_string(joined.num_later) + " of " + std::to_string(num_rows) +
+         " rows the next one" +
+         (joined.num_without == 0
+              ? std::string()
+              : "; " + std::to_string(joined.num_without) + " rows have none");
+}
+
 }  // namespace
 
 void MergeLog(const CsvTable& log,
@@ -104,8 +174,8 @@ void MergeLog(const CsvTable& log,
               CsvTable* table) {
   DatasetSelection of_log;
   if (log.Find(selection.time) >= 0) of_log.time = selection.time;
-  const FoundSessions times = TimesOf(*table, selection);
-  const FoundSessions log_times = TimesOf(log, of_log);
+  const Times times = TimesOf(*table, selection);
+  const Times log_times = TimesOf(log, of_log);
   if (times.dated != log_times.dated) {
     ThrowUnusable(log,
                   std::string(log_times.dated ? "has" : "lacks") +
@@ -113,42 +183,37 @@ void MergeLog(const CsvTable& log,
                       PrintablePath(table->file) +
                       "; give both the same clock");
   }
-  const Readings readings(log_times, OffsetOf(selection.clock_offset));
-  std::vector<Index> rows(table->num_rows);
-  std::size_t num_later = 0;
-  std::size_t num_without = 0;
-  for (std::size_t row = 0; row < rows.size(); ++row) {
-    bool is_later = false;
-    rows[row] = readings.RowAt(times.time[static_cast<Index>(row)], &is_later);
-    num_without += rows[row] < 0 ? 1 : 0;
-    num_later += rows[row] >= 0 && is_later ? 1 : 0;
+  const double ahead = OffsetOf(selection.clock_offset);
+  const bool mixes_marks = MixesMarks(log);
+  Joined joined;
+  for (const LogPart& part :
+       PartsOfLog(log, log_times.time, log_times.known, log_times.columns)) {
+    const Readings readings(part.rows, log_times.time, ahead);
+    const std::vector<Index> rows = RowsOf(readings, times, &joined);
+    for (const auto& [index, name] : part.columns) {
+      if (table->Find(name) >= 0) continue;
+      CsvColumn column = TakeRows(log.columns[index], rows);
+      column.name = name;
+      if (!mixes_marks) ForgetMarks(&column);
+      table->columns.push_back(std::move(column));
+      joined.names.push_back(QuotedName(name));
+    }
   }
-  if (num_without == rows.size()) {
+  if (joined.num_without == table->num_rows) {
     ThrowUnusable(log,
                   "no reading within a step of the times of " +
                       PrintablePath(table->file) + "; set its clock with " +
                       ArgumentName("clock_offset"));
   }
-  std::vector<std::string> names;
-  const bool mixes_marks = MixesMarks(log);
-  const std::string& time = log.At(log_times.time_column).name;
-  for (const CsvColumn& column : log.columns) {
-    if (column.name == time || table->Find(column.name) >= 0) continue;
-    names.push_back(QuotedName(column.name));
-    table->columns.push_back(TakeRows(column, rows));
-    if (!mixes_marks) ForgetMarks(&table->columns.back());
+  if (joined.names.empty()) {
+    ThrowUnusable(log,
+                  "no column of readings that " + PrintablePath(table->file) +
+                      " lacks; a log has times and a column for each sensor");
   }
   table->remarks.insert(
       table->remarks.end(), log.remarks.begin(), log.remarks.end());
-  table->remarks.push_back(
-      PrintablePath(log.file) + ": " + JoinWords(names, ", ") +
-      " joined by time: the last reading of up to " +
-      CsvNumber(readings.step()) + " s before, for " +
-      std::to_string(num_later) + " of " + std::to_string(rows.size()) +
-      " rows the next one" +
-      (num_without == 0
-           ? std::string()
-           : "; " + std::to_string(num_without) + " rows have none"));
+  table->remarks.push_back(PrintablePath(log.file) + ": " +
+                           TextOf(joined, table->num_rows));
 }
 
 }  // namespace errmap::data
