@@ -382,7 +382,7 @@ class InputChooser {
           Is(found_.time_column, i) || Is(found_.date_column, i) ||
           (Is(roles_.direction, i) && !table_.At(i).is_text()) ||
           Name(i) == found_.sessions.column || KeepsRecord(Name(i)) ||
-          "-" + Name(i) == selection_.target || IsFiltered(i)) {
+          IsFiltered(i)) {
         continue;
       }
       const std::string name = NameInRemark(Name(i));

@@ -79,10 +79,10 @@ CsvColumn Mapped(const CsvColumn& column,
 }
 
 // "A-B", in this unit.
-std::optional<CsvColumn> Difference(const CsvTable& table,
-                                    std::string_view names,
-                                    const std::string& name,
-                                    const Unit& unit) {
+std::optional<DerivedTarget> Difference(const CsvTable& table,
+                                        std::string_view names,
+                                        const std::string& name,
+                                        const Unit& unit) {
   for (std::size_t at = names.find('-'); at != names.npos;
        at = names.find('-', at + 1)) {
     const std::ptrdiff_t a = table.Find(names.substr(0, at));
@@ -107,15 +107,15 @@ std::optional<CsvColumn> Difference(const CsvTable& table,
       column.texts.push_back(table.At(b).texts[text]);
     }
     std::ranges::sort(column.exceptions);
-    return column;
+    return DerivedTarget{.column = std::move(column), .of = {}};
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-std::optional<CsvColumn> DerivedTarget(const CsvTable& table,
-                                       const std::string& name) {
+std::optional<DerivedTarget> FindDerivedTarget(const CsvTable& table,
+                                               const std::string& name) {
   if (table.Find(name) >= 0) return std::nullopt;
   const bool is_negative = name.starts_with('-');
   std::string_view of = name;
@@ -127,8 +127,8 @@ std::optional<CsvColumn> DerivedTarget(const CsvTable& table,
     if (open != of.npos && table.Find(Trimmed(of.substr(0, open))) >= 0) {
       unit = stated;
       of = Trimmed(of.substr(0, open));
-    } else if (auto column = Difference(table, of, name, {})) {
-      return column;
+    } else if (auto difference = Difference(table, of, name, {})) {
+      return difference;
     } else if (open != of.npos) {
       unit = stated;
       of = Trimmed(of.substr(0, open));
@@ -141,11 +141,14 @@ std::optional<CsvColumn> DerivedTarget(const CsvTable& table,
   const bool converts = !unit.symbol.empty() &&
                         given.source == UnitSource::kStated &&
                         AreConvertible(given.unit, unit);
-  return Mapped(table.At(found), name, [&](std::size_t, double value) {
-    const double in_unit =
-        converts ? Converted(value, given.unit, unit) : value;
-    return is_negative ? -in_unit : in_unit;
-  });
+  CsvColumn column =
+      Mapped(table.At(found), name, [&](std::size_t, double value) {
+        const double in_unit =
+            converts ? Converted(value, given.unit, unit) : value;
+        return is_negative ? -in_unit : in_unit;
+      });
+  return DerivedTarget{.column = std::move(column),
+                       .of = static_cast<std::size_t>(found)};
 }
 
 std::optional<ReadBeside> FindReadBeside(const CsvTable& table) {

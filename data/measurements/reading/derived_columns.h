@@ -23,8 +23,12 @@ CsvTable InOrder(const CsvTable& table, const std::vector<Eigen::Index>& order);
 /// what is taken off; "Error [um]" of a column "Error" without a unit. Each may
 /// end in a unit in brackets. Nothing where the table has the name itself, or
 /// not what it is made of.
-std::optional<CsvColumn> DerivedTarget(const CsvTable& table,
-                                       const std::string& name);
+struct DerivedTarget {
+  CsvColumn column;
+  std::optional<std::size_t> of;  // index of the only column it is made of
+};
+std::optional<DerivedTarget> FindDerivedTarget(const CsvTable& table,
+                                               const std::string& name);
 
 /// Columns of which one was read where the other was commanded: they agree but
 /// for a small part of their range, and the values of the second come again.

@@ -88,8 +88,9 @@ void AddDerivedColumns(const std::vector<ColumnFilter>& filters,
                        const std::string& position,
                        const std::string& target,
                        CsvTable* table) {
-  if (std::optional<CsvColumn> derived = DerivedTarget(*table, target)) {
-    table->columns.push_back(*std::move(derived));
+  if (std::optional<DerivedTarget> derived =
+          FindDerivedTarget(*table, target)) {
+    table->columns.push_back(std::move(derived->column));
   }
   const bool needs_direction =
       std::ranges::any_of(filters, [&](const ColumnFilter& filter) {

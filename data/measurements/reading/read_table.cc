@@ -87,18 +87,19 @@ class TableReader {
     if (!read_.table) read_.table = Borrowed(given_);
     read_.table->columns.push_back(std::move(column));
   }
-  const std::string& Name(std::size_t column) const {
-    return table().columns[column].name;
+  // In the place of another, or behind the last.
+  void PutColumn(std::size_t place, CsvColumn column) {
+    AddColumn(std::move(column));
+    std::vector<CsvColumn>& columns = read_.table->columns;
+    if (place + 1 >= columns.size()) return;
+    std::swap(columns[place], columns.back());
+    columns.pop_back();
   }
 
   void TakeDigitDates() {
     DigitDates dates = FindDigitDates(given_);
     for (DigitDates::Rewritten& rewritten : dates.columns) {
-      AddColumn(std::move(rewritten.text));
-      if (rewritten.column >= given_.columns.size()) continue;
-      std::swap(read_.table->columns[rewritten.column],
-                read_.table->columns.back());
-      read_.table->columns.pop_back();
+      PutColumn(rewritten.column, std::move(rewritten.text));
     }
     read_.date_parts = std::move(dates.parts);
   }
@@ -106,9 +107,11 @@ class TableReader {
   // "-correction_um": the error that a correction is against; or a difference.
   void TakeTarget() {
     const std::string& target = selection_.target;
-    std::optional<CsvColumn> derived = DerivedTarget(given_, target);
+    std::optional<DerivedTarget> derived = FindDerivedTarget(given_, target);
     if (!derived) return;  // a column, or to be refused by its name
-    AddColumn(*std::move(derived));
+    // In the place of the only one: its values are no axis and no input.
+    PutColumn(derived->of.value_or(table().columns.size()),
+              std::move(derived->column));
     if (target.starts_with('-')) read_.reading.target.sign = -1;
   }
 
@@ -484,7 +487,7 @@ class TableReader {
     }
     if (!selection_.only_to_judge) {
       // Rows are compared as given, but for rows put in order and for a target
-      // that is the negative of a column given.
+      // that is a difference of columns given.
       const bool as_given = given_.num_rows == table().num_rows &&
                             !Reordered() &&
                             read_.roles.target < given_.columns.size();

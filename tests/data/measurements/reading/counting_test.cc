@@ -34,7 +34,9 @@ constexpr int kPositions = 5;
 
 using Cell = std::function<std::string(const Place&)>;
 
-PreparedDataset MadeWith(const std::string& header, const Cell& cell) {
+PreparedDataset MadeWith(const std::string& header,
+                         const Cell& cell,
+                         const DatasetSelection& selection = {}) {
   std::string text = header + ",x [mm],t1_degC,error_um\n";
   for (int row = 0; row < kDays * kCycles * 2 * kPositions; ++row) {
     const int way = row / kPositions % 2;
@@ -51,7 +53,7 @@ PreparedDataset MadeWith(const std::string& header, const Cell& cell) {
     text += cell(place) + "," + std::to_string(100 * at) + "," +
             CsvNumber(warm) + "," + CsvNumber(error) + "\n";
   }
-  return MakeDataset(ParseCsv(text, "f.csv"), {});
+  return MakeDataset(ParseCsv(text, "f.csv"), selection);
 }
 
 std::string Number(int number) { return std::to_string(number); }
@@ -137,6 +139,17 @@ TEST(Counting, IsNoInput) {
                             return Number(1 + at.cycle + at.row / 7);
                           }).reading;
   EXPECT_THAT(degrees.sensors, Contains("T2"));
+}
+
+// "Position [um]" of a column "Position" is the error, and no axis as well.
+TEST(Counting, TakesATargetForNothingElse) {
+  const PreparedDataset made = MadeWith(
+      "Position",
+      [](const Place& at) { return CsvNumber(0.1 * at.row * at.row); },
+      {.target = "Position [um]", .exclude = {"error_um"}});
+  EXPECT_EQ(made.dataset.target().name, "Position [um]");
+  EXPECT_EQ(made.reading.position.column, "x [mm]");
+  EXPECT_EQ(made.dataset.num_inputs(), 2);
 }
 
 // A name that comes again beside a date: the date tells.
