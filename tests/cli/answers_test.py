@@ -179,7 +179,7 @@ class Checks:
         self.same(case, "goal", standing == "no goal", goal.startswith("none given") or not goal)
         if standing in GOALS:
             self.same(case, "goal", GOALS[standing], re.sub(r"^.*?: |;.*$", "", goal))
-        rival = dict(rows).get("simplest rival", "")
+        rival = dict(rows).get("best simple map", "")
         if "gap" in rival:
             proven = advice["against_baseline"] == "established"
             self.same(case, "certainty", proven, "proven" in rival)

@@ -219,7 +219,7 @@ TEST_F(Screens, TellTheNextCommandsWhichWorkAsTheyStand) {
   words.emplace_back("--quiet");
   EXPECT_EQ(Run(words).status, 0) << line.str();
   EXPECT_THAT(OneLine(text),
-              AllOf(HasSubstr("errmap check map.json PROBES.csv"),
+              AllOf(HasSubstr("errmap check map.json NEW_READINGS.csv"),
                     HasSubstr("; 92 % removed")));
 }
 

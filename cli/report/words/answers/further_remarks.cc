@@ -85,9 +85,8 @@ Remarks Extrapolated(const Numbers& of) {
   const RecommendationRecord& advice = of.Advice();
   if (!advice.beyond) return {};
   return {{"extrapolated",
-           fmt::format("{:.0f} % of the held-out rows lie outside what their "
-                       "fold was trained on: inside = 0 in residuals.csv of "
-                       "--out, as from predict",
+           fmt::format("{:.0f} % of the test readings were beyond all that the "
+                       "map had learnt from; expect more error in such states",
                        kPercent * advice.extrapolated_share),
            Tone::kPlain,
            WhereToMeasure(*advice.beyond)}};

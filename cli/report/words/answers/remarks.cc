@@ -69,7 +69,7 @@ Remarks Rival(const Numbers& of) {
   if (*rival == "zero" && !errs_less) return {};  // WithoutAMap
   const std::string rmse = of.RmseWithUnit(*rival);
   return {
-      {advice.choice == Choice::kBaseline ? "best other map" : "simplest rival",
+      {advice.choice == Choice::kBaseline ? "best other map" : "best simple map",
        rmse == of.RmseWithUnit(advice.model)
            ? fmt::format("{}, {}: as good", rmse, *rival)
            : fmt::format("{}, {}{}; {}",

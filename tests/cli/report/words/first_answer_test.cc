@@ -63,7 +63,7 @@ TEST(FirstAnswer, HasTheMapItsErrorAndItsRival) {
               AllOf(HasSubstr("Use poly:eq8.\n"),
                     HasSubstr("  unseen cycles    1.900 um RMSE"),
                     HasSubstr("; 93 % removed"),
-                    HasSubstr("  simplest rival   3.000 um, net:scg; ")));
+                    HasSubstr("  best simple map  3.000 um, net:scg; ")));
   EXPECT_THAT(text, HasSubstr("  goal             none given; "));
 }
 

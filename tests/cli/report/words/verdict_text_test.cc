@@ -310,7 +310,7 @@ TEST(Remarks, TellWhatToMeasureWhereTheMapExtrapolates) {
   record.recommendation->beyond =
       std::vector<models::BeyondRecord>{{"t12_degC", 21.5, 27.0}};
   EXPECT_THAT(TextOf(record, "extrapolated"),
-              StartsWith("40 % of the held-out rows lie outside"));
+              StartsWith("40 % of the test readings were beyond"));
   EXPECT_EQ(MeasureNext(record),
             "a colder start or room (t12_degC below 21.5); a longer run or "
             "hotter room (t12_degC above 27)");
