@@ -14,19 +14,23 @@ bool IsWithin(const TrainedInput& input, double value) {
   return value >= input.min && value <= input.max;
 }
 
-// The figures are held against the trained range and as much again around it:
-// another day is warmer, but not by 273.
-std::string LooksLike(const TrainedInput& input, double min, double max) {
+// Within the trained range and as much again around it: another day is warmer,
+// and another axis longer, but not by 273.
+bool IsNear(const TrainedInput& input, double min, double max) {
   const double width = input.max - input.min;
+  return min >= input.min - width && max <= input.max + width;
+}
+
+std::string LooksLike(const TrainedInput& input, double min, double max) {
   const data::Unit& unit = input.column.unit;
+  if (unit.quantity == data::Quantity::kOther || IsNear(input, min, max)) {
+    return "";
+  }
   for (const data::Unit& other : data::UnitsOf(unit.quantity)) {
-    if (unit.quantity == data::Quantity::kOther ||
-        other.symbol == unit.symbol) {
-      continue;
-    }
-    const double low = data::Converted(min, other, unit);
-    const double high = data::Converted(max, other, unit);
-    if (low >= input.min - width && high <= input.max + width) {
+    if (other.symbol != unit.symbol &&
+        IsNear(input,
+               data::Converted(min, other, unit),
+               data::Converted(max, other, unit))) {
       return other.symbol;
     }
   }

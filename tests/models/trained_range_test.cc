@@ -3,7 +3,6 @@
 #include <cmath>
 #include <vector>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace errmap::models {
@@ -48,6 +47,9 @@ TEST(InputsOutside, RecognisesTheUnitThatWasMeant) {
   EXPECT_EQ(looks_like(Trained("t1 [K]", 293.0, 298.0), 21.0), "degC");
   EXPECT_EQ(looks_like(Trained("t1_degC", 20.0, 25.0), 5000.0), "");
   EXPECT_EQ(looks_like(Trained("speed_rpm", 0.0, 10.0), 70.0), "");
+  // A hotter day, and a longer way along the axis, are in the same unit.
+  EXPECT_EQ(looks_like(Trained("t1_degC", 16.0, 38.0), 40.0), "");
+  EXPECT_EQ(looks_like(Trained("x_mm", 0.0, 800.0), 1200.0), "");
 }
 
 TEST(InputsOutside, TakesAnEmptyCellForNoReading) {

@@ -177,7 +177,7 @@ std::string ProbeText(const models::SessionCheck& check,
 std::string SensorText(const models::SensorFaultFound& found) {
   const data::ColumnInfo& column = found.columns.front();
   const std::string name = NameText(column);
-  const std::string& unit = column.unit.display_symbol;
+  const std::string& unit = column.unit.symbol;
   const std::string lead = "Check " + name + " first: ";
   switch (found.fault) {
     case models::SensorFault::kUnit:
