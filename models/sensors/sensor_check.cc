@@ -213,7 +213,10 @@ std::optional<SensorFaultFound> Silent(const FittedModel& fitted,
 void CallDead(const FittedModel& fitted,
               const MatrixXd& readings,
               SensorFaultFound* found) {
-  if (found->fault != SensorFault::kOff) return;
+  if (found->fault != SensorFault::kOff &&
+      found->fault != SensorFault::kFrozen) {
+    return;
+  }
   for (std::size_t i = 0; i < fitted.inputs.size(); ++i) {
     const TrainedInput& input = fitted.inputs[i];
     if (input.column.name != found->columns.front().name) continue;
@@ -256,8 +259,9 @@ std::optional<SensorFaultFound> FindSensorFault(const FittedModel& fitted,
   if (auto silent = Silent(fitted, all)) return silent;
   const MatrixXd states = WholeRows(all);
   if (states.rows() == 0) return std::nullopt;
-  auto found = AgainstTheOthers(fitted, states);
-  if (!found) found = Frozen(fitted, states);
+  // What hangs soon stands elsewhere, too.
+  auto found = Frozen(fitted, states);
+  if (!found) found = AgainstTheOthers(fitted, states);
   if (found) CallDead(fitted, readings, &*found);
   return found;
 }
