@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "models/map_experience.h"
 #include "models/trained_range.h"
 #include "stats/not_a_number.h"
+#include "stats/order_statistic.h"
 
 namespace errmap::models {
 namespace {
@@ -177,6 +180,26 @@ MatrixXd WholeRows(const MatrixXd& states) {
   return states(rows, Eigen::all);
 }
 
+// How far half of the other columns in its unit, or more, go beyond what was
+// trained: that far what they tell of this one is extrapolated.
+double OthersBeyond(const FittedModel& fitted,
+                    const MatrixXd& states,
+                    const data::ColumnInfo& column) {
+  std::vector<double> beyond;
+  for (Index i = 0; i < states.cols(); ++i) {
+    const data::ColumnInfo& other = ColumnOf(fitted, i);
+    if (other.name == column.name || other.unit.symbol != column.unit.symbol) {
+      continue;
+    }
+    const TrainedInput& input = fitted.inputs[static_cast<std::size_t>(
+        fitted.applicability->columns[static_cast<std::size_t>(i)])];
+    beyond.push_back(std::max({states.col(i).maxCoeff() - input.max,
+                               input.min - states.col(i).minCoeff(),
+                               0.0}));
+  }
+  return beyond.empty() ? 0.0 : stats::UpperMedian(std::move(beyond));
+}
+
 // The fault that explains best how the readings go together.
 std::optional<SensorFaultFound> AgainstTheOthers(const FittedModel& fitted,
                                                  const MatrixXd& states) {
@@ -184,7 +207,13 @@ std::optional<SensorFaultFound> AgainstTheOthers(const FittedModel& fitted,
   if (!fitted.applicability->sessions || states.cols() < 3) return std::nullopt;
   const std::vector<Suspect> suspects = SuspectsOf(fitted, states);
   const auto best = std::ranges::max_element(suspects, {}, &Suspect::likelier);
-  return best->shown > 0.0 ? std::optional(best->found) : std::nullopt;
+  if (!(best->shown > 0.0)) return std::nullopt;
+  const SensorFaultFound& found = best->found;
+  const bool extrapolated =
+      found.fault == SensorFault::kOff &&
+      std::abs(found.value) <=
+          OthersBeyond(fitted, states, found.columns.front());
+  return extrapolated ? std::nullopt : std::optional(found);
 }
 
 std::vector<double> WithoutEmpty(const VectorXd& readings) {

@@ -150,5 +150,20 @@ TEST_F(SensorsOfAThermalMachine, AreSoundInAStateThatIsUnlikeInAllOfThem) {
   EXPECT_EQ(Found(warmer), "");
 }
 
+// Thermometers follow a room by different shares. Where it is far warmer than
+// in training, what the others tell of one is extrapolated.
+TEST_F(SensorsOfAThermalMachine, AreSoundInARoomFarWarmerThanInTraining) {
+  for (const char* slow : {"t05_degC", "t13_degC", "t28_degC"}) {
+    MatrixXd warmer = Day(0);
+    for (const Index sensor : map_->applicability->columns) {
+      warmer.col(sensor).array() += 12.0;
+    }
+    warmer.col(At(slow)).array() -= 4.0;
+    EXPECT_EQ(Found(warmer), "");
+    warmer.col(At(slow)).array() -= 20.0;
+    EXPECT_EQ(Found(warmer), std::string("off ") + slow);
+  }
+}
+
 }  // namespace
 }  // namespace errmap::models
