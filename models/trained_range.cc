@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
+
+#include "stats/order_statistic.h"
 
 namespace errmap::models {
 namespace {
@@ -37,7 +40,42 @@ std::string LooksLike(const TrainedInput& input, double min, double max) {
   return "";
 }
 
+std::vector<Index> RowsOfSpikes(const TrainedInput& input,
+                                const Eigen::VectorXd& readings) {
+  constexpr double kFar = 3.0;
+  constexpr std::size_t kOneIn = 5;
+  std::vector<double> values;
+  std::ranges::copy_if(readings, std::back_inserter(values), [](double value) {
+    return !std::isnan(value);
+  });
+  if (values.size() < kOneIn) return {};
+  const double middle = stats::OrderStatistic(values, values.size() / 2);
+  const double far = kFar * (input.max - input.min);
+  std::vector<Index> rows;
+  for (Index row = 0; row < readings.size(); ++row) {
+    if (std::abs(readings[row] - middle) > far) rows.push_back(row);
+  }
+  return kOneIn * rows.size() > values.size() ? std::vector<Index>{} : rows;
+}
+
 }  // namespace
+
+std::vector<Spike> FindSpikes(const std::vector<TrainedInput>& inputs,
+                              const Eigen::MatrixXd& readings) {
+  std::vector<Spike> spikes;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (inputs[i].column.unit.quantity != data::Quantity::kTemperature ||
+        !(inputs[i].max > inputs[i].min)) {
+      continue;
+    }
+    const auto input = static_cast<Index>(i);
+    for (const Index row : RowsOfSpikes(inputs[i], readings.col(input))) {
+      spikes.push_back(
+          {.input = input, .row = row, .value = readings(row, input)});
+    }
+  }
+  return spikes;
+}
 
 std::vector<InputOutside> InputsOutside(const std::vector<TrainedInput>& inputs,
                                         const Eigen::MatrixXd& values) {

@@ -24,6 +24,21 @@ struct InputOutside {
 std::vector<InputOutside> InputsOutside(const std::vector<TrainedInput>& inputs,
                                         const Eigen::MatrixXd& values);
 
+/// A reading that no state of the machine gives: a loose contact, or what a bus
+/// returns for no answer (-127, 85).
+struct Spike {
+  Eigen::Index input = 0;  // index into the map's inputs
+  Eigen::Index row = 0;
+  double value = 0.0;  // input's unit
+};
+
+/// Of the thermometers (m x p; NaN where a cell is empty), readings more than
+/// three trained ranges from the middle one of their column; by input, then by
+/// row. A column with less than five readings, or of which more than a fifth
+/// are so, has none.
+std::vector<Spike> FindSpikes(const std::vector<TrainedInput>& inputs,
+                              const Eigen::MatrixXd& readings);
+
 /// True if all inputs of a row lie within their trained range.
 bool IsInside(const std::vector<TrainedInput>& inputs,
               const Eigen::MatrixXd& values,

@@ -11,6 +11,7 @@
 #include "data/measurements/column_match.h"
 #include "data/measurements/joined_tables.h"
 #include "data/text.h"
+#include "models/trained_range.h"
 #include "stats/indices.h"
 #include "stats/not_a_number.h"
 
@@ -127,6 +128,32 @@ void WarnOfSessions(const History& history,
   }
 }
 
+// What filters remember of a spike would disturb the rows after it: the reading
+// before it stands there, at the start of a session that after it.
+void LeaveOutSpikes(const FittedModel& fitted,
+                    const std::vector<Index>& sessions,
+                    Index first_row,
+                    Eigen::MatrixXd* readings,
+                    std::vector<std::string>* warnings) {
+  for (const Spike& spike : FindSpikes(fitted.inputs, *readings)) {
+    const auto row = static_cast<std::size_t>(spike.row);
+    const bool is_first = row == 0 || sessions[row - 1] != sessions[row];
+    const Index beside = is_first ? spike.row + 1 : spike.row - 1;
+    if (beside == readings->rows()) continue;
+    (*readings)(spike.row, spike.input) = (*readings)(beside, spike.input);
+    if (spike.row < first_row) continue;
+    const data::ColumnInfo& column =
+        fitted.inputs[static_cast<std::size_t>(spike.input)].column;
+    warnings->push_back(fmt::format(
+        "warning: {} reads {:g} {} in data row {}: the map's memory "
+        "leaves it out",
+        data::QuotedName(column.name),
+        spike.value,
+        column.unit.symbol,
+        spike.row - first_row));
+  }
+}
+
 // A table of rows before others.
 struct Earlier {
   data::CsvTable table;
@@ -235,6 +262,11 @@ MapLog MakeMapLog(const FittedModel& fitted,
     all << earlier.readings, log->input_values;
     log->input_values = std::move(all);
   }
+  LeaveOutSpikes(fitted,
+                 found.sessions.codes,
+                 map.first_row,
+                 &log->input_values,
+                 &map.warnings);
   log->first_rows = data::FirstRows(
       found.sessions, log->input_values(Eigen::all, history.remembered()));
   log->sessions = std::move(found.sessions);

@@ -238,6 +238,22 @@ std::optional<SensorFaultFound> Silent(const FittedModel& fitted,
   return std::nullopt;
 }
 
+// Empties the cells with spikes and returns the first.
+std::optional<SensorFaultFound> TakeSpikes(const FittedModel& fitted,
+                                           MatrixXd* readings) {
+  const std::vector<Spike> spikes = FindSpikes(fitted.inputs, *readings);
+  for (const Spike& spike : spikes) {
+    (*readings)(spike.row, spike.input) = stats::kNaN;
+  }
+  if (spikes.empty()) return std::nullopt;
+  const Spike& first = spikes.front();
+  return SensorFaultFound{
+      .fault = SensorFault::kSpike,
+      .columns = {fitted.inputs[static_cast<std::size_t>(first.input)].column},
+      .value = first.value,
+      .row = first.row};
+}
+
 // A column that reads one value where it cannot be.
 void CallDead(const FittedModel& fitted,
               const MatrixXd& readings,
@@ -276,23 +292,27 @@ std::string_view ToString(SensorFault fault) {
       return "swapped";
     case SensorFault::kOff:
       return "off";
+    case SensorFault::kSpike:
+      return "spike";
   }
   return "";
 }
 
 std::optional<SensorFaultFound> FindSensorFault(const FittedModel& fitted,
-                                                const MatrixXd& readings) {
-  if (auto unit = OfAnotherUnit(fitted, readings)) return unit;
+                                                const MatrixXd& all_readings) {
+  if (auto unit = OfAnotherUnit(fitted, all_readings)) return unit;
   if (fitted.applicability == nullptr) return std::nullopt;
+  MatrixXd readings = all_readings;
+  const auto spike = TakeSpikes(fitted, &readings);
   const MatrixXd all = readings(Eigen::all, fitted.applicability->columns);
   if (auto silent = Silent(fitted, all)) return silent;
   const MatrixXd states = WholeRows(all);
-  if (states.rows() == 0) return std::nullopt;
+  if (states.rows() == 0) return spike;
   // What hangs soon stands elsewhere, too.
   auto found = Frozen(fitted, states);
   if (!found) found = AgainstTheOthers(fitted, states);
   if (found) CallDead(fitted, readings, &*found);
-  return found;
+  return found ? found : spike;
 }
 
 }  // namespace errmap::models

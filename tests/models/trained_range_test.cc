@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace errmap::models {
@@ -50,6 +51,23 @@ TEST(InputsOutside, RecognisesTheUnitThatWasMeant) {
   // A hotter day, and a longer way along the axis, are in the same unit.
   EXPECT_EQ(looks_like(Trained("t1_degC", 16.0, 38.0), 40.0), "");
   EXPECT_EQ(looks_like(Trained("x_mm", 0.0, 800.0), 1200.0), "");
+}
+
+TEST(FindSpikes, FindsSingleReadingsThatNoMachineGives) {
+  const std::vector<TrainedInput> trained = {Trained("x_mm", 0.0, 10.0),
+                                             Trained("t1_degC", 20.0, 25.0)};
+  Eigen::MatrixXd readings(6, 2);
+  readings.col(0) << 0.0, 2.0, 4.0, 6.0, 8.0, 900.0;
+  readings.col(1) << 31.0, 32.0, -127.0, 33.0, 35.0, 36.0;
+  const std::vector<Spike> spikes = FindSpikes(trained, readings);
+  ASSERT_EQ(spikes.size(), 1U);
+  EXPECT_EQ(spikes[0].input, 1);
+  EXPECT_EQ(spikes[0].row, 2);
+  EXPECT_EQ(spikes[0].value, -127.0);
+  // Two of six are more than a fifth, and of four readings none is single.
+  EXPECT_THAT(FindSpikes(trained, readings.topRows(4)), ::testing::IsEmpty());
+  readings(4, 1) = -127.0;
+  EXPECT_THAT(FindSpikes(trained, readings), ::testing::IsEmpty());
 }
 
 TEST(InputsOutside, TakesAnEmptyCellForNoReading) {

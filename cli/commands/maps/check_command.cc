@@ -25,6 +25,7 @@
 #include "data/columns.h"
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
+#include "data/measurements/column_faults.h"
 #include "data/measurements/measured_files.h"
 #include "data/text.h"
 #include "models/history/map_log.h"
@@ -149,6 +150,27 @@ LastSession LastSessionOf(const models::FittedModel& fitted,
   return last;
 }
 
+// Of the session's rows that are not left out; a spike by its row in the file.
+std::optional<models::SensorFaultFound> SensorFaultOfSession(
+    const models::FittedModel& fitted,
+    const models::MapRows& rows,
+    const LastSession& last,
+    data::FaultPolicy policy) {
+  std::vector<Eigen::Index> judged = last.rows_of_file;
+  if (policy == data::FaultPolicy::kDropRows) {
+    const auto left_out = data::RowsOfCellFaults(rows.prepared.faults);
+    std::erase_if(judged, [&](Eigen::Index row) {
+      return std::ranges::binary_search(left_out, row);
+    });
+  }
+  const Eigen::MatrixXd readings = models::ReadingsOf(fitted, rows.table);
+  auto found = models::FindSensorFault(fitted, readings(judged, Eigen::all));
+  if (found && found->row >= 0) {
+    found->row = judged[static_cast<std::size_t>(found->row)];
+  }
+  return found;
+}
+
 std::string LastSessionText(const LastSession& last) {
   if (last.others == 0) return "";
   return fmt::format(
@@ -246,12 +268,11 @@ int RunCheck(const ProbeArguments& arguments, const std::string& command_line) {
   const LastSession last = LastSessionOf(fitted, rows, arguments.rows.log);
   const models::SessionProbes probes =
       ProbesOf(fitted, rows, arguments, last.probes, predicted);
-  const Eigen::MatrixXd readings = models::ReadingsOf(fitted, rows.table);
   models::SessionCheck check = models::CheckSession(
       errors,
       probes,
       MissingBefore(rows, last.probes),
-      models::FindSensorFault(fitted, readings(last.rows_of_file, Eigen::all)));
+      SensorFaultOfSession(fitted, rows, last, arguments.rows.faults));
   // Of a session whose first rows are not known nothing is said as a whole.
   if (check.status == models::SessionStatus::kHolds &&
       probes.residuals.size() < std::ssize(last.probes)) {

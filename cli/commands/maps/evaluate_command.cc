@@ -192,6 +192,16 @@ std::string EvaluationText(const Evaluation& found,
       found.sensor ? report::SensorText(*found.sensor) : "");
 }
 
+// Its row counts in the file.
+std::optional<models::SensorFaultFound> SensorFaultOf(
+    const models::FittedModel& fitted, const data::Dataset& dataset) {
+  auto found = models::FindSensorFault(fitted, dataset.input_values());
+  if (found && found->row >= 0) {
+    found->row = dataset.rows()[static_cast<std::size_t>(found->row)];
+  }
+  return found;
+}
+
 int RunEvaluate(const EvaluateArguments& arguments,
                 const std::string& command_line) {
   const models::FittedModel fitted = LoadMap(arguments.model, arguments.quiet);
@@ -211,7 +221,7 @@ int RunEvaluate(const EvaluateArguments& arguments,
       .judged = judged,
       .clipped = prediction.clipped.count(),
       .change = models::ChangedRelation(fitted, dataset.input_values()),
-      .sensor = models::FindSensorFault(fitted, dataset.input_values()),
+      .sensor = SensorFaultOf(fitted, dataset),
       .kept = models::HoldToPromise(
           fitted, dataset.target_values(), predicted, judged.flags),
       .learnt = FindRowsLearnt(fitted, arguments.model, arguments.files, rows),

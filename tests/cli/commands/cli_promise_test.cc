@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -250,6 +251,42 @@ TEST_F(CliPromise, CheckNamesASensorBeforeItOrdersAnything) {
       Run({"check", "map.json", "raised.csv", "--format", "json"}).out);
   EXPECT_EQ(found["status"], "sensor");
   EXPECT_EQ(found["sensors"], Json::array({"t2_degC"}));
+}
+
+// What a bus returns for no answer, once: neither an offset nor a wrong scale,
+// and no harm to the rows after it.
+TEST_F(CliPromise, CheckAndPredictNameOneReadingThatIsNone) {
+  const std::string day = DaysInCliPromise(11, 11);
+  std::vector<std::string> lines = SplitLines(day);
+  std::vector<std::string> cells;
+  std::istringstream row(lines[8]);
+  for (std::string text; std::getline(row, text, ',');) cells.push_back(text);
+  cells[4] = "-127";  // t2_degC
+  lines[8] = fmt::format("{}", fmt::join(cells, ","));
+  Write("once.csv", fmt::format("{}\n", fmt::join(lines, "\n")));
+  const Outcome check = Run({"check", "map.json", "once.csv"});
+  EXPECT_EQ(check.status, kEveryFitFailed);
+  EXPECT_THAT(
+      OneLine(check.out),
+      HasSubstr("Check t2_degC first: it reads -127 degC in data row 7"));
+  const Outcome without =
+      Run({"check", "map.json", "once.csv", "--faults", "drop-rows"});
+  EXPECT_THAT(OneLine(without.out), HasSubstr("The map holds"));
+  // A memory forgets it at once.
+  ASSERT_EQ(Run({"fit",
+                 "train.csv",
+                 "--model",
+                 "poly:ridge:view=history:history=1200",
+                 "-o",
+                 "lag.json"})
+                .status,
+            0);
+  Write("day.csv", day);
+  const auto last = [&](const char* file) {
+    const auto rows = Records(Run({"predict", "lag.json", file}).out);
+    return std::stod(rows.back().at("predicted"));
+  };
+  EXPECT_NEAR(last("once.csv"), last("day.csv"), 0.1);
 }
 
 // The file with errors in these rows alone; the others go, or stay without.

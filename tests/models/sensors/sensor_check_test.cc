@@ -112,6 +112,18 @@ TEST_F(SensorsOfAThermalMachine, AreNamedWhereCellsAreEmpty) {
   EXPECT_EQ(Found(often), "");
 }
 
+TEST_F(SensorsOfAThermalMachine, AreNamedWhereOneReadingIsNone) {
+  for (Index day = 0; day < kLater; ++day) {
+    MatrixXd once = Day(day);
+    once(7, At("t13_degC")) = -127.0;
+    EXPECT_EQ(Found(once), "spike t13_degC") << day;
+    EXPECT_EQ(FindSensorFault(*map_, once)->row, 7) << day;
+    // What else is wrong is of more weight.
+    once.col(At("t05_degC")).array() += 10.0;
+    EXPECT_EQ(Found(once), "off t05_degC") << day;
+  }
+}
+
 TEST_F(SensorsOfAThermalMachine, AreNamedInTheUnitThatTheirFiguresFit) {
   MatrixXd kelvin = Day(0);
   kelvin.col(At("t05_degC")).array() += 273.15;

@@ -204,6 +204,14 @@ std::string SensorText(const models::SensorFaultFound& found) {
           "were swapped.\n",
           name,
           NameText(found.columns.back()));
+    case models::SensorFault::kSpike:
+      return fmt::format(
+          "{}it reads {:.4g} {} in data row {}, far from its other readings. "
+          "Delete that row and check again.\n",
+          lead,
+          found.value,
+          unit,
+          found.row);
     case models::SensorFault::kOff:
       break;
   }
