@@ -432,33 +432,4 @@ std::vector<bool> InsideOfFolds(const FittedModel& fitted,
   return inside;
 }
 
-std::optional<RelationChange> ChangedRelation(const FittedModel& fitted,
-                                              const MatrixXd& inputs) {
-  if (fitted.applicability == nullptr ||
-      fitted.applicability->columns.size() < 2) {
-    return std::nullopt;
-  }
-  const Applicability& trained = *fitted.applicability;
-  const MatrixXd states = StatesOf(inputs, trained.columns);
-  const StateMeasures found = MeasureStates(trained, states);
-  std::optional<RelationChange> change;
-  double largest = 1.0;
-  for (Index i = 0; i < states.cols(); ++i) {
-    const VectorXd ratio =
-        found.relation.col(i).cwiseAbs() / trained.relation_limit[i];
-    const Index beyond = (ratio.array() > 1.0).count();
-    if (2 * beyond <= states.rows()) continue;
-    const double typical = stats::UpperMedian(ratio);
-    if (!(typical > largest)) continue;
-    largest = typical;
-    const Index column = trained.columns[static_cast<std::size_t>(i)];
-    change = RelationChange{
-        .column = fitted.inputs[static_cast<std::size_t>(column)].column,
-        .shift =
-            stats::UpperMedian(VectorXd(states.col(i) - found.expected.col(i))),
-        .num_rows = beyond};
-  }
-  return change;
-}
-
 }  // namespace errmap::models

@@ -69,17 +69,4 @@ std::vector<bool> InsideOfFolds(const FittedModel& fitted,
                                 const data::Dataset& dataset,
                                 const Holdout& holdout);
 
-/// A column that stands elsewhere than the others tell, unlike in training.
-struct RelationChange {
-  data::ColumnInfo column;
-  double shift = 0.0;         // median of value less expected, column's unit
-  Eigen::Index num_rows = 0;  // that lie beyond the limit
-};
-
-/// The column that goes with the others least, where it is beyond its limit in
-/// more than half of the rows; nothing otherwise. One alone: it draws those
-/// that are told by it along.
-std::optional<RelationChange> ChangedRelation(const FittedModel& fitted,
-                                              const Eigen::MatrixXd& inputs);
-
 }  // namespace errmap::models

@@ -111,13 +111,6 @@ Json UnlikeJson(const std::vector<models::RowFlag>& flags,
   return json;
 }
 
-Json ChangeJson(const std::optional<models::RelationChange>& change) {
-  if (!change) return nullptr;
-  return {{"column", change->column.name},
-          {"shift", change->shift},
-          {"rows", change->num_rows}};
-}
-
 Json SensorJson(const std::optional<models::SensorFaultFound>& sensor) {
   if (!sensor) return nullptr;
   Json columns = Json::array();
@@ -133,7 +126,6 @@ struct Evaluation {
   const models::MapRows& rows;
   const RowsJudged& judged;
   Eigen::Index clipped;  // rows
-  std::optional<models::RelationChange> change;
   std::optional<models::SensorFaultFound> sensor;
   models::KeptPromise kept;
   RowsLearnt learnt;
@@ -155,7 +147,6 @@ Json EvaluationJson(const Evaluation& found,
       {"promise", PromiseJson(found.kept)},
       {"outside", OutsideJson(fitted.inputs, dataset.input_values())},
       {"unlike", UnlikeJson(found.judged.flags, dataset.rows())},
-      {"changed_relation", ChangeJson(found.change)},
       {"sensor_fault", SensorJson(found.sensor)},
       {"faults", models::ToJson(models::MakeFaultRecords(found.rows.prepared))},
       {"normality",
@@ -176,7 +167,7 @@ std::string EvaluationText(const Evaluation& found,
                                                   found.metrics.residuals.mean,
                                                   found.metrics.residuals.sd);
   return fmt::format(
-      "{} ({}) on {}: target - predicted of {}\n{}{}{}{}{}",
+      "{} ({}) on {}: target - predicted of {}\n{}{}{}",
       arguments.model,
       found.fitted.name,
       data::NamesOfFiles(arguments.files),
@@ -187,9 +178,11 @@ std::string EvaluationText(const Evaluation& found,
           unit,
           ks_d,
           stats::KsProbabilityMeanSdGiven(ks_d, found.residuals.size())),
-      report::KeptPromiseText(found.kept, found.residuals.size(), unit),
-      found.change ? report::RelationText(*found.change) : "",
-      found.sensor ? report::SensorText(*found.sensor) : "");
+      // Errors of wrong readings tell nothing of the map.
+      found.sensor
+          ? report::FoundText(found.kept, unit) +
+                report::SensorText(*found.sensor)
+          : report::KeptPromiseText(found.kept, found.residuals.size(), unit));
 }
 
 // Its row counts in the file.
@@ -220,7 +213,6 @@ int RunEvaluate(const EvaluateArguments& arguments,
       .rows = rows,
       .judged = judged,
       .clipped = prediction.clipped.count(),
-      .change = models::ChangedRelation(fitted, dataset.input_values()),
       .sensor = SensorFaultOf(fitted, dataset),
       .kept = models::HoldToPromise(
           fitted, dataset.target_values(), predicted, judged.flags),

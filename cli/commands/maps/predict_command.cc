@@ -14,6 +14,7 @@
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
 #include "cli/report/words/answers/interval_text.h"
+#include "cli/report/words/commands/check_text.h"
 #include "cli/report/words/commands/kept_promise_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
@@ -29,6 +30,7 @@
 #include "models/history/map_log.h"
 #include "models/history/view.h"
 #include "models/model_file.h"
+#include "models/sensors/sensor_check.h"
 #include "models/session/probe_correction.h"
 #include "models/uncertainty/learnt_rows.h"
 
@@ -235,6 +237,16 @@ void SayWhatIsPredicted(const Predicted& found) {
   SayUnless(false, found.map.warnings);
 }
 
+// A spike is named by its row, which is outside.
+void SaySensorFault(const models::FittedModel& fitted,
+                    const Eigen::MatrixXd& inputs) {
+  const auto fault = models::FindSensorFault(fitted, inputs);
+  if (!fault || fault->fault == models::SensorFault::kSpike) return;
+  std::string text = report::SensorText(*fault);
+  text.pop_back();  // the end of the line
+  Say("warning: " + text);
+}
+
 void SayClipped(const models::Prediction& prediction) {
   const Eigen::Index clipped = prediction.clipped.count();
   if (clipped == 0) return;
@@ -280,6 +292,7 @@ int RunPredict(const PredictArguments& arguments) {
   if (!arguments.quiet) {
     SayWhatIsPredicted(found);
     SayOutside(fitted.inputs, inputs, found.flags, all_rows, false);
+    SaySensorFault(fitted, inputs);
     SayClipped(found.prediction);
     if (const Eigen::Index learnt =
             models::CountLearntRows(fitted, inputs, nullptr);

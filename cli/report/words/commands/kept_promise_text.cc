@@ -17,9 +17,10 @@ std::string BaselineText(const models::KeptPromise& kept,
                          const ErrorText& error,
                          bool enough) {
   if (!kept.better_than_nothing()) {
-    return fmt::format(
-        "it is worse than no compensation, {}: do not use it here",
-        error.WithUnit(kept.uncompensated));
+    const bool mends = enough && kept.shape == models::ErrorShape::kOffset;
+    return fmt::format("as it is, worse than no compensation, {}{}",
+                       error.WithUnit(kept.uncompensated),
+                       mends ? "" : ": do not use it here");
   }
   if (!enough) {
     return fmt::format("better than no compensation ({})",
@@ -39,22 +40,26 @@ std::string BaselineText(const models::KeptPromise& kept,
 
 }  // namespace
 
+std::string FoundText(const models::KeptPromise& kept, const data::Unit& unit) {
+  if (!std::isfinite(kept.promised)) return "";
+  const ErrorText error(unit, kept.found);
+  const std::string within =
+      std::isfinite(kept.within_90)
+          ? fmt::format("; {:.0f} % of the errors within the 90 % interval",
+                        kPercent * kept.within_90)
+          : "";
+  return fmt::format("found {} RMSE, promised {}{}\n",
+                     error.WithUnit(kept.found),
+                     error.WithUnit(kept.promised),
+                     within);
+}
+
 std::string KeptPromiseText(const models::KeptPromise& kept,
                             Eigen::Index rows,
                             const data::Unit& unit) {
   const ErrorText error(unit, kept.found);
   const bool enough = rows >= models::kFewestRowsForGoal;
-  std::string text;
-  if (std::isfinite(kept.promised)) {
-    text += fmt::format("found {} RMSE, promised {}",
-                        error.WithUnit(kept.found),
-                        error.WithUnit(kept.promised));
-    if (std::isfinite(kept.within_90)) {
-      text += fmt::format("; {:.0f} % of the errors within the 90 % interval",
-                          kPercent * kept.within_90);
-    }
-    text += "\n";
-  }
+  std::string text = FoundText(kept, unit);
   text += BaselineText(kept, error, enough) + "\n";
   if (!enough) {
     return text + fmt::format(
@@ -74,18 +79,6 @@ std::string KeptPromiseText(const models::KeptPromise& kept,
     text += "no offset explains what it errs by: measure here and fit again\n";
   }
   return text;
-}
-
-std::string RelationText(const models::RelationChange& change) {
-  const std::string& symbol = change.column.unit.symbol;
-  return fmt::format(
-      "{} reads {:.3g}{} {} the other inputs tell, in {}: moved, loose or "
-      "mixed up?\n",
-      data::Printable(change.column.name, change.column.name.size()),
-      std::abs(change.shift),
-      symbol.empty() ? "" : " " + symbol,
-      change.shift > 0.0 ? "above what" : "below what",
-      Count(change.num_rows, "row"));
 }
 
 std::string TrialText(const models::UpdateTrial& trial,

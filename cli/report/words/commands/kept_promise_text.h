@@ -6,7 +6,6 @@
 
 #include "cli/report/number_text.h"
 #include "data/units.h"
-#include "models/sensors/applicability.h"
 #include "models/sensors/sensitivity.h"
 #include "models/session/kept_promise.h"
 #include "models/session/probe_correction.h"
@@ -17,14 +16,14 @@ namespace errmap::report {
 // What is said of a map on rows that it has not seen, and of readings that go
 // wrong; `unit` is its target's.
 
-/// What it erred by on so many rows beside what was promised, no map at all,
-/// and an offset; of the last nothing where rows are too few.
+/// What it erred by beside what was promised; "" where nothing was.
+std::string FoundText(const models::KeptPromise& kept, const data::Unit& unit);
+
+/// The same on so many rows, beside no map at all and an offset, too; of the
+/// last nothing where rows are too few.
 std::string KeptPromiseText(const models::KeptPromise& kept,
                             Eigen::Index rows,
                             const data::Unit& unit);
-
-/// The sensor that reads something else than the others tell.
-std::string RelationText(const models::RelationChange& change);
 
 /// RMSE of the old and the new map by session, as a table. `all_unseen`: the
 /// old map has seen none of them.
