@@ -186,7 +186,11 @@ bool BeginsInside(const data::SessionLog& log,
                   Index row,
                   const History& history) {
   const double time = log.time[row];
-  if (time > history.latest_start) return true;
+  // A clock that began anew in each session of training does not reach another
+  // day: dates are no such clock.
+  const bool is_that_clock =
+      log.time_unit != "s" || time < history.latest_start + kDay;
+  if (is_that_clock && time > history.latest_start) return true;
   if (log.time_unit == "s" &&
       WithinHalfDay(time - history.start_clock) > history.start_clock_late) {
     return true;

@@ -136,5 +136,14 @@ TEST(SessionStart, LearnsNothingFromFewSessionsOrFromAClockThatBeginsAnew) {
   EXPECT_FALSE(history.start_readings.empty());
 }
 
+TEST(SessionStart, HoldsNoDateAgainstAClockThatBeginsAnew) {
+  History history = Remembering(WarmingDays(6, 1));
+  history.latest_start = 600.0;
+  history.start_limit = history.start_clock = std::nan("");
+  const data::Dataset days = WarmingDays(2, 3);
+  EXPECT_TRUE(BeginsInside(*days.log(), 0, history));  // 7.5 h on that clock
+  EXPECT_FALSE(BeginsInside(*days.log(), kRowsOfDay, history));  // the 2nd day
+}
+
 }  // namespace
 }  // namespace errmap::models
