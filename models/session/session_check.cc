@@ -70,6 +70,16 @@ double GainOf(const SessionProbes& probes, const SessionForecast& forecast) {
                    probes.predicted.squaredNorm();
 }
 
+// Errors over predictions where that alone brings the probes within the limit,
+// whose noise grows alike; else NaN. A shape that is wrong hardly looks so.
+double ExplainingGain(const SessionProbes& probes, double limit) {
+  const VectorXd measured = probes.residuals + probes.predicted;
+  const double gain =
+      measured.dot(probes.predicted) / probes.predicted.squaredNorm();
+  const double left = stats::RootMeanSquare(measured - gain * probes.predicted);
+  return left <= limit * std::max(1.0, std::abs(gain)) ? gain : stats::kNaN;
+}
+
 // What an order leaves of the draws, by the sites that come after it.
 struct Order {
   Remedy remedy = Remedy::kNone;
@@ -95,7 +105,9 @@ std::vector<Order> OrdersFor(const SessionForecast& forecast,
 }
 
 // The order that leaves least, if it helps and leaves no more than the limit.
-void ChooseRemedy(const SessionForecast& forecast, SessionCheck* check) {
+void ChooseRemedy(const SessionProbes& probes,
+                  const SessionForecast& forecast,
+                  SessionCheck* check) {
   const std::vector<Index>& after =
       forecast.later.empty() ? forecast.so_far : forecast.later;
   const std::vector<double> as_it_is = RmseOfDraws(forecast.errors, after);
@@ -117,7 +129,10 @@ void ChooseRemedy(const SessionForecast& forecast, SessionCheck* check) {
   if (helps && check->left <= limit && check->probes > 1) {
     check->remedy = best->remedy;
   } else if (ShareAbove(best->left, limit) > kSureOff && check->probes > 2) {
-    check->remedy = Remedy::kRefit;
+    // A wrong sign or unit is looked for before days are measured anew.
+    const double gain = ExplainingGain(probes, limit);
+    check->remedy = std::isnan(gain) ? Remedy::kRefit : Remedy::kGain;
+    if (!std::isnan(gain)) check->gain = gain;
   } else {
     check->remedy = Remedy::kUnknown;
   }
@@ -249,7 +264,7 @@ SessionCheck CheckSession(const HeldOutErrors& errors,
   if (check.session.off_probability >= kSureOff) {
     check.status = SessionStatus::kOff;
     check.gain = GainOf(probes, forecast);
-    ChooseRemedy(forecast, &check);
+    ChooseRemedy(probes, forecast, &check);
   } else if (seen && holds_so_far &&
              check.session.off_probability <= kSureHolds &&
              (!check.later || check.later->off_probability <= kSureHolds)) {

@@ -80,9 +80,10 @@ struct SessionCheck {
 /// promise, and is off where it is sure enough that those of the session are
 /// not. A remedy is one that is sure enough to leave no more than is there
 /// without it, and re-zeroing, a gain or a sign only where it leaves a session
-/// within the limit. `missing`, `sensor`: see SessionCheck; nothing else is
-/// judged then. Throws std::invalid_argument on no probes, other sizes, or what
-/// is not finite.
+/// within the limit. In place of kRefit it is a gain or a sign that by itself
+/// brings the probes within the limit. `missing`, `sensor`: see SessionCheck;
+/// nothing else is judged then. Throws std::invalid_argument on no probes,
+/// other sizes, or what is not finite.
 SessionCheck CheckSession(const HeldOutErrors& errors,
                           const SessionProbes& probes,
                           Missing missing = Missing::kNothing,
