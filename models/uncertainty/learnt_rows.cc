@@ -110,7 +110,12 @@ Index CountLearntRows(const FittedModel& fitted,
     looked += 1.0;
     found += all ? 1.0 : 0.0;
   }
-  if (!AreMoreThanChance(found, looked, filter->alike + kFalseHits)) return 0;
+  // A machine at rest may repeat a reading.
+  constexpr double kFewestReadings = 3.0;
+  if ((targets == nullptr && found < kFewestReadings) ||
+      !AreMoreThanChance(found, looked, filter->alike + kFalseHits)) {
+    return 0;
+  }
   return static_cast<Index>(
       std::llround(found / looked * static_cast<double>(inputs.rows())));
 }

@@ -18,7 +18,8 @@ std::optional<LearntRows> MakeLearntRows(const FittedModel& fitted,
 /// How many of these rows the map learnt from, as its file knows them: `inputs`
 /// (m x inputs of the map) and `targets` (m; null: readings alone) in its
 /// units. 0 where they are no more than chance and the filter's false hits
-/// (LearntRows) would make; of a long training an estimate from some of them.
+/// (LearntRows) would make, or one or two readings alone; of a long training an
+/// estimate from some of them.
 Eigen::Index CountLearntRows(const FittedModel& fitted,
                              const Eigen::MatrixXd& inputs,
                              const Eigen::VectorXd* targets);

@@ -24,7 +24,6 @@
 #include "data/files/atomic_file.h"
 #include "data/files/shown_path.h"
 #include "data/measurements/column_checks.h"
-#include "data/measurements/reading/reading.h"
 #include "data/text.h"
 #include "models/model_file.h"
 #include "models/study/study_defaults.h"
@@ -68,7 +67,6 @@ data::Dataset ReadRows(const models::FittedModel& map,
       map, {file}, models::MapColumns::kInputsAndTarget, arguments.quiet);
   selection.where = models::FiltersFor(map, table);
   data::PreparedDataset prepared = data::MakeDataset(table, selection);
-  SayUnless(arguments.quiet, data::ReadingLines(prepared.reading));
   SayUnless(arguments.quiet, prepared.remarks);
   return std::move(prepared.dataset);
 }

@@ -131,6 +131,10 @@ Json WhenJson(const models::FittedModel& fitted,
 }
 
 int RunWhen(const WhenArguments& arguments, const std::string& command_line) {
+  if (!arguments.log.after.empty() && !arguments.goal) {
+    throw UsageError(
+        "--after tells whether a probe is due, which needs a goal: --goal 2um");
+  }
   const models::FittedModel fitted = LoadMap(arguments.model, false);
   RequireAges(fitted, arguments.model);
   const models::HeldOutErrors& errors = *fitted.held_out;

@@ -64,6 +64,9 @@ TEST(LearntRows, AreKnownAgainAndOthersAreNot) {
   EXPECT_EQ(CountKnown(fitted, training), 1000);
   EXPECT_EQ(CountKnown(fitted, training.SelectRows({7})), 1);
   EXPECT_EQ(CountLearntRows(fitted, training.input_values(), nullptr), 1000);
+  // A machine at rest may repeat a reading.
+  const Eigen::MatrixXd two = training.input_values().topRows(2);
+  EXPECT_EQ(CountLearntRows(fitted, two, nullptr), 0);
   int said = 0;
   for (std::uint64_t seed = 2; seed < 202; ++seed) {
     said += CountKnown(fitted, DrawnRows(100, seed)) > 0 ? 1 : 0;

@@ -153,23 +153,30 @@ std::string SiteText(const models::HeldOutErrors& errors,
   return text;
 }
 
+// Where the next probe tells most, in what is left of the session.
 std::string SitesText(const models::HeldOutErrors& errors,
-                      const std::vector<models::ProbeSite>& sites) {
-  if (sites.size() < 2 || !std::isfinite(sites.front().factor)) return "";
-  return fmt::format(
-      "Probes tell most at {}: half of them are within a factor of {:.2g} of "
-      "the session's error.\n",
-      SiteText(errors, sites.front()),
-      sites.front().factor);
+                      const std::vector<models::ProbeSite>& sites,
+                      double last) {
+  const bool timed = errors.time_unit == "s";
+  const auto next =
+      std::ranges::find_if(sites, [&](const models::ProbeSite& site) {
+        return std::isfinite(site.factor) && (!timed || site.until > last);
+      });
+  return sites.size() < 2 || next == sites.end()
+             ? ""
+             : "Probes tell most at " + SiteText(errors, *next) + ".\n";
 }
 
-// When and where to probe next, where that is what is wanted.
+// When to probe next; where no time is known, where probes tell most.
 std::string ProbeText(const models::SessionCheck& check,
                       const models::HeldOutErrors& errors,
                       const std::vector<models::ProbeSite>& sites,
                       double last) {
   if (check.sensor || check.missing != models::Missing::kNothing) return "";
-  return ProbeWhenText(check, last) + SitesText(errors, sites);
+  const bool more = check.remedy == models::Remedy::kUnknown ||
+                    check.status == models::SessionStatus::kUnknown;
+  return ProbeWhenText(check, last) +
+         (more ? SitesText(errors, sites, last) : "");
 }
 
 }  // namespace

@@ -120,8 +120,8 @@ std::string OffsetLine(const models::ProbeCorrection& correction,
                   error.WithUnit(known));
   if (track.contradicted.back()) {
     line += fmt::format(
-        "; warning: the probes contradict an offset, so the map's shape is "
-        "wrong today, and the interval is {:.2g} times as wide",
+        "; warning: these probes show more than an offset, so the interval is "
+        "{:.2g} times as wide",
         track.widening[last]);
   } else if (track.used.back() == 1) {
     line +=
