@@ -5,7 +5,7 @@
 
 Each seed is a simulated turning centre of which 5 to 9 thermometers are read: a
 blend learns six days and is checked on later ones, as they are and disturbed in
-14 ways, by 1, 3, 5 and 20 probes within the first 20 s, 10 min and hour and over
+16 ways, by 1, 3, 5 and 20 probes within the first 20 s, 10 min and hour and over
 the whole session. --share draws so much of all these checks.
 
 An order is wrong where acting on it leaves 10 % more than leaving all as it is
@@ -32,9 +32,9 @@ HOUR = 3600.0
 WINDOWS = {"20 s": 20.0, "10 min": 600.0, "1 h": HOUR, "whole": math.inf}
 PROBES = (1, 3, 5, 20)
 KINDS = ("healthy", "offset 3", "offset 10", "gain 1.5", "sign", "shape",
-         "dead", "frozen", "3 degC", "10 degC", "swapped", "cut 1/3", "cut 2/3",
-         "duty")
-SENSOR_KINDS = ("dead", "frozen", "3 degC", "10 degC", "swapped")
+         "dead", "frozen", "3 degC", "10 degC", "swapped", "spike", "cut 1/3",
+         "cut 2/3", "duty", "warmer", "elsewhere")
+SENSOR_KINDS = ("dead", "frozen", "3 degC", "10 degC", "swapped", "spike")
 OFF = 1.5  # times the promise
 
 
@@ -122,11 +122,18 @@ class Machine:
                 begins = draw.randrange(len(rows) // 3)
                 for row in rows[begins:]:
                     row[at] = rows[begins][at]
+            elif kind == "spike":
+                rows[draw.randrange(min(5, len(rows)))][at] = -127.0
             else:
                 shift = draw.choice((-1, 1)) * (
                     float(kind.split()[0]) if kind != "dead" else 0.0)
                 for row in rows:
                     row[at] = row[at] + shift if shift else 0.0
+        elif kind in ("warmer", "elsewhere"):
+            for row in rows:
+                for i in self.sensors if kind == "warmer" else []:
+                    row[i] += 10.0
+                row[self.position] += 300.0 if kind == "elsewhere" else 0.0
         elif kind.startswith("cut"):
             rows = rows[len(rows) * int(kind[4]) // 3:]
         return rows, faulty
