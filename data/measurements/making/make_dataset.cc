@@ -189,8 +189,8 @@ class DatasetBuilder {
     }
     std::vector<std::string> unread;
     for (const std::size_t input : inputs_) {
-      RequireKnownUnit(table_, {input, ColumnUse::kInput});
-      if (ReadHeader(Name(input)).source == UnitSource::kUnread) {
+      const UnitSource source = ReadHeader(Name(input)).source;
+      if (source == UnitSource::kUnread || source == UnitSource::kUnknown) {
         unread.push_back(Name(input));
       }
     }

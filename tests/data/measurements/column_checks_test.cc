@@ -186,11 +186,25 @@ TEST(ColumnChecks, RefusesUnknownUnitsInBracketsAndOnTheTarget) {
   EXPECT_THAT(
       ErrorOf("a,error_m\n1,2\n2,3\n"),
       HasSubstr("'m' counts as a unit in brackets or parentheses only"));
-  EXPECT_THAT(ErrorOf("a (left),error_mm\n1,2\n2,3\n"),
-              HasSubstr("column 'a (left)': 'left' is no unit known here"));
-  EXPECT_EQ(Make("a (left),b,error_mm\n1,1,2\n2,0,3\n", {.inputs = {"b"}})
-                .dataset.num_inputs(),
-            1);
+}
+
+TEST(ColumnChecks, TakesInputsInUnitsThatItDoesNotKnow) {
+  const PreparedDataset prepared =
+      Make("a (left),b [brix],error_mm\n1,1,2\n2,0,3\n");
+  EXPECT_EQ(prepared.dataset.num_inputs(), 2);
+  EXPECT_THAT(prepared.remarks,
+              Contains("no unit is read from 'a (left)', 'b [brix]': 'left' is "
+                       "no unit known here"));
+}
+
+TEST(ColumnChecks, TakesTargetsInUnitsOfTheirOwn) {
+  for (const char* unit : {"steps", "mg", "Hz", "counts", "uV", "\u03a9"}) {
+    EXPECT_EQ(Make("a,error [" + std::string(unit) + "]\n1,2\n2,3\n")
+                  .dataset.target()
+                  .unit.quantity,
+              Quantity::kOther)
+        << unit;
+  }
 }
 
 TEST(ColumnChecks, RefusesNumbersThatStandThereAsText) {
