@@ -100,7 +100,7 @@ struct BadCell {
         ", or leave the column out with " +
         ArgumentName("exclude", Printable(cell.column->name, text.max_size()));
   }
-  if (IsMissingNumber(text) || HasNoDigit(text)) {
+  if (IsMissingNumber(text) || HasNoDigit(text) || IsInfinity(text)) {
     what += ", or drop such rows with " + ArgumentName("missing", "drop-rows");
     if (num_missing > 1) {
       what += " (the columns in use have " + std::to_string(num_missing) +
@@ -137,7 +137,9 @@ struct BadCells {
 
 BadCells FindBadCells(const CsvTable& table,
                       const std::vector<ColumnInUse>& columns,
-                      const std::vector<bool>& passes) {
+                      const std::vector<bool>& passes,
+                      MissingPolicy missing) {
+  const bool drops = missing == MissingPolicy::kDropRows;
   BadCells bad;
   bad.is_dropped.assign(table.num_rows, false);
   for (const ColumnInUse& used : columns) {
@@ -147,7 +149,8 @@ BadCells FindBadCells(const CsvTable& table,
       const std::string& text = column.texts[i];
       text_is_missing[i] = used.use == ColumnUse::kGroup
                                ? IsMissingText(text)
-                               : IsMissingNumber(text) || HasNoDigit(text);
+                               : IsMissingNumber(text) || HasNoDigit(text) ||
+                                     (drops && IsInfinity(text));
     }
     std::size_t missing_here = 0;
     for (const auto& [row, text] : column.exceptions) {
@@ -363,7 +366,7 @@ KeptRows CheckCells(const CsvTable& table,
                     const std::vector<ColumnInUse>& columns,
                     const std::vector<bool>& passes,
                     MissingPolicy missing) {
-  const BadCells bad = FindBadCells(table, columns, passes);
+  const BadCells bad = FindBadCells(table, columns, passes, missing);
   const bool missing_comes_first =
       bad.first_missing.has_value() &&
       (!bad.first_wrong.has_value() ||

@@ -73,8 +73,8 @@ std::vector<bool> RowsThatPass(const CsvTable& table,
 
 /// Those of the rows that pass (one flag per row of the table) whose cells in
 /// these columns are all finite numbers (groups: not missing). Throws
-/// InputError on the first cell that is not, save that rows with an empty, NA
-/// or NaN cell are dropped where `missing` says so.
+/// InputError on the first cell that is not, save that rows with an empty, NA,
+/// NaN or infinite cell are dropped where `missing` says so.
 KeptRows CheckCells(const CsvTable& table,
                     const std::vector<ColumnInUse>& columns,
                     const std::vector<bool>& passes,

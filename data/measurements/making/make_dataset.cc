@@ -201,7 +201,47 @@ class DatasetBuilder {
 
   // ---- Which rows, and what is in them.
 
+  // Rows are dropped for what a map can use: an input with hardly a number, or
+  // with one number throughout, would cost rows and give nothing.
+  void LeaveOutInputsThatCostRows() {
+    if (selection_.missing != MissingPolicy::kDropRows ||
+        selection_.only_to_judge) {
+      return;
+    }
+    std::erase_if(inputs_, [&](std::size_t input) {
+      return !table_.At(input).exceptions.empty() && !IsNamed(Name(input)) &&
+             CostsRows(input);
+    });
+  }
+
+  bool CostsRows(std::size_t input) {
+    constexpr Eigen::Index kFewestRowsToTell = 12;
+    constexpr Eigen::Index kFewest = 10;  // percent
+    std::vector<Eigen::Index> rows;
+    std::vector<Eigen::Index> with_numbers;
+    for (std::size_t row = 0; row < table_.num_rows; ++row) {
+      if (!passes_[row]) continue;
+      rows.push_back(static_cast<Eigen::Index>(row));
+      if (table_.At(input).TextAt(row) == nullptr) {
+        with_numbers.push_back(rows.back());
+      }
+    }
+    if (std::ssize(rows) < kFewestRowsToTell) return false;
+    if (100 * std::ssize(with_numbers) < kFewest * std::ssize(rows)) {
+      LeaveOutColumn(input,
+                     "has a number in " + std::to_string(with_numbers.size()) +
+                         " of " + std::to_string(rows.size()) + " rows");
+      return true;
+    }
+    const IdleInput idle =
+        HowIdle(ValuesOfRows(table_.At(input), with_numbers));
+    if (!idle.dead || selection_.keep_dead) return false;
+    ReportIdle(Name(input), idle);
+    return true;
+  }
+
   void CheckColumns() {
+    LeaveOutInputsThatCostRows();
     std::vector<ColumnInUse> columns = {{roles_.target, ColumnUse::kTarget}};
     for (const std::size_t input : inputs_) {
       columns.push_back({input, ColumnUse::kInput});

@@ -1,6 +1,8 @@
 // Which rows, and what may stand in them: data/measurements/column_checks.h by
 // MakeDataset.
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -52,7 +54,8 @@ TEST(ColumnChecks, BadCellsAreNamedWithTheirPlaceAndRemedy) {
             "(the columns in use have 2 such cells)");
   EXPECT_EQ(ErrorOf("a,error\n1,1\n-Inf,2\n"),
             "f.csv: line 3 (data row 1), column 'a': '-Inf' is not finite; "
-            "correct it, or leave the column out with exclude = a");
+            "correct it, or leave the column out with exclude = a, or drop such "
+            "rows with missing = drop-rows");
   EXPECT_THAT(ErrorOf("a,error\n1,1\n1e999,2\n"),
               HasSubstr("'1e999' is beyond the range of a double"));
   EXPECT_THAT(ErrorOf("a,error\n1,1\nbroken,2\n"),
@@ -204,6 +207,52 @@ TEST(ColumnChecks, TakesTargetsInUnitsOfTheirOwn) {
                   .unit.quantity,
               Quantity::kOther)
         << unit;
+  }
+}
+
+// Twelve rows of a counter and a sensor: "..., 3, 20.3, CELL, error".
+PreparedDataset WithCells(const std::function<std::string(int)>& cell) {
+  std::string text = "a_mm,t1_degC,t2_degC,error_mm\n";
+  for (int i = 0; i < 12; ++i) {
+    text += std::to_string(i % 4) + "," + std::to_string(20 + i * i % 7) + "," +
+            cell(i) + "," + std::to_string(i % 5) + "\n";
+  }
+  return Make(text, {.missing = MissingPolicy::kDropRows});
+}
+
+TEST(ColumnChecks, DropsNoRowsForAColumnThatSaysNothing) {
+  const auto numbers = [](int i) { return std::to_string(21 + i * i % 5); };
+  const struct {
+    const char* what;
+    std::function<std::string(int)> cell;
+    std::size_t rows;
+    Eigen::Index inputs;
+  } kCases[] = {
+      {"an infinite cell is dropped",
+       [&](int i) {
+         return i == 3 ? "inf" : i == 4 ? "-Infinity" : numbers(i);
+       },
+       10,
+       3},
+      {"hardly a number",
+       [&](int i) { return i == 3   ? "21"
+                           : i == 4 ? "broken"
+                                    : ""; },
+       12,
+       2},
+      {"one value throughout",
+       [&](int i) { return i % 2 == 0 ? "21.5" : "OPEN"; },
+       12,
+       2},
+      {"half of the numbers",
+       [&](int i) { return i % 2 == 0 ? numbers(i) : "OPEN"; },
+       6,
+       3},
+  };
+  for (const auto& [what, cell, rows, inputs] : kCases) {
+    const PreparedDataset prepared = WithCells(cell);
+    EXPECT_EQ(prepared.dataset.rows().size(), rows) << what;
+    EXPECT_EQ(prepared.dataset.num_inputs(), inputs) << what;
   }
 }
 
