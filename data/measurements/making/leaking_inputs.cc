@@ -27,8 +27,9 @@ constexpr std::size_t kMostCandidates = 200;
 // of large columns, and of any other sum, which a good map may come near.
 constexpr double kMostOfDifference = 0.5;
 constexpr double kMostOfOther = 0.05;
-constexpr double kCancels = 10.0;    // times the target's standard deviation
-constexpr double kUnitSlack = 0.02;  // of coefficients that are alike
+constexpr double kCancels = 10.0;     // times the target's standard deviation
+constexpr double kUnitSlack = 0.02;   // of coefficients that are alike
+constexpr double kMostOfShare = 0.3;  // of the target's standard deviation
 // Parts that add up (coefficients of one) may be rounded to their digits, some
 // to fewer decimals than others.
 constexpr double kMostOfParts = 0.005;
@@ -66,6 +67,7 @@ class LeakFinder {
     for (Index j = 0; j < input_values.cols(); ++j) {
       TakeCandidate(target, j, input_values.col(j)(rows_));
     }
+    FindShares(target_values(rows_), input_values(rows_, Eigen::all));
   }
 
   std::vector<Leak> Find() {
@@ -75,10 +77,11 @@ class LeakFinder {
     }
     const auto size = static_cast<Index>(candidates_.size());
     Eigen::MatrixXd values(target_.size(), size);
-    for (Index k = 0; k < size; ++k) values.col(k) = Of(k).values;
+    // Of one size, as counts of an encoder are far larger than a position in m.
+    for (Index k = 0; k < size; ++k) values.col(k) = Of(k).values / Of(k).sd;
     products_ = values.transpose() * values;
     with_target_ = values.transpose() * target_;
-    std::vector<Leak> leaks;
+    std::vector<Leak> leaks = shares_;
     for (std::size_t members = 1; members <= 3; ++members) {
       if (members == 3 && candidates_.size() > kMostForTriples) break;
       LookAtSets({}, 0, members, &leaks);
@@ -126,6 +129,41 @@ class LeakFinder {
     if (candidate.sd > 0.0) candidates_.push_back(std::move(candidate));
   }
 
+  // Errors as shares of the position, in ppm or percent: their product gives
+  // the target (of the rows looked at) but for a factor.
+  void FindShares(const VectorXd& target, const Eigen::MatrixXd& values) {
+    if (std::ssize(rows_) < kFewestRowsToTell || !(sd_ > 0.0)) return;
+    for (Index j = 0; j < values.cols(); ++j) {
+      const auto& column = inputs_[static_cast<std::size_t>(j)];
+      if (column.unit.quantity != Quantity::kRatio) continue;
+      for (Index k = 0; k < values.cols(); ++k) {
+        if (!IsPosition(inputs_[static_cast<std::size_t>(k)])) continue;
+        const VectorXd product = values.col(j).cwiseProduct(values.col(k));
+        const double b = product.dot(target) / product.squaredNorm();
+        const double rounding = ResolutionOf(values.col(j)) * std::abs(b) *
+                                values.col(k).cwiseAbs().maxCoeff();
+        // At 0 there is no share.
+        const double worst = (values.col(k).array() == 0.0)
+                                 .select(0.0, (target - b * product).array())
+                                 .abs()
+                                 .maxCoeff();
+        if (!(worst <= rounding + resolution_ && worst < kMostOfShare * sd_)) {
+          continue;
+        }
+        shares_.push_back({.inputs = {j, k},
+                           .left_out = {j},
+                           .formula = Rounded(b) + " " +
+                                      NameInRemark(column.name) + " times " +
+                                      NameOf(k)});
+        break;
+      }
+    }
+  }
+
+  std::string NameOf(Index input) const {
+    return NameInRemark(inputs_[static_cast<std::size_t>(input)].name);
+  }
+
   // All sets of that many that begin with `set`.
   void LookAtSets(std::vector<Index> set,
                   Index next,
@@ -164,8 +202,12 @@ class LeakFinder {
     for (std::size_t i = 0; i < set.size(); ++i) {
       size = std::max(size, std::abs(b[static_cast<Index>(i)]) * Of(set[i]).sd);
     }
-    if (set.size() > 1 && least > (1.0 - kUnitSlack) * most &&
-        size > kCancels * sd_) {
+    const auto num_positions =
+        std::ranges::count_if(set, [&](Index k) { return Of(k).position; });
+    // A position as read, perhaps in counts, less the position.
+    const bool is_difference = (1.0 - kUnitSlack) * most < least ||
+                               (set.size() == 2 && num_positions == 1);
+    if (set.size() > 1 && is_difference && size > kCancels * sd_) {
       return rounding <= kMostOfDifference * sd_;
     }
     if (rounding > kMostOfOther * sd_) return false;
@@ -177,9 +219,12 @@ class LeakFinder {
     const auto rows = static_cast<double>(rows_.size());
     // By the products first, which costs little and tells nearly all.
     const Eigen::MatrixXd products = products_(set, set);
-    const VectorXd rough = SolveLeastSquares(products, with_target_(set));
+    VectorXd rough = SolveLeastSquares(products, with_target_(set));
     const double left =
         (target_.squaredNorm() - rough.dot(with_target_(set))) / rows;
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      rough[static_cast<Index>(i)] /= Of(set[i]).sd;
+    }
     const double bound = 2.0 * RoundingOf(set, rough);
     if (!(left <= bound * bound + kMostOfParts * kMostOfParts * sd_ * sd_))
       return std::nullopt;
@@ -264,7 +309,8 @@ class LeakFinder {
   double sd_ = 0.0;
   double resolution_ = 0.0;
   std::vector<Candidate> candidates_;
-  Eigen::MatrixXd products_;
+  std::vector<Leak> shares_;
+  Eigen::MatrixXd products_;  // of candidates over their deviation
   VectorXd with_target_;
 };
 

@@ -221,9 +221,19 @@ TEST(MessyFiles, InputsThatHoldTheErrorAreLeftOut) {
     return rounded(actual(cells), 4);
   };
   const auto copy = [&](const auto& cells) { return -25.4 * error(cells); };
+  const auto counts = [&](const auto& cells) {
+    return 12345.0 +
+           std::round(2000.0 * Number(cells[kPosition]) + 2.0 * error(cells));
+  };
+  const auto share = [&](const auto& cells) {
+    const double at = Number(cells[kPosition]);
+    return at == 0.0 ? 0.0 : rounded(1000.0 * error(cells) / at, 2);
+  };
   for (const std::string& text : {with("actual_mm", actual),
                                   with("actual_mm", coarse),
-                                  with("raw", copy)}) {
+                                  with("raw", copy),
+                                  with("raw_counts", counts),
+                                  with("err_ppm", share)}) {
     const PreparedDataset prepared = Make(text);
     EXPECT_THAT(InputNames(prepared.dataset),
                 ElementsAre("position_mm", "t1_degC", "t2_degC"));
