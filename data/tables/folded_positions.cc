@@ -213,6 +213,25 @@ CsvColumn Folded(const CsvTable& table,
   return TakeRows(all, at);
 }
 
+// Says how to name columns that are errors and differ by a number.
+void MentionNumbered(CsvTable* table) {
+  std::map<std::string, std::vector<std::string>> numbered;
+  for (const CsvColumn& column : table->columns) {
+    const std::optional<PlacedName> name = ReadPlacedName(column.name);
+    if (name && name->unit.empty()) {
+      numbered[name->quantity].push_back(QuotedName(column.name));
+    }
+  }
+  for (const auto& [quantity, names] : numbered) {
+    if (names.size() < kFewestPositions) continue;
+    table->remarks.push_back(
+        PrintablePath(table->file) + ": " + names.front() + " to " +
+        names.back() +
+        " are columns of their own; a column for each position is called "
+        "error_um@50mm, one for each run 'Run 1 [um]'");
+  }
+}
+
 }  // namespace
 
 bool AreSpacedPositions(const std::vector<double>& numbers) {
@@ -230,7 +249,7 @@ bool AreSpacedPositions(const std::vector<double>& numbers) {
 void FoldPositions(CsvTable* table) {
   std::optional<Fold> fold = FindPositions(*table);
   if (!fold) fold = FindRuns(*table);
-  if (!fold) return;
+  if (!fold) return MentionNumbered(table);
   LeaveOutFigures(*table, &*fold);
   const Places places = PlacesOf(*fold, table->num_rows);
   const std::size_t rows = places.rows.size();
