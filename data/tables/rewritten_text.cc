@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "data/tables/csv_cells.h"
+#include "data/tables/labview_text.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -96,6 +97,7 @@ std::string WithTabs(std::string_view text) {
 }  // namespace
 
 std::optional<std::string> RewrittenText(std::string_view text) {
+  if (auto table = LabviewText(text)) return table;
   const std::vector<std::string_view> lines = FirstLines(text);
   if (lines.size() > 1 && std::ranges::all_of(lines, IsInSingleQuotes)) {
     std::string quoted(text);

@@ -115,6 +115,49 @@ TEST(TableShape, FindsNamesInACommentWhereBlanksPartTheColumns) {
   ExpectRows(table);
 }
 
+// Two headers of LabVIEW above the rows; `names` and units in the second.
+std::string Labview(const std::string& names,
+                    const std::string& dimension,
+                    const std::string& end = "\n") {
+  std::string text = "LabVIEW Measurement\t\nSeparator\tTab\n" +
+                     std::string("***End_of_Header***\t\n\t\n") +
+                     "Channels\t2\t\t\nY_Unit_Label\tmm\tum\t\n" +
+                     "X_Dimension\t" + dimension + "\t" + dimension +
+                     "\t\nDelta_X\t0.5\t0.5\t\n***End_of_Header***\t\t\t\n" +
+                     names + "\tComment\n";
+  for (int i = 0; i < 4; ++i) {
+    text += CsvNumber(0.5 * i) + "\t" + std::to_string(50 * (i % 2)) + "\t" +
+            CsvNumber(1.25 + i) + "\t\n";
+  }
+  std::string lines;
+  for (const char c : text) lines += c == '\n' ? end : std::string(1, c);
+  return lines;
+}
+
+TEST(TableShape, FindsTheTableBelowBothHeadersOfLabview) {
+  for (const char* end : {"\n", "\r\n"}) {
+    const CsvTable table =
+        ParseCsv(Labview("X_Value\tposition\terror", "Time", end), "f.lvm");
+    ASSERT_GE(table.columns.size(), 3U);
+    EXPECT_EQ(table.columns[0].name, "time_s");
+    EXPECT_EQ(table.columns[1].name, "position [mm]");
+    EXPECT_EQ(table.columns[2].name, "error [um]");
+    EXPECT_EQ(table.num_rows, 4U);
+    EXPECT_EQ(table.LineOfRow(0), 11U);
+    EXPECT_EQ(table.columns[2].values[3], 4.25);
+  }
+  // A spectrum has no times.
+  EXPECT_LT(
+      ParseCsv(Labview("X_Value\tx\ty", "Frequency"), "f.lvm").Find("time_s"),
+      0);
+  // One header, and a line of tabs below it.
+  EXPECT_EQ(ParseCsv("LabVIEW Measurement\n***End_of_Header***\t\n\t\n"
+                     "X_Value\terror_um\n0\t1.5\n1\t2.5\n",
+                     "f.lvm")
+                .Find("time_s"),
+            0);
+}
+
 TEST(TableShape, NamesColumnsByNumberWhereThereAreNoNames) {
   const CsvTable table = ParseCsv(Rows(), "f.csv");
   EXPECT_THAT(NamesIn(table), ElementsAre("column_1", "column_2", "column_3"));
