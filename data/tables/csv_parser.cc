@@ -340,8 +340,10 @@ class Parser {
       more = cells_.PassEnd();
     }
     if (found == 1 && layout_.width > 2 && IsWords()) {
-      const CsvColumn& first = table_.columns[0];
-      odd_rows_.AddWords(first.texts[first.exceptions.back().second]);
+      odd_rows_.AddWords(TextIn(0));
+      UndoRow();
+    } else if (AreTotals(found)) {
+      odd_rows_.AddWords(TextIn(0));
       UndoRow();
     } else if (!HasItsCells(found)) {
       if (after_blank) ThrowAnotherTable(line, found);
@@ -386,10 +388,30 @@ class Parser {
   // Whether the only cell of a line is a remark: words, and no time.
   bool IsWords() const {
     if (num_numbers_ > 0) return false;
-    const CsvColumn& column = table_.columns[0];
-    const std::string& text = column.texts[column.exceptions.back().second];
+    const std::string& text = TextIn(0);
     return text.size() > 2 && text.find_first_of("0123456789") != 0 &&
            !IsMissingNumber(text) && text.find(' ') != text.npos;
+  }
+
+  // What stands in the last row of a column, where it is no number.
+  const std::string& TextIn(std::size_t index) const {
+    const CsvColumn& column = table_.columns[index];
+    return column.texts[column.exceptions.back().second];
+  }
+
+  // "Mean,2.31" below the rows: a name where numbers stood so far, and a value,
+  // in far fewer cells than a row has.
+  bool AreTotals(std::size_t found) const {
+    constexpr std::size_t kFewestOfRow = 4;
+    const CsvColumn& first = table_.columns[0];
+    if (found != 2 || layout_.width < kFewestOfRow || table_.num_rows == 0 ||
+        first.exceptions.empty() ||
+        first.exceptions.back().first != table_.num_rows ||
+        2 * (first.exceptions.size() - 1) >= table_.num_rows) {
+      return false;
+    }
+    return !IsMissingNumber(TextIn(0)) &&
+           TextIn(0).find_first_of("0123456789+-.") != 0;
   }
 
   // Whether a row of words repeats the names.

@@ -158,6 +158,19 @@ TEST(TableShape, FindsTheTableBelowBothHeadersOfLabview) {
             0);
 }
 
+TEST(TableShape, PassesOverTotalsBelowTheRows) {
+  for (const char* totals : {"\nMean,2.31\nSamples,8\n",
+                             "Mean,2.31\nSamples,8\n",
+                             "\nStatistic,Value\nMean,2.31\n"}) {
+    std::string text = "position_mm,t1_degC,error_um,n\n" + Rows(",1") + totals;
+    const CsvTable table = ParseCsv(text, "f.csv");
+    ExpectRows(table);
+    EXPECT_THAT(table.remarks,
+                ::testing::Contains(HasSubstr("2 lines of words among the "
+                                              "rows")));
+  }
+}
+
 TEST(TableShape, NamesColumnsByNumberWhereThereAreNoNames) {
   const CsvTable table = ParseCsv(Rows(), "f.csv");
   EXPECT_THAT(NamesIn(table), ElementsAre("column_1", "column_2", "column_3"));
