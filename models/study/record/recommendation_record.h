@@ -106,7 +106,8 @@ struct RecommendationRecord {
   std::optional<bool> meets_goal;
   GoalStanding goal_standing = GoalStanding::kNotJudged;
   double extrapolated_share = kNotKnown;
-  /// Share of the uncompensated error, 1 - RMSE / RMSE; below 0: error added.
+  /// Share of the uncompensated error, 1 - RMSE / RMSE, or of the deviation
+  /// from the mean, of a target that is no error; below 0: error added.
   double removed_share = kNotKnown;
   PredictionCost cost;
   std::optional<MemoryRecord> memory;

@@ -30,19 +30,34 @@ using Place = Remark::Place;
 using Remarks = std::vector<Remark>;
 using Tone = Remark::Tone;
 
+// What the share removed is of: no compensation, or the mean of a target that
+// is no error and far from 0.
+std::string WithoutName(const Numbers& of) {
+  const RecommendationRecord& advice = of.Advice();
+  const double without = advice.rmse / (1.0 - advice.removed_share);
+  return models::FindNamed(of.record.models, "mean") != nullptr &&
+                 2.0 * without < of.Rmse("zero", advice.holdout)
+             ? "mean"
+             : "zero";
+}
+
 Remarks WithoutAMap(const Numbers& of) {
   const RecommendationRecord& advice = of.Advice();
   if (advice.model == "zero" || !std::isfinite(advice.removed_share)) return {};
+  const std::string without = WithoutName(of);
+  if (advice.model == without) return {};
   // Below this a map is hardly worth its trouble unless it is sure.
   constexpr double kMuch = 0.5;
   const double share = advice.removed_share;
-  if (!(share > 0.0)) return {{"without a map", of.RmseWithUnit("zero")}};
+  const std::string error =
+      of.RmseWithUnit(without) + (without == "mean" ? " about the mean" : "");
+  if (!(share > 0.0)) return {{"without a map", error}};
   return {{"without a map",
            fmt::format("{}; {:.0f} % removed{}",
-                       of.RmseWithUnit("zero"),
+                       error,
                        // Never all of what is still there.
                        std::min(std::round(kPercent * share), kPercent - 1.0),
-                       share < kMuch ? "; " + of.Certainty("zero") : "")}};
+                       share < kMuch ? "; " + of.Certainty(without) : "")}};
 }
 
 // The best of the simple maps; for a simple map the best of the others.

@@ -47,19 +47,33 @@ class JudgementRecord {
     return names;
   }
   PairRecord Pair(const HoldoutComparison& tests, std::size_t index) const;
+  double TestRmseOf(const std::string& name, std::size_t holdout) const;
   double RemovedShare(std::size_t holdout, const HoldoutResult& of_map) const;
   void AddStates(RecommendationRecord* record) const;
 };
 
-// Against the same rows without compensation.
+// NaN: it was not compared, or failed.
+double JudgementRecord::TestRmseOf(const std::string& name,
+                                   std::size_t holdout) const {
+  const auto model =
+      std::ranges::find(study_.study.models, name, &ModelResult::name);
+  return model == study_.study.models.end() || !model->holdouts[holdout].ok()
+             ? kNotKnown
+             : model->holdouts[holdout].test.rmse;
+}
+
+// Of what there is without a map, on the same rows. No compensation leaves an
+// error as it is; what is no error, as the position of a focuser, would be set
+// to its mean.
 double JudgementRecord::RemovedShare(std::size_t holdout,
                                      const HoldoutResult& of_map) const {
-  const auto zero =
-      std::ranges::find(study_.study.models, "zero", &ModelResult::name);
-  if (zero == study_.study.models.end() || !zero->holdouts[holdout].ok()) {
-    return kNotKnown;
-  }
-  const double without = zero->holdouts[holdout].test.rmse;
+  constexpr double kFarFromZero = 10.0;
+  const data::Unit& unit = study_.data.dataset.target().unit;
+  const bool may_err =
+      data::IsLengthOrAngle(unit) || unit.quantity == data::Quantity::kRatio;
+  double without = TestRmseOf("zero", holdout);
+  const double about_mean = TestRmseOf("mean", holdout);
+  if (!may_err && without > kFarFromZero * about_mean) without = about_mean;
   return without > 0.0 ? 1.0 - of_map.test.rmse / without : kNotKnown;
 }
 

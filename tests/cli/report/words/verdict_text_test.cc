@@ -131,6 +131,17 @@ TEST(Remarks, TellTheShareOfTheErrorThatIsRemoved) {
   EXPECT_EQ(TextOf(Base(), "without a map"), "0.800 um; 93 % removed");
 }
 
+TEST(Remarks, TellTheShareAboutTheMeanOfATargetFarFromZero) {
+  ComponentRecord record = Base();
+  record.models[2].name = "mean";
+  for (auto& [holdout, result] : record.models[0].results) {
+    result.test.rmse = 0.5;  // mm
+  }
+  record.recommendation->removed_share = 1.0 - 1.9 / 3.0;
+  EXPECT_THAT(TextOf(record, "without a map"),
+              HasSubstr("3.000 um about the mean; 37 % removed"));
+}
+
 TEST(Remarks, TellOffsetAndScatterOfAGoalThatAnOffsetHides) {
   ComponentRecord record = Base();
   record.recommendation->goal_standing =
