@@ -16,7 +16,9 @@
 #include "data/measurements/reading/derived_columns.h"
 #include "data/measurements/reading/reading.h"
 #include "data/measurements/sessions.h"
+#include "data/measurements/text_times.h"
 #include "data/text.h"
+#include "data/units.h"
 
 namespace errmap::data {
 namespace {
@@ -372,6 +374,22 @@ class InputChooser {
         (one ? " and is" : " and are") + " left out" + behind);
   }
 
+  // In a unit of time, and hardly ever back: rows may be many in its step.
+  bool IsAnotherClock(const CsvColumn& column) const {
+    if (found_.time_column < 0 ||
+        UnitOfColumn(column.name).quantity != Quantity::kTime) {
+      return false;
+    }
+    std::size_t on = 0;
+    std::size_t back = 0;
+    for (std::size_t i = 1; i < column.values.size(); ++i) {
+      on += column.values[i] > column.values[i - 1] ? 1 : 0;
+      back += column.values[i] < column.values[i - 1] ? 1 : 0;
+    }
+    constexpr std::size_t kHardly = 5;
+    return on > kHardly * back;
+  }
+
   void ChooseDefaultInputs() {
     const std::unordered_set<std::string> excluded = ExcludedNames();
     const MeasuredBeside measured(Name(roles_.target));
@@ -403,11 +421,15 @@ class InputChooser {
                                   " has no number in any row and is left out");
       } else if (table_.At(i).is_text()) {
         RefuseNumbersAsText(table_, table_.At(i));
+        if (HoldsTimes(table_.At(i))) continue;
         if (!PartsComponents(table_, table_.At(i))) texts.push_back(Name(i));
         chosen_.words.push_back(i);
       } else if (CountsRows(table_.At(i))) {
         had_candidates_ = true;
         Drop(i, "counts the rows");
+      } else if (IsAnotherClock(table_.At(i))) {
+        had_candidates_ = true;
+        Drop(i, "is another clock");
       } else if (IsCalled(Name(i), Word::kPart)) {
         had_candidates_ = true;
         Drop(i, "tells which one, and measures nothing");

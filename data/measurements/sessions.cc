@@ -162,10 +162,7 @@ class SessionFinder : private RowColumns {
 
   // The only column of dates without hours.
   std::optional<std::size_t> DateColumn() const {
-    const auto dates = ColumnsOf([&](const CsvColumn& column) {
-      const TextTimes times = ReadTimes(column);
-      return column.is_text() && times.all && times.any && !times.any_hours;
-    });
+    const auto dates = ColumnsOf(HoldsDates);
     if (dates.size() != 1) return std::nullopt;
     return dates.front();
   }
@@ -382,12 +379,11 @@ class SessionFinder : private RowColumns {
   bool CutWhereCyclesCountAnew() {
     for (const std::ptrdiff_t column : cycles_) {
       if (column < 0 || !CountsAnew(table_.At(column))) continue;
-      const ColumnValues& cycle = table_.At(column).values;
-      CutWhere([&](std::size_t i) {
-        return cycle[DataRow(i)] < cycle[DataRow(i - 1)];
-      });
+      const CsvColumn& cycle = table_.At(column);
+      const double way = FirstStep(cycle);
+      CutWhere([&](std::size_t i) { return way * StepOf(cycle, i) < 0.0; });
       found_.by = "counter";
-      found_.counter = table_.At(column).name;
+      found_.counter = cycle.name;
       return true;
     }
     return false;
@@ -446,16 +442,28 @@ class SessionFinder : private RowColumns {
     }
   }
 
-  // Whether cycles, some rows each, count anew now and then.
+  double StepOf(const CsvColumn& column, std::size_t i) const {
+    return column.values[DataRow(i)] - column.values[DataRow(i - 1)];
+  }
+
+  // 0: none.
+  double FirstStep(const CsvColumn& column) const {
+    for (std::size_t i = 1; i < rows_.size(); ++i) {
+      if (StepOf(column, i) != 0.0) return StepOf(column, i);
+    }
+    return 0.0;
+  }
+
+  // Whether cycles, some rows each, count up or down, and anew now and then.
   bool CountsAnew(const CsvColumn& column) const {
     if (!found_.ordered || column.is_text() || !column.exceptions.empty()) {
       return false;
     }
+    const double way = FirstStep(column);
     std::size_t runs = 1;
     std::size_t back = 0;
     for (std::size_t i = 1; i < rows_.size(); ++i) {
-      const double step =
-          column.values[DataRow(i)] - column.values[DataRow(i - 1)];
+      const double step = way * StepOf(column, i);
       runs += step != 0.0 ? 1 : 0;
       back += step < 0.0 ? 1 : 0;
     }

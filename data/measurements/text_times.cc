@@ -13,6 +13,18 @@
 namespace errmap::data {
 namespace {
 
+// Of "27:35" two fields: minutes and seconds where the name says so, or where
+// as hours they would go on over the day.
+bool AreMinutesAndSeconds(const CsvColumn& column, const TextTimes& times) {
+  const bool said = column.name.find("mm:ss") != column.name.npos;
+  return times.any && (said || times.elapsed) &&
+         std::ranges::all_of(column.texts, [](const std::string& text) {
+           return IsMissingNumber(text) ||
+                  (std::ranges::count(text, ':') == 1 &&
+                   text.find_first_not_of("0123456789:") == text.npos);
+         });
+}
+
 TextTimes ReadTimes(const CsvColumn& column, DateOrder order) {
   TextTimes times;
   for (const std::string& text : column.texts) {
@@ -28,6 +40,12 @@ TextTimes ReadTimes(const CsvColumn& column, DateOrder order) {
       times.elapsed = times.elapsed || parsed->elapsed;
     } else {
       times.all = times.all && IsMissingNumber(text);
+    }
+  }
+  if (AreMinutesAndSeconds(column, times)) {
+    times.elapsed = true;
+    for (auto& seconds : times.seconds) {
+      if (seconds) *seconds /= 60.0;
     }
   }
   return times;
@@ -132,6 +150,16 @@ TextTimes ReadTimes(const CsvColumn& column) {
   day_first.order = "day/month/year";
   month_first.order = "month/day/year";
   return by_month ? month_first : day_first;
+}
+
+bool HoldsTimes(const CsvColumn& column) {
+  if (!column.is_text()) return false;
+  const TextTimes times = ReadTimes(column);
+  return times.all && times.any;
+}
+
+bool HoldsDates(const CsvColumn& column) {
+  return HoldsTimes(column) && !ReadTimes(column).any_hours;
 }
 
 }  // namespace errmap::data

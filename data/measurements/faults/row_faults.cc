@@ -36,7 +36,10 @@ bool IsSummary(std::string_view text) {
          IsOneOf(text,
                  "mean average avg total totals sum summe gesamt mittel "
                  "mittelwert moyenne media min max minimum maximum std stdev "
-                 "sd sigma median count range rms anzahl eof end ende");
+                 "sd sigma median count range rms anzahl eof end ende massimo "
+                 "minimo m\u00e1ximo m\u00ednimo medel gemiddelde suma celkem "
+                 "razem \u6700\u5927\u503c \u6700\u5c0f\u503c "
+                 "\u5e73\u5747\u503c \u5e73\u5747");
 }
 
 bool HasDigit(std::string_view text) {

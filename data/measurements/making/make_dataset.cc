@@ -608,6 +608,18 @@ class DatasetBuilder {
     return reading;
   }
 
+  bool IsOneInEachSession(const PartingColumn& column) const {
+    if (NumSessions() < 2) return false;
+    const std::vector<Eigen::Index> sessions = SessionOfRows();
+    for (std::size_t i = 1; i < column.codes.size(); ++i) {
+      if (column.codes[i] != column.codes[i - 1] &&
+          sessions[i] == sessions[i - 1]) {
+        return false;
+      }
+    }
+    return true;
+  }
+
   // Rows of several machines, tools or directions, which err differently.
   void LookForParts() {
     constexpr double kDiffers = 0.7;
@@ -617,6 +629,10 @@ class DatasetBuilder {
           PartBy(table_, table_.At(index), parts_.rows);
       const PartingEffect effect =
           EffectOfParting(column, parts_.target_values, parts_.input_values);
+      if (!PartsComponents(table_, table_.At(index)) &&
+          IsOneInEachSession(column)) {
+        continue;  // a map for each day is of no use on another
+      }
       if (!(effect.each < kDiffers * effect.one)) {
         if (!PartsComponents(table_, table_.At(index))) continue;
         remarks_.push_back("rows that differ in " + QuotedName(column.name) +
@@ -653,11 +669,11 @@ PreparedDataset MakeDataset(const CsvTable& table,
   ReadTable read = ReadRoles(table, selection);
   // Moved out first: the builder reads from one table only.
   const std::optional<CsvTable> as_read = std::move(read.table);
+  const CsvTable& used = as_read ? *as_read : table;
   PreparedDataset prepared =
-      DatasetBuilder(as_read ? *as_read : table, selection, std::move(read))
-          .Build();
+      DatasetBuilder(used, selection, std::move(read)).Build();
   prepared.remarks.insert(
-      prepared.remarks.begin(), table.remarks.begin(), table.remarks.end());
+      prepared.remarks.begin(), used.remarks.begin(), used.remarks.end());
   return prepared;
 }
 

@@ -266,6 +266,28 @@ class AxisFinder {
     }
   }
 
+  // Counts of an encoder: a straight line over the positions, to a quarter of
+  // what is between them.
+  bool IsCountedBeside(std::size_t column, const Candidate& axis) const {
+    const ColumnValues& counts = table_.columns[column].values;
+    const std::vector<double>& centers = axis.levels.centers;
+    const double spacing = (centers.back() - centers.front()) /
+                           static_cast<double>(centers.size() - 1);
+    Eigen::ArrayXd x(std::ssize(rows_));
+    Eigen::ArrayXd y(x.size());
+    for (Index i = 0; i < x.size(); ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      x[i] = table_.columns[axis.column]
+                 .values[static_cast<std::size_t>(rows_[at])];
+      y[i] = counts[static_cast<std::size_t>(rows_[at])];
+    }
+    x -= x.mean();
+    y -= y.mean();
+    const double slope = (x * y).sum() / x.square().sum();
+    return slope != 0.0 &&
+           ((y - slope * x).abs() <= 0.25 * std::abs(slope) * spacing).all();
+  }
+
   // Columns of no name that says it whose lengths go with the axis.
   void FindReadings() {
     if (!axis_.motion.is_commanded) return;
@@ -273,13 +295,17 @@ class AxisFinder {
                          .levels = axis_.levels,
                          .motion = axis_.motion};
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
-      if (i == axis.column || !IsLengthOrAngle(UnitOfColumn(Name(i))) ||
+      const Unit& unit = UnitOfColumn(Name(i));
+      if (i == axis.column || !IsFree(i) ||
           std::ranges::count(axis_.measured, i) > 0 ||
-          std::ranges::count(axis_.positions, i) > 0 || !IsFree(i) ||
-          !IsReadBeside({.column = i}, axis)) {
+          std::ranges::count(axis_.numbers, i) > 0 ||
+          std::ranges::count(axis_.positions, i) > 0) {
         continue;
       }
-      axis_.measured.push_back(i);
+      const bool reads = IsLengthOrAngle(unit)
+                             ? IsReadBeside({.column = i}, axis)
+                             : unit.symbol.empty() && IsCountedBeside(i, axis);
+      if (reads) axis_.measured.push_back(i);
     }
   }
 

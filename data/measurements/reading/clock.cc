@@ -138,18 +138,6 @@ class ClockFinder : private RowColumns {
              (IsCalled(column.name, Word::kTime) && AreEven(values))));
   }
 
-  // With most rows, and seldom back.
-  static bool GoesForward(const std::vector<double>& values) {
-    std::size_t on = 0;
-    std::size_t back = 0;
-    for (std::size_t i = 1; i < values.size(); ++i) {
-      on += values[i] > values[i - 1] ? 1 : 0;
-      back += values[i] < values[i - 1] ? 1 : 0;
-    }
-    constexpr std::size_t kSeldom = 10;
-    return 2 * on > values.size() && kSeldom * back < values.size();
-  }
-
   // In whatever order: a step apart from one another, nearly all.
   static bool AreEven(std::vector<double> values) {
     std::erase_if(values, [](double value) { return std::isnan(value); });
@@ -192,10 +180,13 @@ class ClockFinder : private RowColumns {
     }
     std::size_t back = 0;
     std::size_t on = 0;
+    const Pace pace = PaceOf(values);
     bool even = true;
+    bool leaps = false;
     bool whole = values[0] == std::floor(values[0]);
     for (std::size_t i = 1; i < values.size(); ++i) {
       whole = whole && values[i] == std::floor(values[i]);
+      leaps = leaps || values[i] - values[i - 1] > kLeapSteps * pace.step;
       on += values[i] > values[i - 1] ? 1 : 0;
       back += values[i] < values[i - 1] ? 1 : 0;
       even = even && (i < 2 || std::abs(values[i] + values[i - 2] -
@@ -203,7 +194,9 @@ class ClockFinder : private RowColumns {
     }
     constexpr std::size_t kFewest = 24;
     constexpr std::size_t kHardly = 50;
-    return values.size() >= kFewest && !even && !whole &&
+    // Numbers of rows have no pauses.
+    const bool may_count = whole && !(leaps && AreEven(values));
+    return values.size() >= kFewest && !even && !may_count &&
            kHardly * back < values.size() && on + back + 1 == values.size() &&
            !CountsCycles({column.name, {}}) && !IsCalledPosition(column.name);
   }
@@ -224,9 +217,7 @@ class ClockFinder : private RowColumns {
     std::ptrdiff_t found = -1;
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       const CsvColumn& column = table_.columns[i];
-      if (IsMeasured(i) || !column.is_text()) continue;
-      const TextTimes times = ReadTimes(column);
-      if (!times.all || !times.any || times.any_hours) continue;
+      if (IsMeasured(i) || !HoldsDates(column)) continue;
       if (found >= 0) return -1;
       found = static_cast<std::ptrdiff_t>(i);
     }
@@ -406,8 +397,15 @@ class ClockFinder : private RowColumns {
         return false;
       }
     }
+    // A date of the beginning: the clock passes midnight, the date stays.
+    std::vector<bool> next_day(days.size(), false);
+    for (std::size_t i = 1; i < days.size(); ++i) {
+      const double back = (*values)[i - 1] - (*values)[i];
+      next_day[i] = days[i] == days[i - 1] &&
+                    (next_day[i - 1] || back > kSecondsOfDay / 2.0);
+    }
     for (std::size_t i = 0; i < days.size(); ++i) {
-      (*values)[i] += days[i];
+      (*values)[i] += days[i] + (next_day[i] ? kSecondsOfDay : 0.0);
       (*known)[i] = (*known)[i] && !lack[i];
     }
     clock_.date_column = column;
@@ -442,6 +440,11 @@ class ClockFinder : private RowColumns {
       return;
     }
     const Pace pace = PaceOf(*values);
+    // "Heure" and "Hora" are hours, or any clock: rows are not hours apart.
+    if (unit == FindTimeUnit("h") && IsCalled(name, Word::kTime) &&
+        UnitOfColumn(name).symbol.empty() && pace.step >= 1.0) {
+      unit = nullptr;
+    }
     if (const auto epoch = NamedEpoch(name, pace)) {
       Scale(*epoch->unit, epoch->offset, values);
       TakeEpoch(*epoch);

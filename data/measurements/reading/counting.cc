@@ -27,7 +27,9 @@ class ChangesOf {
   ChangesOf(const CsvColumn& column,
             const std::vector<Index>& rows,
             const Motion& motion)
-      : motion_(motion), has_passes_(motion.num_passes >= 2) {
+      : motion_(motion),
+        has_passes_(motion.num_passes >= 2),
+        rows_(std::ssize(rows)) {
     double before = std::nan("");
     Index length = 0;  // of the block so far: passes, or rows without any
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -53,9 +55,15 @@ class ChangesOf {
 
   Counted Counts(bool is_called) const {
     const Index changes = passes_with_ + turns_with_ + inside_;
-    if (!is_whole_ || changes == 0 || 2 * by_one_ <= changes) {
+    if (!is_whole_ || changes == 0 || 2 * even_ <= changes) {
       return Counted::kNothing;
     }
+    constexpr Index kFewestRows = 12;
+    const double step = std::abs(step_);
+    const bool is_round = step == 1.0 || step == 5.0 || step == 10.0 ||
+                          step == 100.0;  // as programs number their lines
+    if (rows_ < kFewestRows || !is_round) return Counted::kNothing;
+    if (AreNearlyAll(even_, rows_ - 1)) return Counted::kRows;
     if (has_passes_ && inside_ > 0) return Counted::kNothing;
     const bool every_pass =
         has_passes_ &&
@@ -65,12 +73,12 @@ class ChangesOf {
       return Counted::kWays;
     }
     constexpr Index kFewestPasses = 2;
-    constexpr Index kFewestRows = 8;
+    constexpr Index kFewestInBlock = 8;  // rows
     const bool begins_so =
         is_called || first_ == 1.0 || (first_ == 0.0 && changes >= 2);
     const bool are_blocks =
-        back_ == 0 && turns_with_ == 0 && begins_so &&
-        shortest_ >= (has_passes_ ? kFewestPasses : kFewestRows);
+        back_ == 0 && step_ == 1.0 && turns_with_ == 0 && begins_so &&
+        shortest_ >= (has_passes_ ? kFewestPasses : kFewestInBlock);
     return are_blocks ? Counted::kBlocks : Counted::kNothing;
   }
 
@@ -89,12 +97,14 @@ class ChangesOf {
     (place == Place::kPass   ? passes_with_
      : place == Place::kTurn ? turns_with_
                              : inside_)++;
-    by_one_ += step == 1.0 ? 1 : 0;
+    if (step_ == 0.0) step_ = step;
+    even_ += step == step_ ? 1 : 0;
     back_ += step < 0.0 ? 1 : 0;
   }
 
   const Motion& motion_;
   bool has_passes_;
+  Index rows_;
   bool is_whole_ = true;
   double first_ = 0.0;
   Index passes_with_ = 0;
@@ -102,7 +112,8 @@ class ChangesOf {
   Index turns_with_ = 0;
   Index turns_without_ = 0;
   Index inside_ = 0;
-  Index by_one_ = 0;
+  double step_ = 0.0;  // the first
+  Index even_ = 0;     // changes by as much
   Index back_ = 0;
   Index shortest_ = std::numeric_limits<Index>::max();
 };
@@ -112,6 +123,7 @@ class ChangesOf {
 std::string_view ToString(Counted counted) {
   constexpr auto kNames =
       std::to_array<std::string_view>({"counts nothing",
+                                       "counts the rows",
                                        "counts the passes along the axis",
                                        "counts the passes so far",
                                        "counts the ways along the axis",
@@ -131,8 +143,11 @@ std::vector<Counter> FindCounters(const CsvTable& table,
         std::ranges::count(selection.inputs, column.name) > 0 ||
         column.name == selection.session;
     if (i == target || is_named || column.is_text() ||
+        IsCalledPosition(column.name) ||
         !UnitOfColumn(column.name).symbol.empty() ||
-        Says(column.name, Word::kTemperature)) {
+        Says(column.name, Word::kTemperature) ||
+        IsCalled(column.name, Word::kPart) ||
+        IsCalled(column.name, Word::kDirection)) {
       continue;
     }
     Counted counts =

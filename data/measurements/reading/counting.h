@@ -15,6 +15,7 @@ namespace errmap::data {
 /// What a column of whole numbers counts.
 enum class Counted {
   kNothing,
+  kRows,     // of a pass, or of all
   kPasses,   // along the axis
   kElapsed,  // passes, by a name that may be a state ("elapsed_cycles")
   kWays,     // up and down
@@ -29,11 +30,11 @@ struct Counter {
 };
 
 /// The columns that count, whatever they are called: whole numbers without a
-/// unit, that change only where a pass or a way begins, mostly by one. Blocks
-/// never count back; where nothing else says that they count, they begin at 1
-/// (three of them or more at 0). Without passes, a block has 8 rows or more.
-/// Neither the target nor what `selection` names. `motion` is that of `rows`,
-/// which are in the order of measurement.
+/// unit, that change only where a pass or a way begins, mostly by the same.
+/// Blocks go up by one, never back; where nothing else says that they count,
+/// they begin at 1 (three of them or more at 0). Without passes, a block has 8
+/// rows or more. Neither positions, nor the target, nor what `selection` names.
+/// `motion` is that of `rows`, which are in the order of measurement.
 std::vector<Counter> FindCounters(const CsvTable& table,
                                   const DatasetSelection& selection,
                                   std::size_t target,

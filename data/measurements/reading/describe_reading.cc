@@ -129,6 +129,7 @@ void DescribeReading(const CsvTable& given,
   if (!read->found.sessions.labels.empty()) {
     DescribeSessions(table, clock, nights, read);
   }
+  reading.rows -= std::ssize(reading.rows_left_out);
   for (const Index row : read->repeated_rows) {
     reading.rows_left_out.push_back(
         {.row = row, .why = "repeats another value for value"});

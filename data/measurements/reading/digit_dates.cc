@@ -5,8 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "data/column_words.h"
+#include "data/columns.h"
 #include "data/measurements/date_time.h"
 #include "data/measurements/reading/time_units.h"
 #include "data/measurements/text_times.h"
@@ -24,23 +23,21 @@
 namespace errmap::data {
 namespace {
 
-// A column of text where there was one of numbers; empty where a number has no
-// text. `text_of` takes the number of a row.
+// A column of text where there was one of numbers. `text_of` takes a row.
 template <typename TextOf>
 CsvColumn AsText(const std::string& name,
                  std::size_t num_rows,
                  const TextOf& text_of) {
-  CsvColumn column{.name = name};
-  column.values =
-      std::vector<double>(num_rows, std::numeric_limits<double>::quiet_NaN());
-  std::map<std::string, std::uint32_t> indices;
+  std::map<std::string, std::ptrdiff_t> indices;
+  std::vector<std::string> words;
+  std::vector<std::ptrdiff_t> codes;
   for (std::size_t row = 0; row < num_rows; ++row) {
-    const auto [at, is_new] = indices.try_emplace(
-        text_of(row), static_cast<std::uint32_t>(column.texts.size()));
-    if (is_new) column.texts.push_back(at->first);
-    column.exceptions.emplace_back(row, at->second);
+    const auto [at, is_new] =
+        indices.try_emplace(text_of(row), std::ssize(words));
+    if (is_new) words.push_back(at->first);
+    codes.push_back(at->second);
   }
-  return column;
+  return WordColumn(name, codes, std::move(words));
 }
 
 // Of each number that is none of the missing ones.
@@ -188,12 +185,6 @@ class DateParts {
   std::vector<std::optional<std::size_t>> columns_;
 };
 
-bool IsDateText(const CsvColumn& column) {
-  if (!column.is_text()) return false;
-  const TextTimes times = ReadTimes(column);
-  return times.all && times.any && !times.any_hours;
-}
-
 bool IsCalledTimeOfDay(const CsvColumn& column) {
   return IsCalled(column.name, Word::kTime) ||
          std::ranges::count(WordsOf(column.name), "hhmmss") > 0;
@@ -212,7 +203,7 @@ bool AreClocksOfDigits(const CsvColumn& column) {
 
 DigitDates FindDigitDates(const CsvTable& table) {
   DigitDates found;
-  bool has_date = std::ranges::any_of(table.columns, IsDateText);
+  bool has_date = std::ranges::any_of(table.columns, HoldsDates);
   const auto rewrite = [&](std::size_t i, std::string (*text_of)(double)) {
     const CsvColumn& column = table.columns[i];
     found.columns.push_back(

@@ -110,6 +110,22 @@ std::vector<int> StepSigns(const Levels& levels) {
   return signs;
 }
 
+// Of several rows where the way turns, the first half belongs to the way there.
+void PartStandsAtTurns(const Levels& levels,
+                       const std::vector<int>& signs,
+                       std::vector<int>* directions) {
+  const std::vector<Index>& codes = levels.codes;
+  for (std::size_t i = 0; i < codes.size();) {
+    std::size_t end = i + 1;
+    while (end < codes.size() && codes[end] == codes[i]) ++end;
+    const std::size_t half = i + (end - i + 1) / 2;
+    for (std::size_t k = i + 1; signs[i] != 0 && k < half; ++k) {
+      (*directions)[k] = signs[i];
+    }
+    i = end;
+  }
+}
+
 }  // namespace
 
 Levels LevelsOf(std::span<const double> values) {
@@ -187,6 +203,7 @@ Motion MotionThrough(const Levels& levels) {
     if (signs[i] != 0) next = signs[i];
     motion.directions[i] = next;
   }
+  PartStandsAtTurns(levels, signs, &motion.directions);
   int last = 0;
   for (std::size_t i = 0; i < n; ++i) {
     if (motion.directions[i] == 0) motion.directions[i] = last;

@@ -17,6 +17,7 @@
 #include "data/measurements/reading/describe_reading.h"
 #include "data/measurements/reading/digit_dates.h"
 #include "data/measurements/reading/directions.h"
+#include "data/measurements/reading/merged_cells.h"
 #include "data/measurements/row_filters.h"
 #include "data/text.h"
 
@@ -51,6 +52,7 @@ class TableReader {
 
   ReadTable Read() {
     read_.where = selection_.where;
+    FillMergedCells();
     TakeDigitDates();
     TakeTarget();
     read_.roles = ChooseRoles(table(), WithoutDerivedCycles());
@@ -70,6 +72,9 @@ class TableReader {
                                     read_.roles.target,
                                     base_rows_,
                                     motion.is_commanded ? motion : Motion());
+      std::erase_if(read_.counters, [&](const Counter& counter) {
+        return static_cast<std::ptrdiff_t>(counter.column) == read_.axis.column;
+      });
     }
     FindCycles();
     if (!selection_.group.empty() && read_.roles.group == kNoColumn) {
@@ -96,8 +101,21 @@ class TableReader {
     columns.pop_back();
   }
 
+  void FillMergedCells() {
+    std::vector<std::string> filled;
+    for (std::size_t i = 0; i < given_.columns.size(); ++i) {
+      if (std::optional<CsvColumn> column = FilledDown(given_, i)) {
+        PutColumn(i, *std::move(column));
+        filled.push_back(table().columns[i].name);
+      }
+    }
+    if (filled.empty()) return;
+    read_.table->remarks.push_back("empty cells of " + ListOfNames(filled) +
+                                   " are filled from above, as merged cells");
+  }
+
   void TakeDigitDates() {
-    DigitDates dates = FindDigitDates(given_);
+    DigitDates dates = FindDigitDates(table());
     for (DigitDates::Rewritten& rewritten : dates.columns) {
       PutColumn(rewritten.column, std::move(rewritten.text));
     }
@@ -146,7 +164,8 @@ class TableReader {
   void LeaveOutWords(std::vector<bool>* passes) {
     std::vector<bool> numbering;
     for (const CsvColumn& column : table().columns) {
-      numbering.push_back(KeepsRecord(column.name));
+      numbering.push_back(KeepsRecord(column.name) ||
+                          IsCalled(column.name, Word::kTime));
     }
     if (read_.roles.group != kNoColumn) {
       numbering[static_cast<std::size_t>(read_.roles.group)] = true;
@@ -355,9 +374,11 @@ class TableReader {
     if (direction.labels.size() != 2) {
       direction.values = direction.labels;
       if (direction.labels.size() != 1) return;
-      if (const auto up = IsUpwards(direction.labels[0])) {
-        direction.values = {*up ? "up" : "down"};
+      std::optional<bool> up = IsUpwards(direction.labels[0]);
+      if (read_.axis.motion.is_commanded && ordered_ && ups[0] != 0) {
+        up = ups[0] > 0;  // "R" may be reverse, or to the right
       }
+      if (up) direction.values = {*up ? "up" : "down"};
       return;
     }
     std::optional<bool> first_is_up;
@@ -429,6 +450,10 @@ class TableReader {
 
   void FindCycles() {
     Reading::Cycles& cycles = read_.reading.cycles;
+    if (LabelsInParts() && Passes().is_commanded && ordered_) {
+      NumberPassesAs(table().At(read_.roles.group).name);
+      return;
+    }
     if (read_.roles.group != kNoColumn) {
       cycles.column = table().At(read_.roles.group).name;
       cycles.by = "column";
@@ -455,18 +480,39 @@ class TableReader {
                 .sure = true};
       return;
     }
+    NumberPassesAs(kCycleColumn);
+  }
+
+  // "1.9", "1.10": as numbers the tenth cycle is the first one.
+  bool LabelsInParts() const {
+    if (read_.roles.group == kNoColumn || !selection_.group.empty()) {
+      return false;
+    }
+    const CsvColumn& column = table().At(read_.roles.group);
+    return !column.is_text() &&
+           std::ranges::any_of(column.values, [](double value) {
+             return value != std::floor(value) && !std::isnan(value);
+           });
+  }
+
+  // By a column of this name, in the place of another that is called so.
+  void NumberPassesAs(const std::string& name) {
+    const Motion& motion = Passes();
     std::vector<double> numbers(table().num_rows, std::nan(""));
     for (std::size_t i = 0; i < base_rows_.size(); ++i) {
       numbers[static_cast<std::size_t>(base_rows_[i])] =
           static_cast<double>(motion.passes[i] + 1);
     }
-    AddColumn(NumberColumn(kCycleColumn, std::move(numbers)));
-    read_.roles.group = static_cast<std::ptrdiff_t>(table().columns.size()) - 1;
-    cycles = {.column = kCycleColumn,
-              .by = "position",
-              .count = motion.num_passes,
-              .evidence = Evidence::kValues,
-              .sure = true};
+    const std::ptrdiff_t named = table().Find(name);
+    const std::size_t place =
+        named < 0 ? table().columns.size() : static_cast<std::size_t>(named);
+    PutColumn(place, NumberColumn(name, std::move(numbers)));
+    read_.roles.group = static_cast<std::ptrdiff_t>(place);
+    read_.reading.cycles = {.column = name,
+                            .by = "position",
+                            .count = motion.num_passes,
+                            .evidence = Evidence::kValues,
+                            .sure = true};
   }
 
   // -1: none.

@@ -173,6 +173,17 @@ std::optional<Epoch> NamedEpoch(std::string_view column, const Pace& pace) {
   return Epoch{FindTimeUnit("days"), -*days_to_1970 * kSecondsOfDay};
 }
 
+bool GoesForward(const std::vector<double>& values) {
+  std::size_t on = 0;
+  std::size_t back = 0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    on += values[i] > values[i - 1] ? 1 : 0;
+    back += values[i] < values[i - 1] ? 1 : 0;
+  }
+  constexpr std::size_t kSeldom = 10;
+  return 2 * on > values.size() && kSeldom * back < values.size();
+}
+
 bool AreWholeDays(const std::vector<double>& values) {
   constexpr double kFrom = 32874.0;
   constexpr double kTo = 58440.0;

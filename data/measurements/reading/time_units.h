@@ -49,6 +49,9 @@ std::optional<Epoch> EpochOf(const Pace& pace, Named called);
 /// "HJD" (from noon, 4713 BC), "MJD", "days since 1970".
 std::optional<Epoch> NamedEpoch(std::string_view column, const Pace& pace);
 
+/// Whether numbers go up with most rows, and seldom back.
+bool GoesForward(const std::vector<double>& values);
+
 /// Excel counts days from 30 December 1899.
 inline constexpr double kExcelDaysTo1970 = 25569.0;
 /// Whether all are Excel's numbers of days, 1990 to 2060, or missing (NaN).

@@ -127,6 +127,30 @@ TEST(Clock, IsRefusedWithoutItsHours) {
   }
 }
 
+// Whole seconds with nights between them are a clock; numbers of rows have no
+// pauses.
+TEST(Clock, HasPausesWhateverItIsCalled) {
+  for (const char* name : {"X_Value", "Heure", "TS"}) {
+    const Reading reading = MadeOf(Days(name, [](int i, double /*warm*/) {
+                              return std::to_string(30 * i + 54000 * (i / 40));
+                            })).reading;
+    EXPECT_EQ(reading.time.column, name);
+    EXPECT_EQ(reading.time.step_s, 30.0) << name;
+    EXPECT_EQ(reading.sessions.count, 3) << name;
+  }
+}
+
+TEST(Clock, OfTwoFieldsIsInMinutesWhereHoursGoOverTheDay) {
+  const auto shown = [](int i, double /*warm*/) {
+    return TwoDigits(i / 2) + ":" + (i % 2 == 0 ? "00" : "30");
+  };
+  for (const char* name : {"Time", "t mm:ss"}) {
+    const Reading reading = MadeOf(Days(name, shown)).reading;
+    EXPECT_EQ(reading.time.column, name);
+    EXPECT_EQ(reading.time.step_s, 30.0);
+  }
+}
+
 TEST(Clock, OfHoursCountsWithTheDateBesideIt) {
   const Reading reading = MadeOf(Days("Date,hour", [](int i, double /*warm*/) {
                             return "2024-03-0" + std::to_string(4 + i / 40) +

@@ -75,6 +75,10 @@ TEST(Counting, TellsSessionsWhateverItsColumnIsCalled) {
   const Cell way_anew = [](const Place& at) {
     return Number(2 * at.cycle + at.way + 1);
   };
+  const Cell tens = [](const Place& at) {
+    return Number(10 * CycleInAll(at) + 10);
+  };
+  const Cell down = [](const Place& at) { return Number(kCycles - at.cycle); };
   const Cell turns = [](const Place& at) {
     return std::string(at.day % 2 == 0 ? "A" : "B");
   };
@@ -104,6 +108,8 @@ TEST(Counting, TellsSessionsWhateverItsColumnIsCalled) {
       {"Lauf", cycle, 3, "counter"},
       {"block", later_cycle, 3, "counter"},
       {"warmup_cycle", cycle, 3, "counter"},
+      {"N. ciclo", tens, 1, "one"},
+      {"Countdown", down, 3, "counter"},
       {"sweep", way, 1, "one"},
       {"pass", way_anew, 3, "counter"},
       {"Shift", turns, 3, "column"},
@@ -143,13 +149,75 @@ TEST(Counting, IsNoInput) {
 
 // "Position [um]" of a column "Position" is the error, and no axis as well.
 TEST(Counting, TakesATargetForNothingElse) {
-  const PreparedDataset made = MadeWith(
-      "Position",
-      [](const Place& at) { return CsvNumber(0.1 * at.row * at.row); },
-      {.target = "Position [um]", .exclude = {"error_um"}});
+  const PreparedDataset made =
+      MadeWith("Position",
+               [](const Place& at) { return CsvNumber(0.1 * at.row * at.row); },
+               {.target = "Position [um]", .exclude = {"error_um"}});
   EXPECT_EQ(made.dataset.target().name, "Position [um]");
   EXPECT_EQ(made.reading.position.column, "x [mm]");
   EXPECT_EQ(made.dataset.num_inputs(), 2);
+}
+
+// What a spreadsheet shows once for merged cells holds for all of them.
+TEST(Counting, FillsMergedCellsFromAbove) {
+  const auto first_of = [](int rows, int row, int number) {
+    return row % rows == 0 ? Number(number) : std::string();
+  };
+  const PreparedDataset made = MadeWith("Day,Cycle", [&](const Place& at) {
+    return first_of(2 * kPositions * kCycles, at.row, at.day + 1) + "," +
+           first_of(2 * kPositions, at.row, at.cycle + 1);
+  });
+  EXPECT_EQ(made.reading.sessions.count, kDays);
+  EXPECT_EQ(made.reading.cycles.count, kDays * kCycles);
+  EXPECT_EQ(made.dataset.num_rows(), kDays * kCycles * 2 * kPositions);
+  EXPECT_THAT(made.remarks, Contains(HasSubstr("'Day', 'Cycle' are filled")));
+}
+
+// As numbers "1.10" is "1.1".
+TEST(Counting, TellsCyclesOfTwoPartsByThePositions) {
+  const Reading reading = MadeWith("day,cycle", [](const Place& at) {
+                            return Number(at.day + 1) + "," +
+                                   Number(at.day + 1) + "." +
+                                   Number(at.cycle == 3 ? 10 : at.cycle + 1);
+                          }).reading;
+  EXPECT_EQ(reading.cycles.count, kDays * kCycles);
+  EXPECT_THAT(reading.sensors, ElementsAre("t1_degC"));
+}
+
+// A tool may change with each cycle, and a program line with each row.
+TEST(Counting, KnowsWhatATableOfAControlHas) {
+  const Reading reading =
+      MadeWith("Tool,Line,seq", [](const Place& at) {
+        return Number(1 + CycleInAll(at) % 4) + "," +
+               Number(10 * (at.row % (2 * kPositions) + 1)) + "," +
+               Number(at.row % 50);
+      }).reading;
+  EXPECT_EQ(reading.cycles.column, "cycle");
+  EXPECT_EQ(reading.cycles.count, kDays * kCycles);
+  EXPECT_THAT(reading.sensors, ElementsAre("t1_degC"));
+}
+
+// A date of the shift's beginning, and its clock over midnight.
+TEST(Counting, GoesOnOverMidnightBesideTheDateOfTheBeginning) {
+  const PreparedDataset made = MadeWith("Date,Time", [](const Place& at) {
+    const int minutes = 23 * 60 + at.row % 40 * 3;  // to 00:57
+    const int hour = minutes / 60 % 24;
+    return "2024-03-0" + Number(4 + at.day) + "," + (hour < 10 ? "0" : "") +
+           Number(hour) + (minutes % 60 < 10 ? ":0" : ":") +
+           Number(minutes % 60);
+  });
+  EXPECT_EQ(made.reading.sessions.count, kDays);
+  EXPECT_EQ(made.reading.time.step_s, 180.0);
+}
+
+TEST(Counting, TakesAnotherClockForNoSensor) {
+  const Reading reading =
+      MadeWith("time_s,Uptime [h]", [](const Place& at) {
+        const int seconds = 5 * at.row + 50000 * at.day;
+        return Number(seconds) + "," + CsvNumber(300.0 + seconds / 3600.0);
+      }).reading;
+  EXPECT_EQ(reading.time.column, "time_s");
+  EXPECT_THAT(reading.sensors, ElementsAre("t1_degC"));
 }
 
 // A name that comes again beside a date: the date tells.

@@ -1,0 +1,37 @@
+#include "data/measurements/reading/merged_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "data/column_words.h"
+#include "data/measurements/column_roles.h"
+
+namespace errmap::data {
+
+std::optional<CsvColumn> FilledDown(const CsvTable& table, std::size_t column) {
+  const CsvColumn& given = table.columns[column];
+  const std::string& name = given.name;
+  const bool names_blocks = KeepsRecord(name) || IsCalled(name, Word::kDate) ||
+                            IsCalled(name, Word::kDirection) ||
+                            IsCalled(name, Word::kPart);
+  if (!names_blocks) return std::nullopt;
+  const auto is_empty = [&](std::size_t row) {
+    const std::string* const text = given.TextAt(row);
+    return text != nullptr && text->empty();
+  };
+  std::size_t empty = 0;
+  for (const auto& [row, text] : given.exceptions) {
+    empty += given.texts[text].empty() ? 1 : 0;
+  }
+  if (2 * empty < table.num_rows || is_empty(0)) return std::nullopt;
+  std::vector<Eigen::Index> from;
+  for (std::size_t row = 0; row < table.num_rows; ++row) {
+    from.push_back(is_empty(row) ? from.back()
+                                 : static_cast<Eigen::Index>(row));
+  }
+  return TakeRows(given, from);
+}
+
+}  // namespace errmap::data
