@@ -64,7 +64,8 @@ std::optional<std::string_view> BeforePlace(std::string_view before) {
 std::string WithPoints(std::string_view name) {
   std::string text(name);
   for (std::size_t i = 1; i + 1 < text.size(); ++i) {
-    if (text[i] == ',' && IsDigitOfName(text[i - 1]) && IsDigitOfName(text[i + 1])) {
+    if (text[i] == ',' && IsDigitOfName(text[i - 1]) &&
+        IsDigitOfName(text[i + 1])) {
       text[i] = '.';
     }
   }

@@ -52,10 +52,11 @@ TEST(ColumnChecks, BadCellsAreNamedWithTheirPlaceAndRemedy) {
             "f.csv: line 2 (data row 0), column 'error': 'NA' is a missing "
             "value; fill it in, or drop such rows with missing = drop-rows "
             "(the columns in use have 2 such cells)");
-  EXPECT_EQ(ErrorOf("a,error\n1,1\n-Inf,2\n"),
-            "f.csv: line 3 (data row 1), column 'a': '-Inf' is not finite; "
-            "correct it, or leave the column out with exclude = a, or drop such "
-            "rows with missing = drop-rows");
+  EXPECT_EQ(
+      ErrorOf("a,error\n1,1\n-Inf,2\n"),
+      "f.csv: line 3 (data row 1), column 'a': '-Inf' is not finite; "
+      "correct it, or leave the column out with exclude = a, or drop such "
+      "rows with missing = drop-rows");
   EXPECT_THAT(ErrorOf("a,error\n1,1\n1e999,2\n"),
               HasSubstr("'1e999' is beyond the range of a double"));
   EXPECT_THAT(ErrorOf("a,error\n1,1\nbroken,2\n"),
