@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 
+#include "data/measurements/date_scanner.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -14,118 +15,7 @@ constexpr double kMinute = 60.0;
 constexpr double kHour = 3600.0;
 constexpr int kHoursOfHalfADay = 12;
 
-// Takes what it reads off the front of a text.
-class Scanner {
- public:
-  explicit Scanner(std::string_view text) : rest_(text) {}
-
-  bool done() const { return rest_.empty(); }
-
-  bool Take(char c) {
-    if (!rest_.starts_with(c)) return false;
-    rest_.remove_prefix(1);
-    return true;
-  }
-
-  bool TakeIgnoringCase(std::string_view word) {
-    if (!StartsWithIgnoringCase(rest_, word)) return false;
-    rest_.remove_prefix(word.size());
-    return true;
-  }
-
-  // Also those that do not break a line, as Windows writes before AM and PM.
-  void TakeBlanks() {
-    while (Take(' ') || TakeIgnoringCase("\u00a0") ||
-           TakeIgnoringCase("\u202f")) {
-    }
-  }
-
-  // Of the characters of `some`; nothing where another comes next.
-  std::optional<char> TakeOneOf(std::string_view some) {
-    if (done() || some.find(rest_.front()) == std::string_view::npos) {
-      return std::nullopt;
-    }
-    const char taken = rest_.front();
-    rest_.remove_prefix(1);
-    return taken;
-  }
-
-  struct Number {
-    int value = 0;
-    std::size_t digits = 0;
-  };
-  // Of one to `most` digits.
-  std::optional<Number> TakeNumber(std::size_t most) {
-    Number number;
-    while (number.digits < most && !done() && IsDigit(rest_.front())) {
-      number.value = 10 * number.value + (rest_.front() - '0');
-      ++number.digits;
-      rest_.remove_prefix(1);
-    }
-    return number.digits > 0 ? std::optional(number) : std::nullopt;
-  }
-
-  // Of letters; those of other alphabets are bytes above 0x7F.
-  std::string_view TakeWord() {
-    std::size_t size = 0;
-    while (size < rest_.size() && IsLetter(rest_[size])) ++size;
-    const std::string_view word = rest_.substr(0, size);
-    rest_.remove_prefix(size);
-    return word;
-  }
-
-  // Whether a letter is the next but for points, blanks and dashes.
-  bool WordIsNear() const {
-    const std::size_t at = rest_.find_first_not_of(". -/");
-    return at != std::string_view::npos && at > 0 && IsLetter(rest_[at]) &&
-           rest_.find_first_of("0123456789", at) > at + 2;
-  }
-
-  bool AtDigit() const { return !done() && IsDigit(rest_.front()); }
-
-  // Exactly two digits, at most `most`.
-  std::optional<int> TakePair(int most) {
-    const auto number = TakeNumber(2);
-    if (!number || number->digits != 2 || number->value > most) {
-      return std::nullopt;
-    }
-    return number->value;
-  }
-
-  // Whether the last fraction was there, be it 0.
-  bool TookPoint() const { return took_point_; }
-
-  // Of a point or comma and digits, or a colon and three of them, as some
-  // loggers write milliseconds; 0 where there is none.
-  double TakeFraction() {
-    constexpr std::size_t kMilliseconds = 4;  // with the colon
-    const bool after_colon = rest_.starts_with(':') &&
-                             std::min(rest_.find_first_not_of("0123456789", 1),
-                                      rest_.size()) == kMilliseconds;
-    const bool before_digit = rest_.size() > 1 && IsDigit(rest_[1]);
-    took_point_ =
-        before_digit && TakeOneOf(after_colon ? ":" : ".,").has_value();
-    if (!took_point_) return 0.0;
-    double value = 0.0;
-    double place = 1.0;
-    while (!done() && IsDigit(rest_.front())) {
-      value = 10.0 * value + (rest_.front() - '0');
-      place *= 10.0;
-      rest_.remove_prefix(1);
-    }
-    return value / place;
-  }
-
- private:
-  static bool IsDigit(char c) { return c >= '0' && c <= '9'; }
-  static bool IsLetter(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-           static_cast<unsigned char>(c) > 0x7FU;
-  }
-
-  std::string_view rest_;
-  bool took_point_ = false;
-};
+using Scanner = DateScanner;
 
 // Two digits are a year from 1970 to 2069.
 int WholeYear(const Scanner::Number& year) {
@@ -213,8 +103,10 @@ std::optional<double> TakeDate(Scanner* text,
   if (first->digits == 4 && text->AtDigit()) {
     return TakePacked(text, first->value);
   }
-  const auto separator = text->TakeOneOf("-/.");
+  const auto separator = text->TakeOneOf("-/._");
   if (!separator) return std::nullopt;
+  // "2024. 3. 4." of Korea, "4. 3. 2024" of Bohemia.
+  if (*separator == '.') text->TakeBlanks();
   const auto second = text->TakeNumber(3);
   if (!second) return std::nullopt;
   if (second->digits == 3) {
@@ -222,8 +114,10 @@ std::optional<double> TakeDate(Scanner* text,
     return DayOfYear(first->value, second->value);
   }
   if (!text->Take(*separator)) return std::nullopt;
+  if (*separator == '.') text->TakeBlanks();
   const auto third = text->TakeNumber(4);
   if (!third) return std::nullopt;
+  if (*separator == '.') text->Take('.');
   if (first->digits == 4) {
     // ISO 8601 has all digits; others do as they like.
     const bool whole = second->digits == 2 && third->digits == 2;
@@ -233,11 +127,36 @@ std::optional<double> TakeDate(Scanner* text,
   if (first->digits > 2 || (third->digits != 2 && third->digits != 4)) {
     return std::nullopt;
   }
-  const bool day_first = *separator == '.' || order == DateOrder::kDayFirst;
   parsed->by_order = *separator != '.';
+  if (order == DateOrder::kYearFirst && parsed->by_order) {
+    if (first->digits != 2 || third->digits != 2) return std::nullopt;
+    return DaysSeconds(WholeYear(*first), second->value, third->value);
+  }
+  const bool day_first = *separator == '.' || order == DateOrder::kDayFirst;
   const Scanner::Number& day = day_first ? *first : *second;
   const Scanner::Number& month = day_first ? *second : *first;
   return DaysSeconds(WholeYear(*third), month.value, day.value);
+}
+
+// Of "08h05m12s", where digits follow; "8:05m" is none.
+bool TakeMinuteSign(Scanner* text) {
+  Scanner ahead = *text;
+  if (!ahead.Take('m') || !ahead.AtDigit()) return false;
+  *text = ahead;
+  return true;
+}
+
+// "at", "klo", "-" between a date and its time, with the blanks around them.
+void TakeBetween(Scanner* text) {
+  text->TakeBlanks();
+  Scanner ahead = *text;
+  const std::string_view word = ahead.TakeWord();
+  if (IsOneOf(word, "at klo kl um \u00e0 alle las")) {
+    ahead.Take('.');
+    *text = ahead;
+  }
+  text->Take('-');
+  text->TakeBlanks();
 }
 
 // The hour of a day of two halves, which begin with 12.
@@ -260,22 +179,25 @@ std::optional<bool> TakeHalf(Scanner* text) {
   return *half == 'p' || *half == 'P';
 }
 
-// Of "8:05", "08:05:12.5", "08h05" and, elapsed, "29:05:12" or
+// Of "8:05", "08:05:12.5", "08h05", "08h05m12s" and, elapsed, "29:05:12" or
 // "125:03.5" in minutes; with AM or PM, or "Uhr".
-// `points`: also "08.05.12", which may be a date.
+// `points`: also "08.05.12", which may be a date, and behind one "08-05-12".
 std::optional<double> TakeTime(Scanner* text, bool points, DateTime* parsed) {
   constexpr std::size_t kMostDigits = 4;
   const auto number = text->TakeNumber(kMostDigits);
-  const auto mark = text->TakeOneOf(points ? ":hH." : ":hH");
+  const auto mark = text->TakeOneOf(parsed->has_date ? ":hH.-_"
+                                    : points         ? ":hH."
+                                                     : ":hH");
   if (!number || !mark) return std::nullopt;
   const auto minute = text->TakePair(59);
   if (!minute) return std::nullopt;
   std::optional<int> hour = number->value;
   double seconds = kMinute * *minute;
-  if (text->Take(*mark)) {
+  if (text->Take(*mark) || TakeMinuteSign(text)) {
     const auto second = text->TakePair(60);  // a leap second, too
     if (!second) return std::nullopt;
     seconds += *second + text->TakeFraction();
+    text->Take('s');
   } else if (!parsed->has_date && *mark == ':') {
     if (const double fraction = text->TakeFraction(); text->TookPoint()) {
       parsed->elapsed = true;
@@ -386,7 +308,7 @@ std::optional<DateTime> ReadDateFirst(Scanner text, DateOrder order) {
   parsed.has_date = true;
   if (text.done()) return parsed;
   if (!text.TakeOneOf("T ,_:-")) return std::nullopt;
-  text.TakeBlanks();
+  TakeBetween(&text);
   return WithTime(text, true, parsed);
 }
 
@@ -435,7 +357,7 @@ std::optional<DateTime> ReadMonthFirst(Scanner text) {
   parsed.has_time = time.has_value();
   if (text.done()) return parsed;
   text.Take(',');
-  text.TakeBlanks();
+  TakeBetween(&text);
   return time ? std::nullopt : WithTime(text, false, parsed);
 }
 
@@ -456,7 +378,10 @@ std::optional<DateTime> ReadWithoutDate(Scanner text, bool points) {
 }  // namespace
 
 std::optional<DateTime> ParseDateTime(std::string_view text, DateOrder order) {
-  const std::string_view trimmed = Trimmed(text);
+  std::string_view trimmed = Trimmed(text);
+  if (trimmed.starts_with('[') && trimmed.ends_with(']')) {
+    trimmed = trimmed.substr(1, trimmed.size() - 2);
+  }
   const std::size_t digits = trimmed.find_first_not_of("0123456789");
   if (digits == std::string_view::npos) return std::nullopt;
   const Scanner begin(trimmed);

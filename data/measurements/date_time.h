@@ -7,9 +7,10 @@ namespace errmap::data {
 
 inline constexpr double kSecondsOfDay = 86400.0;
 
-/// What comes first in "03/04/2024"; a year in front, and points, leave no
-/// doubt. kNoDate: "08.05.12" is a time of day.
-enum class DateOrder { kDayFirst, kMonthFirst, kNoDate };
+/// What comes first in "03/04/2024"; a year of four digits, and points, leave
+/// no doubt. kYearFirst: "24/03/04" is in March. kNoDate: "08.05.12" is a time
+/// of day.
+enum class DateOrder { kDayFirst, kMonthFirst, kYearFirst, kNoDate };
 
 struct DateTime {
   /// From 1970-01-01T00:00:00, or from midnight where there is no date.
@@ -31,6 +32,8 @@ struct DateTime {
 ///   Fri Mar  1 12:00:05 2024 as C writes it; also "March 1, 2024 12:00"
 ///   12:00:05 01/03/2024      the time first
 ///   20240301 120005          also with T or _ between; 2024-061T12:00:05
+///   2024. 3. 1. 12:00        also 2024_03_01 and 01MAR2024 12:00
+///   1/3/2024 at 12h00m05s    also "klo", "um"; 2024-03-01T12-00-05
 ///   12:00:05:250             milliseconds behind a colon
 ///   29:00:05, 1 05:00:05     elapsed: hours, or days; 125:03.5 in minutes
 ///   1 day, 5:00:05           as Python writes it; also "1 days 05:00:05.5"

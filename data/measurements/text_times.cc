@@ -149,7 +149,16 @@ TextTimes ReadTimes(const CsvColumn& column) {
                             : month_first.all;
   day_first.order = "day/month/year";
   month_first.order = "month/day/year";
-  return by_month ? month_first : day_first;
+  TextTimes likeliest = by_month ? month_first : day_first;
+  // Days that follow one another are years apart in another order.
+  TextTimes year_first = ReadTimes(column, DateOrder::kYearFirst);
+  year_first.order = "year/month/day";
+  const bool by_year =
+      year_first.all &&
+      (!likeliest.all ||
+       (TimesBack(column, year_first) <= TimesBack(column, likeliest) &&
+        10.0 * Span(year_first) < Span(likeliest)));
+  return by_year ? year_first : likeliest;
 }
 
 bool HoldsTimes(const CsvColumn& column) {

@@ -1,6 +1,11 @@
 #include "data/measurements/date_time.h"
 
+#include <string>
+
 #include <gtest/gtest.h>
+
+#include "data/csv.h"
+#include "data/measurements/text_times.h"
 
 namespace errmap::data {
 namespace {
@@ -114,7 +119,17 @@ TEST(DateTime, ReadsPackedDatesDaysOfTheYearAndTheTimeFirst) {
                            "08:14, 2024-03-04",
                            "8:14 a. m. 04.03.2024",
                            "04/03/2024 8:14\u202fa.\u00a0m.",
-                           "2024-03-04 08:14:00:000"}) {
+                           "2024-03-04 08:14:00:000",
+                           "2024-03-04T08-14-00",
+                           "2024-03-04 - 08:14",
+                           "2024_03_04 08:14:00",
+                           "04MAR2024 08:14:00",
+                           "March 04, 2024 at 08:14 AM",
+                           "04.03.2024 klo 08.14.00",
+                           "4. 3. 2024 8:14",
+                           "2024. 03. 04. 08:14:00",
+                           "04/03/2024 08h14m00s",
+                           "[2024-03-04 08:14:00]"}) {
     const auto parsed = ParseDateTime(text);
     ASSERT_TRUE(parsed && parsed->has_date && parsed->has_time) << text;
     EXPECT_EQ(parsed->seconds, moment) << text;
@@ -124,6 +139,7 @@ TEST(DateTime, ReadsPackedDatesDaysOfTheYearAndTheTimeFirst) {
   EXPECT_EQ(Seconds("08:14 p. m."), 29640.0 + 43200.0);
   EXPECT_EQ(Seconds("08:14 3/4/2024", DateOrder::kMonthFirst), moment);
   EXPECT_TRUE(ParseDateTime("08:14 3/4/2024")->by_order);
+  EXPECT_EQ(Seconds("24/03/04 08:14", DateOrder::kYearFirst), moment);
   for (const char* text : {"20240304",
                            "20241304 081400",
                            "20240304 0814000",
@@ -171,6 +187,16 @@ TEST(DateTime, TellsDatesFromTimesOfDay) {
   EXPECT_FALSE(ParseDateTime("04.03.2024")->has_time);
   EXPECT_FALSE(ParseDateTime("7:05")->has_date);
   EXPECT_TRUE(ParseDateTime("7:05")->has_time);
+}
+
+TEST(TextTimes, BeginWithTheYearWhereTheFileIsShortSo) {
+  const auto order = [](const std::string& dates) {
+    return ReadTimes(ParseCsv("time\n" + dates, "f.csv").columns[0]).order;
+  };
+  EXPECT_EQ(order("24/03/04 08:00\n24/03/05 08:00\n"), "year/month/day");
+  EXPECT_EQ(order("04/03/24 08:00\n05/03/24 08:00\n"), "day/month/year");
+  EXPECT_EQ(order("03/04/24 08:00\n03/05/24 08:00\n"), "month/day/year");
+  EXPECT_EQ(order("04/03/24 08:00\n04/03/24 09:00\n"), "day/month/year");
 }
 
 }  // namespace
