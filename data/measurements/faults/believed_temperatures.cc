@@ -14,7 +14,7 @@ using Eigen::Index;
 constexpr double kAbsoluteZero = -273.15;  // degC
 constexpr double kSlow = 2.0;              // degC from row to row
 constexpr double kSlowShare = 0.1;         // of its range
-constexpr double kGapShare = 0.1;          // of its range
+constexpr double kGapShare = 0.3;          // of its range
 constexpr Bounds kShop{10.0, 45.0};        // degC
 constexpr double kLikes = 10.0;            // degC from its like
 constexpr std::size_t kFewestDegrees = 4;
@@ -68,6 +68,7 @@ bool HasAnotherUnit(const MeasuredColumns& measured,
               std::ranges::max(likes) + kLikes};
   }
   const Unit& own = measured.inputs[static_cast<std::size_t>(input)].unit;
+  if (IsWithin(bounds, MedianOf(InDegC(measured, input, own)))) return false;
   return std::ranges::any_of(
       UnitsOf(Quantity::kTemperature), [&](const Unit& unit) {
         // Nobody writes K for degF: 77 K is nitrogen.

@@ -147,6 +147,18 @@ TEST(FindColumnFaults, BelievesWhatGoesTogetherHoweverColdOrHot) {
   }
 }
 
+TEST(FindColumnFaults, BelievesColdOnesOfWhichSomeAreWithinTheBounds) {
+  Machine machine;
+  for (Index t = 1; t <= 5; ++t) {
+    GoThrough(-74.0 + static_cast<double>(4 * t), -44.0, t, &machine);
+  }
+  // A night that no row is from.
+  for (Index i = 0; i < kRows; ++i) {
+    if (machine.values(i, 1) < -60.0) machine.values(i, 1) -= 4.0;
+  }
+  EXPECT_THAT(machine.Faults(), IsEmpty());
+}
+
 TEST(FindColumnFaults, DoubtsOneInAnotherUnitThanItsLikeOrNotConnected) {
   const struct {
     const char* unit;
