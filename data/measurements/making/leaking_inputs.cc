@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "data/column_words.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/least_squares.h"
 #include "data/measurements/rounded.h"
@@ -129,35 +130,48 @@ class LeakFinder {
     if (candidate.sd > 0.0) candidates_.push_back(std::move(candidate));
   }
 
-  // Errors as shares of the position, in ppm or percent: their product gives
-  // the target (of the rows looked at) but for a factor.
+  // Errors as shares, in ppm or percent: of the position, or of a constant
+  // where the name says an error. But for a factor they give the target (of the
+  // rows looked at).
   void FindShares(const VectorXd& target, const Eigen::MatrixXd& values) {
     if (std::ssize(rows_) < kFewestRowsToTell || !(sd_ > 0.0)) return;
     for (Index j = 0; j < values.cols(); ++j) {
       const auto& column = inputs_[static_cast<std::size_t>(j)];
       if (column.unit.quantity != Quantity::kRatio) continue;
-      for (Index k = 0; k < values.cols(); ++k) {
-        if (!IsPosition(inputs_[static_cast<std::size_t>(k)])) continue;
-        const VectorXd product = values.col(j).cwiseProduct(values.col(k));
-        const double b = product.dot(target) / product.squaredNorm();
-        const double rounding = ResolutionOf(values.col(j)) * std::abs(b) *
-                                values.col(k).cwiseAbs().maxCoeff();
-        // At 0 there is no share.
-        const double worst = (values.col(k).array() == 0.0)
-                                 .select(0.0, (target - b * product).array())
-                                 .abs()
-                                 .maxCoeff();
-        if (!(worst <= rounding + resolution_ && worst < kMostOfShare * sd_)) {
-          continue;
-        }
-        shares_.push_back({.inputs = {j, k},
-                           .left_out = {j},
-                           .formula = Rounded(b) + " " +
-                                      NameInRemark(column.name) + " times " +
-                                      NameOf(k)});
-        break;
+      std::optional<Leak> leak;
+      if (ErrorSign(column.name) != 0) {
+        leak = ShareOf(target, j, values.col(j), VectorXd::Ones(target.size()));
       }
+      for (Index k = 0; !leak && k < values.cols(); ++k) {
+        if (!IsPosition(inputs_[static_cast<std::size_t>(k)])) continue;
+        leak = ShareOf(target, j, values.col(j), values.col(k));
+        if (!leak) continue;
+        leak->inputs.push_back(k);
+        leak->formula += " times " + NameOf(k);
+      }
+      if (leak) shares_.push_back(*std::move(leak));
     }
+  }
+
+  std::optional<Leak> ShareOf(const VectorXd& target,
+                              Index input,
+                              const VectorXd& share,
+                              const VectorXd& whole) const {
+    const VectorXd product = share.cwiseProduct(whole);
+    const double b = product.dot(target) / product.squaredNorm();
+    const double rounding =
+        ResolutionOf(share) * std::abs(b) * whole.cwiseAbs().maxCoeff();
+    // At 0 there is no share.
+    const double worst = (whole.array() == 0.0)
+                             .select(0.0, (target - b * product).array())
+                             .abs()
+                             .maxCoeff();
+    if (!(worst <= rounding + resolution_ && worst < kMostOfShare * sd_)) {
+      return std::nullopt;
+    }
+    return Leak{.inputs = {input},
+                .left_out = {input},
+                .formula = Rounded(b) + " " + NameOf(input)};
   }
 
   std::string NameOf(Index input) const {

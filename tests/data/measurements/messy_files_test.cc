@@ -233,7 +233,8 @@ TEST(MessyFiles, InputsThatHoldTheErrorAreLeftOut) {
                                   with("actual_mm", coarse),
                                   with("raw", copy),
                                   with("raw_counts", counts),
-                                  with("err_ppm", share)}) {
+                                  with("err_ppm", share),
+                                  with("dev_percent", copy)}) {
     const PreparedDataset prepared = Make(text);
     EXPECT_THAT(InputNames(prepared.dataset),
                 ElementsAre("position_mm", "t1_degC", "t2_degC"));
