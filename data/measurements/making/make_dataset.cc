@@ -121,8 +121,8 @@ class DatasetBuilder {
 
   // Without its clock a file is one session, and a promise of it is too good.
   void RefuseUnreadTimes() const {
-    if (!selection_.with_log || !selection_.time.empty() ||
-        read_.found.time_column >= 0) {
+    if (!selection_.with_log || selection_.only_to_judge ||
+        !selection_.time.empty() || read_.found.time_column >= 0) {
       return;
     }
     data::RefuseUnreadTimes(table_);
