@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <limits>
 
+#include "data/measurements/faults/thermometers.h"
 #include "stats/order_statistic.h"
 
 namespace errmap::models {
@@ -24,6 +24,15 @@ bool IsNear(const TrainedInput& input, double min, double max) {
   return min >= input.min - width && max <= input.max + width;
 }
 
+// Whether readings from min to max are like those of training. A length or an
+// angle is travelled, a temperature read where it stands.
+bool IsLike(const TrainedInput& input, double min, double max) {
+  constexpr double kLeastTravel = 0.2;
+  return IsNear(input, min, max) &&
+         (input.column.unit.quantity == data::Quantity::kTemperature ||
+          max - min >= kLeastTravel * (input.max - input.min));
+}
+
 std::string LooksLike(const TrainedInput& input, double min, double max) {
   const data::Unit& unit = input.column.unit;
   if (unit.quantity == data::Quantity::kOther || IsNear(input, min, max)) {
@@ -31,7 +40,7 @@ std::string LooksLike(const TrainedInput& input, double min, double max) {
   }
   for (const data::Unit& other : data::UnitsOf(unit.quantity)) {
     if (other.symbol != unit.symbol &&
-        IsNear(input,
+        IsLike(input,
                data::Converted(min, other, unit),
                data::Converted(max, other, unit))) {
       return other.symbol;
@@ -40,22 +49,64 @@ std::string LooksLike(const TrainedInput& input, double min, double max) {
   return "";
 }
 
-std::vector<Index> RowsOfSpikes(const TrainedInput& input,
-                                const Eigen::VectorXd& readings) {
-  constexpr double kFar = 3.0;
-  constexpr std::size_t kOneIn = 5;
-  std::vector<double> values;
-  std::ranges::copy_if(readings, std::back_inserter(values), [](double value) {
-    return !std::isnan(value);
-  });
-  if (values.size() < kOneIn) return {};
-  const double middle = stats::OrderStatistic(values, values.size() / 2);
-  const double far = kFar * (input.max - input.min);
+// (k) The readings that there are, in order of the rows.
+struct Readings {
   std::vector<Index> rows;
-  for (Index row = 0; row < readings.size(); ++row) {
-    if (std::abs(readings[row] - middle) > far) rows.push_back(row);
+  std::vector<double> values;
+};
+
+Readings WithoutEmpty(const Eigen::VectorXd& column) {
+  Readings readings;
+  for (Index row = 0; row < column.size(); ++row) {
+    if (std::isnan(column[row])) continue;
+    readings.rows.push_back(row);
+    readings.values.push_back(column[row]);
   }
-  return kOneIn * rows.size() > values.size() ? std::vector<Index>{} : rows;
+  return readings;
+}
+
+// Readings beyond `far` from the middle one, in runs that leave the readings
+// beside them by as much: a machine warms, and a night cools, step by step.
+std::vector<Index> RowsOfSpikes(const Readings& readings, double far) {
+  const std::vector<double>& values = readings.values;
+  const double middle = stats::OrderStatistic(values, values.size() / 2);
+  const auto is_far = [&](std::size_t i) {
+    return std::abs(values[i] - middle) > far;
+  };
+  const auto jumps = [&](std::size_t i) {
+    return i == 0 || i == values.size() ||
+           std::abs(values[i] - values[i - 1]) > far;
+  };
+  std::vector<Index> rows;
+  for (std::size_t begin = 0; begin < values.size(); ++begin) {
+    if (!is_far(begin)) continue;
+    std::size_t end = begin;
+    while (end < values.size() && is_far(end)) ++end;
+    if (jumps(begin) && jumps(end)) {
+      rows.insert(rows.end(),
+                  readings.rows.begin() + static_cast<std::ptrdiff_t>(begin),
+                  readings.rows.begin() + static_cast<std::ptrdiff_t>(end));
+    }
+    begin = end;
+  }
+  return rows;
+}
+
+std::vector<Index> RowsOfSpikes(const TrainedInput& input,
+                                const Eigen::VectorXd& column) {
+  constexpr double kFar = 3.0;        // trained ranges
+  constexpr double kLeastFar = 10.0;  // degC
+  constexpr std::size_t kFewest = 3;
+  constexpr std::size_t kOneIn = 5;
+  const Readings readings = WithoutEmpty(column);
+  const std::size_t count = readings.values.size();
+  if (count < kFewest) return {};
+  const double far = std::max(kFar * (input.max - input.min),
+                              kLeastFar * data::DegreeIn(input.column.unit));
+  const std::vector<Index> rows = RowsOfSpikes(readings, far);
+  return rows.size() > std::max<std::size_t>(1, count / kOneIn)
+             ? std::vector<Index>{}
+             : rows;
 }
 
 }  // namespace
@@ -64,10 +115,8 @@ std::vector<Spike> FindSpikes(const std::vector<TrainedInput>& inputs,
                               const Eigen::MatrixXd& readings) {
   std::vector<Spike> spikes;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    if (inputs[i].column.unit.quantity != data::Quantity::kTemperature ||
-        !(inputs[i].max > inputs[i].min)) {
+    if (inputs[i].column.unit.quantity != data::Quantity::kTemperature)
       continue;
-    }
     const auto input = static_cast<Index>(i);
     for (const Index row : RowsOfSpikes(inputs[i], readings.col(input))) {
       spikes.push_back(

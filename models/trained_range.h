@@ -32,10 +32,11 @@ struct Spike {
   double value = 0.0;  // input's unit
 };
 
-/// Of the thermometers (m x p; NaN where a cell is empty), readings more than
-/// three trained ranges from the middle one of their column; by input, then by
-/// row. A column with less than five readings, or of which more than a fifth
-/// are so, has none.
+/// Of the thermometers (m x p; NaN where a cell is empty; by input, then by
+/// row) readings more than three trained ranges, 10 degC at least, from the
+/// middle one of their column and from those before and after. A column with
+/// less than three readings has none, nor one of which more than a fifth are
+/// so, of less than ten more than one.
 std::vector<Spike> FindSpikes(const std::vector<TrainedInput>& inputs,
                               const Eigen::MatrixXd& readings);
 

@@ -70,14 +70,25 @@ double GainOf(const SessionProbes& probes, const SessionForecast& forecast) {
                    probes.predicted.squaredNorm();
 }
 
+// Another sign is a gain of about -1.
+bool IsSign(double gain) {
+  constexpr double kAboutOne = 0.35;
+  return std::abs(gain + 1.0) < kAboutOne;
+}
+
 // Errors over predictions where that alone brings the probes within the limit,
-// whose noise grows alike; else NaN. A shape that is wrong hardly looks so.
+// whose noise grows alike, and explains three quarters of their mean square;
+// else NaN. Some factor fits three probes of many a wrong shape, another sign
+// hardly does.
 double ExplainingGain(const SessionProbes& probes, double limit) {
   const VectorXd measured = probes.residuals + probes.predicted;
   const double gain =
       measured.dot(probes.predicted) / probes.predicted.squaredNorm();
   const double left = stats::RootMeanSquare(measured - gain * probes.predicted);
-  return left <= limit * std::max(1.0, std::abs(gain)) ? gain : stats::kNaN;
+  const bool explains = (probes.residuals.size() > 3 || IsSign(gain)) &&
+                        left <= limit * std::max(1.0, std::abs(gain)) &&
+                        left <= 0.5 * stats::RootMeanSquare(probes.residuals);
+  return explains ? gain : stats::kNaN;
 }
 
 // What an order leaves of the draws, by the sites that come after it.
@@ -136,10 +147,7 @@ void ChooseRemedy(const SessionProbes& probes,
   } else {
     check->remedy = Remedy::kUnknown;
   }
-  // Another sign is a gain of about -1.
-  constexpr double kAboutOne = 0.35;
-  if (check->remedy == Remedy::kGain &&
-      std::abs(check->gain + 1.0) < kAboutOne) {
+  if (check->remedy == Remedy::kGain && IsSign(check->gain)) {
     check->remedy = Remedy::kSign;
   }
   if (check->remedy != Remedy::kGain && check->remedy != Remedy::kSign) {

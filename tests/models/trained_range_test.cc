@@ -51,6 +51,14 @@ TEST(InputsOutside, RecognisesTheUnitThatWasMeant) {
   // A hotter day, and a longer way along the axis, are in the same unit.
   EXPECT_EQ(looks_like(Trained("t1_degC", 16.0, 38.0), 40.0), "");
   EXPECT_EQ(looks_like(Trained("x_mm", 0.0, 800.0), 1200.0), "");
+  EXPECT_EQ(looks_like(Trained("x_mm", 0.0, 800.0), 2400.0), "");
+}
+
+TEST(InputsOutside, RecognisesTheUnitOfAnAxisByItsTravel) {
+  const Eigen::MatrixXd um = Eigen::VectorXd::LinSpaced(9, 0.0, 8e5);
+  const auto outside = InputsOutside({Trained("x_mm", 0.0, 800.0)}, um);
+  ASSERT_EQ(outside.size(), 1U);
+  EXPECT_EQ(outside[0].looks_like, "um");
 }
 
 TEST(FindSpikes, FindsSingleReadingsThatNoMachineGives) {
@@ -64,10 +72,29 @@ TEST(FindSpikes, FindsSingleReadingsThatNoMachineGives) {
   EXPECT_EQ(spikes[0].input, 1);
   EXPECT_EQ(spikes[0].row, 2);
   EXPECT_EQ(spikes[0].value, -127.0);
-  // Two of six are more than a fifth, and of four readings none is single.
-  EXPECT_THAT(FindSpikes(trained, readings.topRows(4)), ::testing::IsEmpty());
+  EXPECT_EQ(FindSpikes(trained, readings.topRows(3)).size(), 1U);
+  // Of two readings neither is single, and two of six are more than a fifth.
+  EXPECT_THAT(FindSpikes(trained, readings.middleRows(1, 2)),
+              ::testing::IsEmpty());
   readings(4, 1) = -127.0;
   EXPECT_THAT(FindSpikes(trained, readings), ::testing::IsEmpty());
+}
+
+TEST(FindSpikes, LeavesAMachineAloneThatWarmsOrCools) {
+  const std::vector<TrainedInput> trained = {Trained("t1_degC", 20.0, 20.5)};
+  Eigen::MatrixXd hard(100, 1);
+  for (Eigen::Index row = 0; row < hard.rows(); ++row) {
+    hard(row, 0) =
+        20.0 + 20.0 * (1.0 - std::exp(-0.1 * static_cast<double>(row)));
+  }
+  EXPECT_THAT(FindSpikes(trained, hard), ::testing::IsEmpty());
+  // The next day begins cold, and a door is opened.
+  Eigen::MatrixXd days(220, 1);
+  days << hard, Eigen::MatrixXd::Constant(20, 1, 39.0), hard;
+  days(150, 0) -= 2.0;
+  EXPECT_THAT(FindSpikes(trained, days), ::testing::IsEmpty());
+  days(50, 0) = 85.0;
+  EXPECT_EQ(FindSpikes(trained, days).size(), 1U);
 }
 
 TEST(InputsOutside, TakesAnEmptyCellForNoReading) {
