@@ -234,7 +234,7 @@ BestSubsetResult SelectBestSubset(const SelectionProblem& problem,
   Node root;
   BestSubsetResult aliased;
   const auto take = [&](Index candidate, bool included) {
-    VectorXd column = problem.candidates.Column(candidate);
+    VectorXd column = problem.candidates.col(candidate);
     if (weighted) column = column.cwiseProduct(roots);
     VectorXd along;
     const VectorXd rest = basis.Remainder(column, &along);

@@ -63,7 +63,7 @@ SelectionState::SelectionState(const SelectionProblem& problem,
            response_.squaredNorm();
   residual_ = response_;
   leverage_ = VectorXd::Zero(rows);
-  rest_squared_ = problem.candidates.SquaresTransposeTimes(ones_or_weights);
+  rest_squared_ = problem.candidates.cwiseAbs2().transpose() * ones_or_weights;
   length_ = rest_squared_.cwiseSqrt();
   rest_error_ = rounding_ * rest_squared_;
   product_ = Products(response_);
@@ -80,14 +80,14 @@ SelectionState::SelectionState(const SelectionProblem& problem,
 }
 
 VectorXd SelectionState::WeightedColumn(Index candidate) const {
-  VectorXd column = problem_.candidates.Column(candidate);
+  VectorXd column = problem_.candidates.col(candidate);
   if (roots_.size() != 0) column = column.cwiseProduct(roots_);
   return column;
 }
 
 VectorXd SelectionState::Products(const VectorXd& direction) const {
-  if (roots_.size() == 0) return problem_.candidates.TransposeTimes(direction);
-  return problem_.candidates.TransposeTimes(direction.cwiseProduct(roots_));
+  if (roots_.size() == 0) return problem_.candidates.transpose() * direction;
+  return problem_.candidates.transpose() * direction.cwiseProduct(roots_);
 }
 
 bool SelectionState::IsCollinear(Index candidate) const {

@@ -7,7 +7,6 @@
 
 #include "fitting/least_squares/linear_least_squares.h"
 #include "fitting/least_squares/orthogonal_basis.h"
-#include "fitting/selection/candidate_columns.h"
 
 namespace errmap::fitting {
 
@@ -19,8 +18,8 @@ inline std::size_t At(Eigen::Index index) {
 /// Rows and columns of a least-squares problem whose terms are being selected.
 /// The references must outlive all users of the problem.
 struct SelectionProblem {
-  const CandidateColumns& candidates;  // X (n x m), without the intercept
-  const Eigen::VectorXd& response;     // y (n)
+  const Eigen::MatrixXd& candidates;  // X (n x m), without the intercept
+  const Eigen::VectorXd& response;    // y (n)
   /// (n) not negative, or (0): all equal.
   const Eigen::VectorXd& weights;
   /// (n) the intercept's column if the rows are those of a triangle, not

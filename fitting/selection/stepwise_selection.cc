@@ -39,9 +39,7 @@ double Variance(const SelectionProblem& problem) {
   MatrixXd design(rows, cols + 1);
   design.col(0) =
       problem.intercept.size() != 0 ? problem.intercept : VectorXd::Ones(rows);
-  for (Index j = 0; j < cols; ++j) {
-    design.col(j + 1) = problem.candidates.Column(j);
-  }
+  design.rightCols(cols) = problem.candidates;
   const LeastSquaresFit full =
       SolveLeastSquares(design, problem.response, problem.weights);
   const double freedom =
@@ -384,7 +382,8 @@ class Selection {
     MatrixXd design(rows, static_cast<Index>(terms.size()) + 1);
     design.col(0) = problem_.intercept.size() != 0 ? problem_.intercept
                                                    : VectorXd::Ones(rows);
-    design.rightCols(design.cols() - 1) = problem_.candidates.Columns(terms);
+    design.rightCols(design.cols() - 1) =
+        problem_.candidates(Eigen::all, terms);
     if (problem_.weights.size() != 0) {
       design = problem_.weights.cwiseSqrt().asDiagonal() * design;
     }

@@ -103,7 +103,7 @@ void SweptCandidates::Reset() {
   rest_.resize(problem_.response.size(), cols);
   least_.resize(cols);
   for (Index j = 0; j < cols; ++j) {
-    rest_.col(j) = problem_.candidates.Column(j).cwiseProduct(roots_);
+    rest_.col(j) = problem_.candidates.col(j).cwiseProduct(roots_);
     least_[j] =
         collinearity_ * collinearity_ * rest_.col(j).cwiseAbs2().dot(fitted_);
   }

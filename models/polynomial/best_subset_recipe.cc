@@ -60,9 +60,9 @@ class BestSubsetRecipe final : public PolynomialRecipe {
           training.num_inputs(),
           dictionary.NumOpen()));
     }
-    const DictionaryRows rows = CollectDictionary(dictionary, {}, context);
+    const DesignRows rows = CollectRows(dictionary.design, {}, context);
     const fitting::BestSubsetResult best =
-        fitting::SelectBestSubset(rows.Problem(),
+        fitting::SelectBestSubset(SelectionOf(rows),
                                   dictionary.include,
                                   dictionary.excluded,
                                   rules_,
@@ -112,7 +112,7 @@ class BestSubsetRecipe final : public PolynomialRecipe {
   }
 
   void Bootstrap(const TermDictionary& dictionary,
-                 const DictionaryRows& rows,
+                 const DesignRows& rows,
                  const fitting::BestSubsetResult& best,
                  const FitContext& context,
                  RegressionReport* report) const {

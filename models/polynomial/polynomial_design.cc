@@ -116,15 +116,6 @@ std::string PolynomialDesign::NameOf(Index term) const {
   return TermName(terms_[static_cast<std::size_t>(term)], InputNames());
 }
 
-MatrixXd PolynomialDesign::ScaledInputs() const {
-  MatrixXd inputs = dataset_.input_values()(Eigen::all, inputs_);
-  for (Index j = 0; j < inputs.cols(); ++j) {
-    inputs.col(j) =
-        (inputs.col(j).array() - scaling_.offset[j]) * scaling_.scale[j];
-  }
-  return inputs;
-}
-
 MatrixXd PolynomialDesign::Rows(const std::vector<Index>& rows) const {
   const MatrixXd inputs = dataset_.input_values()(rows, inputs_);
   return TermMatrix(scaling_.Apply(inputs), terms_);

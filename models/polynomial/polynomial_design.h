@@ -45,8 +45,6 @@ class PolynomialDesign {
   /// Returns one of them; with very many terms, all take a second.
   std::string NameOf(Eigen::Index term) const;
 
-  /// Returns the scaled inputs (n x p).
-  Eigen::MatrixXd ScaledInputs() const;
   /// Return the terms (b x k) of these rows.
   Eigen::MatrixXd Rows(const std::vector<Eigen::Index>& rows) const;
   Eigen::MatrixXd Rows(Eigen::Index first, Eigen::Index count) const;

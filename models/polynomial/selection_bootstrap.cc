@@ -16,7 +16,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 // The share of repetitions in which each candidate (m) is chosen.
-VectorXd BootstrapInclusion(const DictionaryRows& rows,
+VectorXd BootstrapInclusion(const DesignRows& rows,
                             const std::vector<Index>& units,
                             int repetitions,
                             const ChooseTerms& choose,
@@ -43,7 +43,7 @@ VectorXd BootstrapInclusion(const DictionaryRows& rows,
     if (rows.weights.size() != 0) weight = weight.cwiseProduct(rows.weights);
     weights.push_back(std::move(weight));
   }
-  VectorXd shares = VectorXd::Zero(rows.candidates->cols());
+  VectorXd shares = VectorXd::Zero(rows.terms.cols());
   std::mutex mutex;
   bool stopped = false;
   fitting::ParallelFor(context.threads, repetitions, [&](int i) {
@@ -53,7 +53,7 @@ VectorXd BootstrapInclusion(const DictionaryRows& rows,
       return;
     }
     const fitting::SelectionProblem problem{
-        *rows.candidates,
+        rows.terms,
         rows.response,
         weights[static_cast<std::size_t>(i)],
         rows.intercept,
@@ -71,7 +71,7 @@ VectorXd BootstrapInclusion(const DictionaryRows& rows,
 }  // namespace
 
 void ReportInclusion(const TermDictionary& dictionary,
-                     const DictionaryRows& rows,
+                     const DesignRows& rows,
                      const std::vector<Index>& units,
                      const std::vector<Index>& chosen,
                      const ChooseTerms& choose,

@@ -17,7 +17,7 @@ using ChooseTerms = std::function<std::vector<Eigen::Index>(
 /// rows with replacement, or whole groups where there are groups: those of
 /// `units` (r); draws enter as weights. NaN if interrupted.
 void ReportInclusion(const TermDictionary& dictionary,
-                     const DictionaryRows& rows,
+                     const DesignRows& rows,
                      const std::vector<Eigen::Index>& units,
                      const std::vector<Eigen::Index>& chosen,
                      const ChooseTerms& choose,

@@ -142,14 +142,14 @@ class StepwiseRecipe final : public PolynomialRecipe {
     return plan;
   }
 
-  DictionaryRows RowsOf(const TermDictionary& dictionary,
-                        const Plan& plan,
-                        const InnerFolds& folds,
-                        const FitContext& context) const {
+  DesignRows RowsOf(const TermDictionary& dictionary,
+                    const Plan& plan,
+                    const InnerFolds& folds,
+                    const FitContext& context) const {
     const bool rows_are_read =
         rules_.Uses(Criterion::kPress) || plan.repetitions > 0;
-    return CollectDictionary(
-        dictionary,
+    return CollectRows(
+        dictionary.design,
         plan.group_parts ? dictionary.design.dataset().groups().codes
                          : folds.folds.codes,
         rows_are_read
@@ -170,7 +170,7 @@ class StepwiseRecipe final : public PolynomialRecipe {
     if (rules_.Uses(Criterion::kCv)) {
       folds = MakeInnerFolds(training, context);
     }
-    const DictionaryRows rows = RowsOf(dictionary, plan, folds, context);
+    const DesignRows rows = RowsOf(dictionary, plan, folds, context);
     fitting::TermRules rules{dictionary.include,
                              dictionary.excluded,
                              {},
@@ -182,7 +182,7 @@ class StepwiseRecipe final : public PolynomialRecipe {
     const auto select = [&](const fitting::SelectionProblem& problem) {
       return fitting::SelectStepwise(problem, rules, how, context.stop);
     };
-    const fitting::SelectionResult selection = select(rows.Problem());
+    const fitting::SelectionResult selection = select(SelectionOf(rows));
     RegressionReport report;
     if (context.explain) {
       Explain(dictionary, rows, selection, folds, context, &report);
@@ -221,7 +221,7 @@ class StepwiseRecipe final : public PolynomialRecipe {
 
   // The fold of each row that the engine sees; groups are whole in folds.
   static fitting::FoldCodes FoldOf(const InnerFolds& inner,
-                                   const DictionaryRows& rows,
+                                   const DesignRows& rows,
                                    const Dataset& training,
                                    bool group_parts) {
     const fitting::FoldCodes& folds = inner.folds;
@@ -240,7 +240,7 @@ class StepwiseRecipe final : public PolynomialRecipe {
   }
 
   void Explain(const TermDictionary& dictionary,
-               const DictionaryRows& rows,
+               const DesignRows& rows,
                const fitting::SelectionResult& selection,
                const InnerFolds& folds,
                const FitContext& context,
@@ -279,7 +279,7 @@ class StepwiseRecipe final : public PolynomialRecipe {
 
   template <typename Select>
   void Bootstrap(const TermDictionary& dictionary,
-                 const DictionaryRows& rows,
+                 const DesignRows& rows,
                  const std::vector<Index>& chosen,
                  const Plan& plan,
                  const Select& select,

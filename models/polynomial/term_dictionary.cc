@@ -191,33 +191,12 @@ Index TermDictionary::NumOpen() const {
       std::count(excluded.begin(), excluded.end(), false));
 }
 
-DictionaryRows CollectDictionary(const TermDictionary& dictionary,
-                                 const std::vector<Index>& parts,
-                                 const FitContext& context) {
-  const PolynomialDesign& design = dictionary.design;
-  const Dataset& training = design.dataset();
-  DictionaryRows rows;
-  constexpr int kQuadratic = 2;
-  const bool reduced = NeedsTriangle(
-      design.rows(), design.num_terms(), context.most_design_values);
-  if (dictionary.degree == kQuadratic && !reduced) {
-    rows.candidates =
-        std::make_unique<fitting::QuadraticColumns>(design.ScaledInputs());
-    rows.response = training.target_values();
-    rows.weights = training.weights();
-    rows.observations = static_cast<double>(design.rows());
-    rows.parts = parts;
-    return rows;
-  }
-  DesignRows collected = CollectRows(design, parts, context);
-  rows.candidates =
-      std::make_unique<fitting::MatrixColumns>(std::move(collected.terms));
-  rows.response = std::move(collected.response);
-  rows.weights = std::move(collected.weights);
-  rows.intercept = std::move(collected.intercept);
-  rows.observations = collected.observations;
-  rows.parts = std::move(collected.parts);
-  return rows;
+fitting::SelectionProblem SelectionOf(const DesignRows& rows) {
+  return {rows.terms,
+          rows.response,
+          rows.weights,
+          rows.intercept,
+          rows.observations};
 }
 
 std::string ChosenTerms(const TermDictionary& dictionary,
@@ -231,7 +210,7 @@ std::string ChosenTerms(const TermDictionary& dictionary,
 }
 
 void ReportExcluded(const TermDictionary& dictionary,
-                    const DictionaryRows& rows,
+                    const DesignRows& rows,
                     const std::vector<Index>& chosen,
                     double collinearity,
                     const FitContext& context,
@@ -244,22 +223,21 @@ void ReportExcluded(const TermDictionary& dictionary,
   const auto name = [&](Index term) {
     return names[static_cast<std::size_t>(term)];
   };
-  const MatrixXd terms = rows.candidates->Columns(chosen);
+  const MatrixXd terms = rows.terms(Eigen::all, chosen);
   std::vector<std::string> chosen_names;
   for (const Index term : chosen) chosen_names.push_back(name(term));
   for (const fitting::ExcludedTerm& term : fitting::JudgeExcluded(
-           rows.Problem(), chosen, collinearity, context.stop)) {
+           SelectionOf(rows), chosen, collinearity, context.stop)) {
     if (is_stopped()) break;
     if (!term.aliased) {
       report->excluded.push_back({name(term.candidate), term.f, term.p});
       continue;
     }
-    report->aliased.push_back(
-        {name(term.candidate),
-         WhyAliased(rows.candidates->Column(term.candidate),
-                    terms,
-                    chosen_names,
-                    rows.intercept)});
+    report->aliased.push_back({name(term.candidate),
+                               WhyAliased(rows.terms.col(term.candidate),
+                                          terms,
+                                          chosen_names,
+                                          rows.intercept)});
   }
   std::stable_sort(report->excluded.begin(),
                    report->excluded.end(),

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "fitting/selection/candidate_columns.h"
 #include "fitting/selection/selection_state.h"
 #include "fitting/selection/stepwise_selection.h"
 #include "models/error_model.h"
@@ -40,26 +38,8 @@ struct TermDictionary {
   Eigen::Index NumOpen() const;
 };
 
-/// Rows of a dictionary in the form that selection uses.
-struct DictionaryRows {
-  std::unique_ptr<fitting::CandidateColumns> candidates;
-  Eigen::VectorXd response;
-  Eigen::VectorXd weights;
-  Eigen::VectorXd intercept;
-  double observations = 0.0;
-  std::vector<Eigen::Index> parts;  // see CollectRows
-
-  bool are_observations() const { return intercept.size() == 0; }
-  fitting::SelectionProblem Problem() const {
-    return {*candidates, response, weights, intercept, observations};
-  }
-};
-
-/// Throws std::invalid_argument if the dictionary is too large to store or
-/// reduce.
-DictionaryRows CollectDictionary(const TermDictionary& dictionary,
-                                 const std::vector<Eigen::Index>& parts,
-                                 const FitContext& context);
+/// Returns rows in the form that selection uses; they must outlive it.
+fitting::SelectionProblem SelectionOf(const DesignRows& rows);
 
 /// Returns the default degree: 3 up to 8 inputs, else 2.
 int DefaultDegree(Eigen::Index num_inputs);
@@ -71,7 +51,7 @@ std::string ChosenTerms(const TermDictionary& dictionary,
 /// Adds to `report` why candidates that are not in a model add nothing to it,
 /// and the F of the others. Stops where it is if context.stop becomes true.
 void ReportExcluded(const TermDictionary& dictionary,
-                    const DictionaryRows& rows,
+                    const DesignRows& rows,
                     const std::vector<Eigen::Index>& chosen,
                     double collinearity,
                     const FitContext& context,

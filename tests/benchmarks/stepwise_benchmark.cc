@@ -16,9 +16,9 @@ using Eigen::VectorXd;
 struct Case {
   Case()
       : data(testing::ReadTurningCentre()),
-        candidates(testing::Centred(data.inputs)) {}
+        candidates(testing::QuadraticTerms(testing::Centred(data.inputs))) {}
   testing::TurningCentre data;
-  QuadraticColumns candidates;
+  MatrixXd candidates;
 };
 
 const Case& TheCase() {
@@ -47,26 +47,6 @@ void BM_ThirtyForwardSteps(benchmark::State& state) {
   ReportSize(state, result);
 }
 BENCHMARK(BM_ThirtyForwardSteps)->Unit(benchmark::kMillisecond);
-
-// The dictionary held as a matrix, products formed.
-void BM_ThirtyForwardStepsOverAMatrix(benchmark::State& state) {
-  const VectorXd none;
-  MatrixXd matrix(595, 902);
-  for (Index j = 0; j < 902; ++j)
-    matrix.col(j) = TheCase().candidates.Column(j);
-  const MatrixColumns candidates(matrix);
-  const SelectionProblem problem{candidates, TheCase().data.error, none};
-  StepwiseOptions options;
-  options.stop = Criterion::kNone;
-  options.max_terms = 30;
-  SelectionResult result;
-  for (auto _ : state) {
-    result = SelectStepwise(problem, {}, options);
-    benchmark::DoNotOptimize(result);
-  }
-  ReportSize(state, result);
-}
-BENCHMARK(BM_ThirtyForwardStepsOverAMatrix)->Unit(benchmark::kMillisecond);
 
 // PRESS of every candidate, not only of the chosen, decides each step.
 void BM_ForwardBackwardByPress(benchmark::State& state) {

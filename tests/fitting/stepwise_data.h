@@ -54,4 +54,18 @@ inline Eigen::MatrixXd Centred(const Eigen::MatrixXd& inputs) {
   return scaled;
 }
 
+/// All terms of degree 1 and 2: x1 .. xp, x1^2, x1 x2, .. xp^2.
+inline Eigen::MatrixXd QuadraticTerms(const Eigen::MatrixXd& inputs) {
+  const Eigen::Index p = inputs.cols();
+  Eigen::MatrixXd terms(inputs.rows(), p + p * (p + 1) / 2);
+  terms.leftCols(p) = inputs;
+  Eigen::Index column = p;
+  for (Eigen::Index i = 0; i < p; ++i) {
+    for (Eigen::Index j = i; j < p; ++j) {
+      terms.col(column++) = inputs.col(i).cwiseProduct(inputs.col(j));
+    }
+  }
+  return terms;
+}
+
 }  // namespace errmap::testing

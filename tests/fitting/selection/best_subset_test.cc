@@ -72,9 +72,8 @@ TEST(BestSubset, IsTheBestOfAllSubsetsByEveryCriterion) {
       BestSubsetOptions options;
       options.criterion = criterion;
       options.max_terms = seed % 3 == 0 ? 3 : -1;
-      const MatrixColumns columns(candidates);
       const BestSubsetResult best =
-          SelectBestSubset({columns, response, weights}, {}, {}, options);
+          SelectBestSubset({candidates, response, weights}, {}, {}, options);
       EXPECT_EQ(
           best.chosen,
           EverySubset(
@@ -89,12 +88,11 @@ TEST(BestSubset, KeepsWhatIsIncludedAndLeavesOutWhatIsExcluded) {
   const MatrixXd candidates = UniformMatrix(40, 6, 1);
   const VectorXd response =
       candidates.col(2) + candidates.col(3) + 0.1 * UniformMatrix(40, 1, 2);
-  const MatrixColumns columns(candidates);
   const VectorXd none;
   std::vector<bool> excluded(6, false);
   excluded[3] = true;
   const auto chosen =
-      SelectBestSubset({columns, response, none}, {5}, excluded, {}).chosen;
+      SelectBestSubset({candidates, response, none}, {5}, excluded, {}).chosen;
   EXPECT_THAT(chosen, ::testing::Contains(5));
   EXPECT_THAT(chosen, ::testing::Contains(2));
   EXPECT_THAT(chosen, ::testing::Not(::testing::Contains(3)));
@@ -105,20 +103,19 @@ TEST(BestSubset, NamesCopiesAndConstants) {
   candidates.col(2) = 1.0 - 2.0 * candidates.col(0).array();
   candidates.col(3).setConstant(7.0);
   const VectorXd response = candidates.col(0) + 0.1 * UniformMatrix(20, 1, 4);
-  const MatrixColumns columns(candidates);
   const VectorXd none;
-  EXPECT_THAT(SelectBestSubset({columns, response, none}, {}, {}, {}).aliased,
-              ElementsAre(2, 3));
+  EXPECT_THAT(
+      SelectBestSubset({candidates, response, none}, {}, {}, {}).aliased,
+      ElementsAre(2, 3));
 }
 
 TEST(BestSubset, LooksAtFewOfTheSubsetsOfFortyTerms) {
   const MatrixXd candidates = UniformMatrix(300, 40, 5);
   const VectorXd response = candidates.leftCols(6) * VectorXd::Ones(6) +
                             0.5 * UniformMatrix(300, 1, 6);
-  const MatrixColumns columns(candidates);
   const VectorXd none;
   const BestSubsetResult best =
-      SelectBestSubset({columns, response, none}, {}, {}, {});
+      SelectBestSubset({candidates, response, none}, {}, {}, {});
   for (Index j = 0; j < 6; ++j) {
     EXPECT_THAT(best.chosen, ::testing::Contains(j));
   }

@@ -45,7 +45,7 @@ std::string NameOf(const SelectionStep& step) {
 }
 
 void ExpectAsInR(const nlohmann::json& golden,
-                 const CandidateColumns& candidates,
+                 const MatrixXd& candidates,
                  const VectorXd& response,
                  const VectorXd& weights) {
   SCOPED_TRACE(golden["name"].get<std::string>());
@@ -73,7 +73,7 @@ void ExpectAsInR(const nlohmann::json& golden,
   for (std::size_t j = 0; j < golden["terms"].size(); ++j) {
     const std::string name = golden["terms"][j];
     terms.col(static_cast<Index>(j)) =
-        candidates.Column(std::stol(name.substr(1)));
+        candidates.col(std::stol(name.substr(1)));
   }
   const RegressionDiagnostics fit = Diagnose({terms, response, weights});
   ASSERT_TRUE(fit.aliased.empty());
@@ -115,7 +115,7 @@ TEST(StepwiseGolden, QuadraticTermsOf41InputsAreChosenAsInR) {
   for (const auto& golden : ReadCases("quadratic.json")) {
     const bool centred =
         golden["name"].get<std::string>().starts_with("centred");
-    const QuadraticColumns candidates(
+    const MatrixXd candidates = errmap::testing::QuadraticTerms(
         centred ? errmap::testing::Centred(data.inputs) : data.inputs);
     ASSERT_EQ(candidates.cols(), 902);
     ExpectAsInR(golden, candidates, data.error, VectorXd());
@@ -124,9 +124,8 @@ TEST(StepwiseGolden, QuadraticTermsOf41InputsAreChosenAsInR) {
 
 TEST(StepwiseGolden, EveryDirectionWithAndWithoutWeightsGoesAsInR) {
   const data::Dataset shipped = errmap::testing::ShippedMeasurements();
-  const MatrixColumns candidates(
-      models::TermMatrix(errmap::testing::Centred(shipped.input_values()),
-                         models::AllTerms(2, 4)));
+  const MatrixXd candidates = models::TermMatrix(
+      errmap::testing::Centred(shipped.input_values()), models::AllTerms(2, 4));
   VectorXd cycling(shipped.num_rows());
   for (Index i = 0; i < cycling.size(); ++i) {
     cycling[i] = 1.0 + static_cast<double>(i % 3);

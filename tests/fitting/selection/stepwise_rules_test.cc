@@ -10,6 +10,7 @@
 #include "fitting/least_squares/linear_least_squares.h"
 #include "fitting/selection/stepwise_selection.h"
 #include "tests/fitting/regression_test_data.h"
+#include "tests/fitting/stepwise_data.h"
 
 namespace errmap::fitting {
 namespace {
@@ -75,10 +76,8 @@ TEST(StepwiseRules, RowsOfWeightZeroAreAsIfTheyWereNotThere) {
     const MatrixXd few_candidates = candidates(kept, Eigen::all);
     const VectorXd few_response = response(kept);
     const VectorXd few_weights = weights(kept);
-    const MatrixColumns all(candidates);
-    const MatrixColumns few(few_candidates);
-    const SelectionProblem with_all{all, response, weights};
-    const SelectionProblem with_few{few, few_response, few_weights};
+    const SelectionProblem with_all{candidates, response, weights};
+    const SelectionProblem with_few{few_candidates, few_response, few_weights};
     for (const Criterion criterion : {Criterion::kPValue,
                                       Criterion::kAic,
                                       Criterion::kAicc,
@@ -127,12 +126,11 @@ TEST(StepwiseRules, SelectsByPressAsRefittingWould) {
     const MatrixXd candidates = UniformMatrix(18, 6, seed);
     const VectorXd response = candidates.col(0) + candidates.col(3) +
                               0.5 * UniformMatrix(18, 1, 50 + seed);
-    const MatrixColumns columns(candidates);
     StepwiseOptions options;
     options.select = options.stop = options.choose = Criterion::kPress;
     options.direction = Direction::kBoth;
-    const SelectionResult result =
-        SelectStepwise({columns, response, kStepwiseRulesEqual}, {}, options);
+    const SelectionResult result = SelectStepwise(
+        {candidates, response, kStepwiseRulesEqual}, {}, options);
     std::vector<Index> chosen;
     for (std::size_t i = 0; i < result.steps.size(); ++i) {
       const SelectionStep& step = result.steps[i];
@@ -161,9 +159,8 @@ TEST(StepwiseRules, SelectsByCrossValidationAsRefittingWould) {
   for (Index i = 0; i < 25; ++i) rules.folds.codes.push_back(i / 5);
   StepwiseOptions options;
   options.select = options.stop = options.choose = Criterion::kCv;
-  const MatrixColumns columns(candidates);
-  const SelectionResult result =
-      SelectStepwise({columns, response, kStepwiseRulesEqual}, rules, options);
+  const SelectionResult result = SelectStepwise(
+      {candidates, response, kStepwiseRulesEqual}, rules, options);
   std::vector<Index> chosen;
   for (std::size_t i = 1; i < result.steps.size(); ++i) {
     for (Index j = 0; j < 6; ++j) {
@@ -193,9 +190,8 @@ TEST(StepwiseRules, EfroymsonLetsATermLeaveThatOthersReplace) {
   StepwiseOptions options;
   options.direction = Direction::kBoth;
   options.select = options.stop = options.choose = Criterion::kPValue;
-  const MatrixColumns columns(candidates);
   const SelectionResult result =
-      SelectStepwise({columns, response, kStepwiseRulesEqual}, {}, options);
+      SelectStepwise({candidates, response, kStepwiseRulesEqual}, {}, options);
   EXPECT_EQ(result.steps[1].candidate, 2);
   EXPECT_THAT(result.chosen, UnorderedElementsAre(0, 1));
   EXPECT_FALSE(result.steps.back().entered);
@@ -204,7 +200,7 @@ TEST(StepwiseRules, EfroymsonLetsATermLeaveThatOthersReplace) {
 // Columns x, y, x^2, x y, y^2 with a response in x y alone.
 TEST(StepwiseRules, HeredityAdmitsAProductAfterItsParents) {
   const MatrixXd inputs = UniformMatrix(80, 2, 7);
-  const QuadraticColumns columns(inputs);
+  const MatrixXd candidates = errmap::testing::QuadraticTerms(inputs);
   const VectorXd response = inputs.col(0).cwiseProduct(inputs.col(1)) +
                             0.2 * inputs.col(0) +
                             0.01 * UniformMatrix(80, 1, 8);
@@ -214,7 +210,7 @@ TEST(StepwiseRules, HeredityAdmitsAProductAfterItsParents) {
   const auto chosen = [&](Heredity heredity) {
     options.heredity = heredity;
     return SelectStepwise(
-               {columns, response, kStepwiseRulesEqual}, rules, options)
+               {candidates, response, kStepwiseRulesEqual}, rules, options)
         .chosen;
   };
   EXPECT_EQ(chosen(Heredity::kNone).front(), 3);
@@ -240,7 +236,6 @@ TEST(StepwiseRules, IncludedStayAndExcludedStayOut) {
   const MatrixXd candidates = UniformMatrix(60, 5, 9);
   const VectorXd response =
       candidates.col(0) + candidates.col(1) + 0.1 * UniformMatrix(60, 1, 10);
-  const MatrixColumns columns(candidates);
   TermRules rules;
   rules.include = {4};
   rules.excluded = {true, false, false, false, false};
@@ -249,7 +244,8 @@ TEST(StepwiseRules, IncludedStayAndExcludedStayOut) {
     StepwiseOptions options;
     options.direction = direction;
     const auto chosen =
-        SelectStepwise({columns, response, kStepwiseRulesEqual}, rules, options)
+        SelectStepwise(
+            {candidates, response, kStepwiseRulesEqual}, rules, options)
             .chosen;
     EXPECT_THAT(chosen, Contains(4));
     EXPECT_THAT(chosen, Contains(1));
@@ -262,19 +258,18 @@ TEST(StepwiseRules, MoreCandidatesThanRowsAndCopiesAreNoTrouble) {
   candidates.rightCols(100) = candidates.leftCols(100);
   const VectorXd response =
       candidates.col(3) - candidates.col(9) + 1e-3 * UniformMatrix(20, 1, 12);
-  const MatrixColumns columns(candidates);
   StepwiseOptions options;
   options.stop = Criterion::kNone;
   options.choose = Criterion::kBic;
   const SelectionResult result =
-      SelectStepwise({columns, response, kStepwiseRulesEqual}, {}, options);
+      SelectStepwise({candidates, response, kStepwiseRulesEqual}, {}, options);
   EXPECT_EQ(result.steps.back().terms, 18);  // one degree of freedom is left
   for (const SelectionStep& step : result.steps) {
     EXPECT_LT(step.candidate, 100);  // never the copy
     EXPECT_TRUE(std::isfinite(step.residual_sum_of_squares));
   }
   const auto excluded =
-      JudgeExcluded({columns, response, kStepwiseRulesEqual}, {3, 9}, 1e-7);
+      JudgeExcluded({candidates, response, kStepwiseRulesEqual}, {3, 9}, 1e-7);
   ASSERT_EQ(excluded.size(), 198U);
   EXPECT_TRUE(excluded[101].aliased);  // column 103, the copy of 3
   EXPECT_FALSE(excluded[0].aliased);
@@ -285,11 +280,10 @@ TEST(StepwiseRules, ExcludedTermsHaveTheFOfARefit) {
   constexpr double kRelative = 1e-9;
   const MatrixXd candidates = UniformMatrix(30, 5, 13);
   const VectorXd response = UniformMatrix(30, 1, 14);
-  const MatrixColumns columns(candidates);
   const double rss = SolveLeastSquares(DesignOf(candidates, {1, 2}), response)
                          .residual_sum_of_squares;
-  for (const ExcludedTerm& term :
-       JudgeExcluded({columns, response, kStepwiseRulesEqual}, {1, 2}, 1e-7)) {
+  for (const ExcludedTerm& term : JudgeExcluded(
+           {candidates, response, kStepwiseRulesEqual}, {1, 2}, 1e-7)) {
     const double less =
         SolveLeastSquares(DesignOf(candidates, {1, 2, term.candidate}),
                           response)
@@ -302,12 +296,12 @@ TEST(StepwiseRules, ExcludedTermsHaveTheFOfARefit) {
 TEST(StepwiseRules, RefusesWhatCannotWork) {
   const MatrixXd candidates = UniformMatrix(10, 30, 15);
   const VectorXd response = UniformMatrix(10, 1, 16);
-  const MatrixColumns columns(candidates);
   const auto expect = [&](const StepwiseOptions& options,
                           const std::string& message) {
     EXPECT_THAT(
         [&] {
-          SelectStepwise({columns, response, kStepwiseRulesEqual}, {}, options);
+          SelectStepwise(
+              {candidates, response, kStepwiseRulesEqual}, {}, options);
         },
         ThrowsMessage<std::invalid_argument>(HasSubstr(message)));
   };
@@ -329,29 +323,6 @@ TEST(StepwiseRules, RefusesWhatCannotWork) {
   options = {};
   options.heredity = Heredity::kStrong;
   expect(options, "heredity needs the parents");
-}
-
-TEST(QuadraticColumns, AreTheProductsThatAreNeverFormed) {
-  constexpr double kRelative = 1e-14;
-  const MatrixXd inputs = UniformMatrix(37, 9, 17);
-  const QuadraticColumns quadratic(inputs);
-  ASSERT_EQ(quadratic.cols(), 9 + 45);
-  MatrixXd formed(37, quadratic.cols());
-  Index column = 0;
-  for (Index i = 0; i < 9; ++i) formed.col(column++) = inputs.col(i);
-  for (Index i = 0; i < 9; ++i) {
-    for (Index j = i; j < 9; ++j) {
-      formed.col(column++) = inputs.col(i).cwiseProduct(inputs.col(j));
-    }
-  }
-  const VectorXd v = UniformMatrix(37, 1, 18);
-  for (Index j = 0; j < formed.cols(); ++j) {
-    EXPECT_EQ(quadratic.Column(j), formed.col(j));
-  }
-  EXPECT_TRUE(
-      quadratic.TransposeTimes(v).isApprox(formed.transpose() * v, kRelative));
-  EXPECT_TRUE(quadratic.SquaresTransposeTimes(v).isApprox(
-      formed.cwiseAbs2().transpose() * v, kRelative));
 }
 
 // Hurvich and Tsai (1989): AIC + 2 K (K + 1) / (n - K - 1), K = k + 1 with the

@@ -35,8 +35,7 @@ SelectionResult SelectForward(const MatrixXd& candidates,
                               const VectorXd& response,
                               const VectorXd& weights,
                               const StepwiseOptions& options = {}) {
-  const MatrixColumns columns(candidates);
-  return SelectStepwise({columns, response, weights}, {}, options);
+  return SelectStepwise({candidates, response, weights}, {}, options);
 }
 
 double Bic(double residual_sum_of_squares, Index rows, Index coefficients) {

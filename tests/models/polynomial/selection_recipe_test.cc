@@ -11,6 +11,7 @@
 #include "models/polynomial/polynomial_basis.h"
 #include "models/polynomial/polynomial_model.h"
 #include "models/polynomial/polynomial_options.h"
+#include "models/polynomial/term_set.h"
 #include "models/recipe_catalog.h"
 #include "models/regression_report.h"
 #include "models/shared_work.h"
@@ -148,6 +149,25 @@ TEST(SelectionRecipe, BootstrapOfTermsDrawsWholeCycles) {
   ASSERT_EQ(fitted.regression->terms.size(), 1U);
   EXPECT_EQ(fitted.regression->bootstrap_unit, "cycle");
   EXPECT_NEAR(fitted.regression->terms[0].inclusion, 0.70, 0.12);
+}
+
+TEST(SelectionRecipe, ChoosesAmongTheTermsOfEverySet) {
+  const data::Dataset dataset = QuadraticData(120);
+  for (const TermSet set :
+       {TermSet::kLinear, TermSet::kSquares, TermSet::kAxis, TermSet::kFull}) {
+    const std::string terms = ":degree=2:terms=" + std::string(ToString(set));
+    const Index count = *CountTerms(set, {true, false, false}, 2);
+    for (const char* family : {"poly:stepwise", "poly:best"}) {
+      SCOPED_TRACE(family + terms);
+      const RegressionReport report =
+          *MakeRecipe(family + terms)->Fit(dataset, kExplain).regression;
+      EXPECT_EQ(report.candidates, count);
+      EXPECT_EQ(
+          static_cast<Index>(report.terms.size() + report.excluded.size() +
+                             report.aliased.size()),
+          count);
+    }
+  }
 }
 
 TEST(SelectionRecipe, SaysWhatLimitsTheTerms) {
