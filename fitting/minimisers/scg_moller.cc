@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <type_traits>
 
 #include "fitting/minimisers/cost_resolution.h"
@@ -96,9 +95,7 @@ class MollerRun {
 
   void TakeDirection() {
     is_new_direction_ = false;
-    const VectorSums<Scalar> sums =
-        turned_ ? *turned_ : SquaresAndProduct(p_, r_);
-    turned_.reset();
+    const VectorSums<Scalar> sums = SquaresAndProduct(p_, r_);
     p_squared_ = static_cast<double>(sums.squares);
     mu_ = static_cast<double>(sums.product);
     if (!(mu_ > 0.0)) {  // rounding has taken the descent out of it
@@ -138,8 +135,8 @@ class MollerRun {
     report->accepted = true;
     is_anew_ = false;
     failures_ = 0;
-    const Scalar w_squared = MoveAndSquare(step, p_, &w_);
-    w_norm_ = static_cast<double>(std::sqrt(w_squared));
+    w_ += step * p_;
+    w_norm_ = static_cast<double>(std::sqrt(SquaresAndProduct(w_, w_).squares));
     cost_ = trial_cost;
     ++steps_since_check_;
     ++steps_since_restart_;
@@ -149,8 +146,8 @@ class MollerRun {
       report->restarted = true;
       p_ = r_ = -gradient;
     } else {  // Eq. (109)
-      turned_ = TurnDirection(
-          gradient, static_cast<Scalar>((r_squared - overlap) / mu_), &r_, &p_);
+      r_ = -gradient;
+      p_ = r_ + static_cast<Scalar>((r_squared - overlap) / mu_) * p_;
     }
     is_new_direction_ = true;
     monitor_.EndIteration(cost_, r_norm_, w_);
@@ -207,7 +204,6 @@ class MollerRun {
     if (monitor_.StopAtGoal(cost_, r_norm_, w_norm_)) return;
     path_ = f_.NewPath(w_);
     p_ = r_;
-    turned_.reset();
     is_new_direction_ = true;
     steps_since_restart_ = 0;
   }
@@ -233,10 +229,9 @@ class MollerRun {
   RunMonitor monitor_;
   std::unique_ptr<Path<Scalar>> path_;
 
-  Vector w_;                                  // best point
-  Vector r_;                                  // steepest descent there
-  Vector p_;                                  // direction
-  std::optional<VectorSums<Scalar>> turned_;  // of a p just turned, with r
+  Vector w_;  // best point
+  Vector r_;  // steepest descent there
+  Vector p_;  // direction
   double cost_ = 0.0;
   double r_norm_ = 0.0;
   double w_norm_ = 0.0;

@@ -37,11 +37,6 @@ ERRMAP_INLINE void Load(const Scalar* from, Lanes<Scalar>* lanes) {
   std::memcpy(lanes, from, sizeof *lanes);
 }
 
-template <typename Scalar>
-ERRMAP_INLINE void Store(const Lanes<Scalar>& lanes, Scalar* to) {
-  std::memcpy(to, &lanes, sizeof lanes);
-}
-
 // The lanes from `half` on added to those below.
 template <typename Scalar>
 ERRMAP_INLINE void Fold(Index half, Lanes<Scalar>* lanes) {
@@ -85,52 +80,6 @@ ERRMAP_INLINE VectorSums<Scalar> SumsOf(Index n,
               products, n - i, [&](Index k) { return x[i + k] * y[i + k]; })};
 }
 
-template <typename Scalar>
-ERRMAP_INLINE Scalar Moved(Index n, Scalar a, const Scalar* p, Scalar* w) {
-  Lanes<Scalar> squares = {};
-  Index i = 0;
-  for (; i + kLanes<Scalar> <= n; i += kLanes<Scalar>) {
-    Lanes<Scalar> along;
-    Lanes<Scalar> at;
-    Load(p + i, &along);
-    Load(w + i, &at);
-    at += a * along;
-    Store(at, w + i);
-    squares += at * at;
-  }
-  for (Index k = i; k < n; ++k) w[k] += a * p[k];
-  return Total<Scalar>(
-      squares, n - i, [&](Index k) { return w[i + k] * w[i + k]; });
-}
-
-template <typename Scalar>
-ERRMAP_INLINE VectorSums<Scalar> Turned(
-    Index n, const Scalar* gradient, Scalar a, Scalar* r, Scalar* p) {
-  Lanes<Scalar> squares = {};
-  Lanes<Scalar> products = {};
-  Index i = 0;
-  for (; i + kLanes<Scalar> <= n; i += kLanes<Scalar>) {
-    Lanes<Scalar> descent;
-    Lanes<Scalar> along;
-    Load(gradient + i, &descent);
-    Load(p + i, &along);
-    descent = -descent;
-    along = descent + a * along;
-    Store(descent, r + i);
-    Store(along, p + i);
-    squares += along * along;
-    products += along * descent;
-  }
-  for (Index k = i; k < n; ++k) {
-    r[k] = -gradient[k];
-    p[k] = r[k] + a * p[k];
-  }
-  return {Total<Scalar>(
-              squares, n - i, [&](Index k) { return p[i + k] * p[i + k]; }),
-          Total<Scalar>(
-              products, n - i, [&](Index k) { return p[i + k] * r[i + k]; })};
-}
-
 }  // namespace
 
 ERRMAP_MULTIVERSION
@@ -145,34 +94,6 @@ VectorSums<float> SquaresAndProduct(const VectorOf<float>& x,
                                     const VectorOf<float>& y) {
   assert(x.size() == y.size());
   return SumsOf(x.size(), x.data(), y.data());
-}
-
-ERRMAP_MULTIVERSION
-double MoveAndSquare(double a, const VectorOf<double>& p, VectorOf<double>* w) {
-  assert(p.size() == w->size());
-  return Moved(w->size(), a, p.data(), w->data());
-}
-
-ERRMAP_MULTIVERSION
-float MoveAndSquare(float a, const VectorOf<float>& p, VectorOf<float>* w) {
-  assert(p.size() == w->size());
-  return Moved(w->size(), a, p.data(), w->data());
-}
-
-ERRMAP_MULTIVERSION
-VectorSums<double> TurnDirection(const VectorOf<double>& gradient,
-                                 double a,
-                                 VectorOf<double>* r,
-                                 VectorOf<double>* p) {
-  return Turned(p->size(), gradient.data(), a, r->data(), p->data());
-}
-
-ERRMAP_MULTIVERSION
-VectorSums<float> TurnDirection(const VectorOf<float>& gradient,
-                                float a,
-                                VectorOf<float>* r,
-                                VectorOf<float>* p) {
-  return Turned(p->size(), gradient.data(), a, r->data(), p->data());
 }
 
 }  // namespace errmap::fitting

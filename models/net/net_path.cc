@@ -210,7 +210,8 @@ void NetPath<Scalar>::Accept(Scalar a) {
   const bool is_at_trial = has_trial_ && a == trial_a_ && !is_at_point_;
   if (!is_at_trial) Value(a);
   has_trial_ = false;
-  const Scalar squares = fitting::MoveAndSquare(a, p_, &w_);
+  w_ += a * p_;
+  const Scalar squares = fitting::SquaresAndProduct(w_, w_).squares;
   w_squared_ = DecayingProduct(problem_.shape, w_, w_, squares);
   if (++accepted_ % kRenewal == 0) {
     Renew();

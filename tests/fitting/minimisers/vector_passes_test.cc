@@ -49,33 +49,5 @@ TYPED_TEST(VectorPasses, SumsSquaresAndProducts) {
   }
 }
 
-TYPED_TEST(VectorPasses, MovesAndSums) {
-  constexpr auto kStep = TypeParam(0.3);
-  for (Index size = 0; size <= this->kMost; ++size) {
-    const auto p = this->Random(size, 3);
-    auto w = this->Random(size, 4);
-    const typename TestFixture::Vector moved = w + kStep * p;
-    const auto squares = MoveAndSquare(kStep, p, &w);
-    EXPECT_EQ(w, moved) << size;
-    EXPECT_NEAR(squares, this->Exact(w, w), this->Bound(w, w)) << size;
-  }
-}
-
-TYPED_TEST(VectorPasses, TurnsADirectionAndSums) {
-  constexpr auto kShare = TypeParam(0.7);
-  for (Index size = 0; size <= this->kMost; ++size) {
-    const auto gradient = this->Random(size, 5);
-    auto p = this->Random(size, 6);
-    auto r = this->Random(size, 7);
-    const typename TestFixture::Vector turned = -gradient + kShare * p;
-    const auto sums = TurnDirection(gradient, kShare, &r, &p);
-    EXPECT_EQ(r, -gradient) << size;
-    EXPECT_EQ(p, turned) << size;
-    const auto expected = SquaresAndProduct(p, r);
-    EXPECT_EQ(sums.squares, expected.squares) << size;
-    EXPECT_EQ(sums.product, expected.product) << size;
-  }
-}
-
 }  // namespace
 }  // namespace errmap::fitting
