@@ -379,18 +379,16 @@ std::optional<Refined> Refine(Problem* problem,
 // dependent even so.
 std::optional<ExtendedLeastSquaresFit> SolveExactly(
     Problem* problem, const std::vector<Index>& kept) {
-  constexpr double kAlwaysExtended = 15.0;
   const ExtendedSystem& exact = problem->exact();
   ExtendedLeastSquaresFit fit =
-      SolveExtendedLeastSquares(exact.design(Eigen::all, kept),
-                                exact.response,
-                                {.digits = kAlwaysExtended});
+      SolveExtendedLeastSquares(exact.design(Eigen::all, kept), exact.response);
   if (!fit.full_rank) return std::nullopt;
   return fit;
 }
 
-// Relative error that rounding may leave in the worst coefficient of a solution
-// in double (k), as in extended_least_squares.h.
+// max over j of epsilon / 2 |row j of R^-1| (|y| + |R^-1| |r|) / |b_j|:
+// relative error that rounding may leave in the worst coefficient of a solution
+// (k).
 double ErrorEstimate(const MatrixXd& triangle,
                      const VectorXd& solution,
                      double length,

@@ -19,9 +19,8 @@ bool GaussNewtonStep(const ExtendedMatrix& jacobian,
                      const ExtendedVector& residuals,
                      ExtendedVector* step) {
   if (!jacobian.cast<double>().allFinite()) return false;
-  constexpr ExtendedLeastSquaresOptions kAlwaysExtended{.digits = 15.0};
   const ExtendedLeastSquaresFit fit =
-      SolveExtendedLeastSquares(jacobian, residuals, kAlwaysExtended);
+      SolveExtendedLeastSquares(jacobian, residuals);
   *step = -fit.coefficients;
   return fit.full_rank && fit.coefficients.cast<double>().allFinite();
 }
@@ -111,7 +110,7 @@ RegressionStatistics AssessRegression(const RegressionFunction& function,
   // The residuals of the linearised problem at its minimum are those of b; off
   // the minimum they are not, hence the factor.
   const ExtendedLeastSquaresFit fit =
-      SolveExtendedLeastSquares(jacobian, residuals, {.digits = 15.0});
+      SolveExtendedLeastSquares(jacobian, residuals);
   if (!fit.full_rank) return statistics;
   const DoubleDouble factor =
       fit.residual_sum_of_squares.hi > 0.0
