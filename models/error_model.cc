@@ -1,7 +1,9 @@
 #include "models/error_model.h"
 
+#include <array>
 #include <stdexcept>
 
+#include "data/text.h"
 #include "stats/summary.h"
 
 namespace errmap::models {
@@ -11,37 +13,15 @@ std::string_view ToString(OutputFunction output) {
 }
 
 std::string_view ToString(ModelKind kind) {
-  switch (kind) {
-    case ModelKind::kBaseline:
-      return "baseline";
-    case ModelKind::kPolynomial:
-      return "polynomial";
-    case ModelKind::kNet:
-      return "net";
-    case ModelKind::kBlend:
-      return "blend";
-    case ModelKind::kFile:
-      return "file";
-  }
-  return "";
+  constexpr auto kNames = std::to_array<std::string_view>(
+      {"baseline", "polynomial", "net", "blend", "file"});
+  return data::NameOf(kNames, kind);
 }
 
 std::string_view ToString(InnerHoldout inner) {
-  switch (inner) {
-    case InnerHoldout::kDecisive:
-      return "decisive";
-    case InnerHoldout::kWholeSessions:
-      return "sessions";
-    case InnerHoldout::kWholeGroups:
-      return "groups";
-    case InnerHoldout::kBlocks:
-      return "blocks";
-    case InnerHoldout::kRows:
-      return "rows";
-    case InnerHoldout::kForward:
-      return "forward";
-  }
-  return "";
+  constexpr auto kNames = std::to_array<std::string_view>(
+      {"decisive", "sessions", "groups", "blocks", "rows", "forward"});
+  return data::NameOf(kNames, inner);
 }
 
 PredictionCost CostOf(const OpaqueForm& form) { return form.cost; }

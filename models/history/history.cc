@@ -1,6 +1,7 @@
 #include "models/history/history.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -13,6 +14,7 @@
 
 #include "data/csv.h"
 #include "data/measurements/sessions.h"
+#include "data/text.h"
 #include "models/history/history_state.h"
 #include "models/history/lag.h"
 #include "models/history/session_start.h"
@@ -231,17 +233,9 @@ DerivedInput Unitless(const data::ColumnInfo& of,
 }  // namespace
 
 std::string_view ToString(Filter filter) {
-  switch (filter) {
-    case Filter::kEma:
-      return "ema";
-    case Filter::kZero:
-      return "zero";
-    case Filter::kSine:
-      return "sine";
-    case Filter::kCosine:
-      return "cosine";
-  }
-  return "";
+  constexpr auto kNames =
+      std::to_array<std::string_view>({"ema", "zero", "sine", "cosine"});
+  return data::NameOf(kNames, filter);
 }
 
 bool RunsInTime(Filter filter) {

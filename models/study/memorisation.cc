@@ -1,8 +1,10 @@
 #include "models/study/memorisation.h"
 
+#include <array>
 #include <cmath>
 #include <vector>
 
+#include "data/text.h"
 #include "models/net/net_recipe.h"
 #include "models/study/fold_pool.h"
 #include "stats/indices.h"
@@ -80,17 +82,9 @@ void Assess(const ModelRecipe& recipe,
 }  // namespace
 
 std::string_view ToString(NoiseLearning learning) {
-  switch (learning) {
-    case NoiseLearning::kUnknown:
-      return "unknown";
-    case NoiseLearning::kLittle:
-      return "little";
-    case NoiseLearning::kSome:
-      return "some";
-    case NoiseLearning::kMuch:
-      return "much";
-  }
-  return "";
+  constexpr auto kNames =
+      std::to_array<std::string_view>({"unknown", "little", "some", "much"});
+  return data::NameOf(kNames, learning);
 }
 
 NoiseLearning Memorisation::learning() const {

@@ -1,7 +1,10 @@
 #include "models/study/judgement/confidence.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "data/text.h"
 
 namespace errmap::models {
 namespace {
@@ -44,37 +47,24 @@ bool IsInReach(Index units, const PairComparison& pair) {
 }  // namespace
 
 std::string_view ToString(Confidence confidence) {
-  switch (confidence) {
-    case Confidence::kEstablished:
-      return "established";
-    case Confidence::kOutOfReach:
-      return "out of reach";
-    case Confidence::kNotShown:
-      return "not shown";
-    case Confidence::kUnitsCorrelated:
-      return "units correlated";
-    case Confidence::kMemoryNotExcluded:
-      return "memory not excluded";
-    case Confidence::kBlocksDisagree:
-      return "blocks disagree";
-  }
-  return "";
+  constexpr auto kNames =
+      std::to_array<std::string_view>({"established",
+                                       "out of reach",
+                                       "not shown",
+                                       "units correlated",
+                                       "memory not excluded",
+                                       "blocks disagree"});
+  return data::NameOf(kNames, confidence);
 }
 
 std::string_view ToString(Obstacle::Kind kind) {
-  switch (kind) {
-    case Kind::kNone:
-      return "none";
-    case Kind::kTooFewUnits:
-      return "too few units";
-    case Kind::kPerhapsOneSession:
-      return "perhaps one session";
-    case Kind::kTooManyPairs:
-      return "too many pairs";
-    case Kind::kTooFewSignPatterns:
-      return "too few sign patterns";
-  }
-  return "";
+  constexpr auto kNames =
+      std::to_array<std::string_view>({"none",
+                                       "too few units",
+                                       "perhaps one session",
+                                       "too many pairs",
+                                       "too few sign patterns"});
+  return data::NameOf(kNames, kind);
 }
 
 Obstacle FindObstacle(const stats::Comparison& tests, bool separate_sessions) {

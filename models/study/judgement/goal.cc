@@ -1,23 +1,16 @@
 #include "models/study/judgement/goal.h"
 
+#include <array>
 #include <cmath>
+
+#include "data/text.h"
 
 namespace errmap::models {
 
 std::string_view ToString(GoalStanding standing) {
-  switch (standing) {
-    case GoalStanding::kNone:
-      return "no goal";
-    case GoalStanding::kNotJudged:
-      return "not judged";
-    case GoalStanding::kMet:
-      return "met";
-    case GoalStanding::kMetAfterRezeroing:
-      return "met after re-zeroing";
-    case GoalStanding::kMissed:
-      return "not met";
-  }
-  return "";
+  constexpr auto kNames = std::to_array<std::string_view>(
+      {"no goal", "not judged", "met", "met after re-zeroing", "not met"});
+  return data::NameOf(kNames, standing);
 }
 
 GoalJudgement JudgeGoal(double goal,
