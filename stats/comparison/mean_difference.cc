@@ -30,16 +30,6 @@ MeanDifferenceTest MakeTest(double t, double degrees_of_freedom) {
           .degrees_of_freedom = degrees_of_freedom};
 }
 
-// gamma_0 + 2 sum of gamma_k for k < horizon, gamma_k = sum of products / n.
-double LongRunVariance(const VectorXd& deviations, Index horizon) {
-  const Index n = deviations.size();
-  double sum = deviations.squaredNorm();
-  for (Index lag = 1; lag < horizon; ++lag) {
-    sum += 2.0 * deviations.head(n - lag).dot(deviations.tail(n - lag));
-  }
-  return sum / static_cast<double>(n);
-}
-
 }  // namespace
 
 MeanDifferenceTest CorrectedResampledT(
@@ -68,15 +58,11 @@ MeanDifferenceTest CorrectedResampledT(
       folds - 1.0);
 }
 
-MeanDifferenceTest DieboldMariano(const Eigen::Ref<const VectorXd>& differences,
-                                  Index horizon) {
-  if (horizon < 1) {
-    throw std::invalid_argument(
-        "DieboldMariano: horizon must be at least 1, found " +
-        std::to_string(horizon));
-  }
+MeanDifferenceTest DieboldMariano(
+    const Eigen::Ref<const VectorXd>& differences) {
+  constexpr Index kFewest = 2;
   MeanDifferenceTest result;
-  const std::string why_not = WhyNot(differences, horizon + 1, "units");
+  const std::string why_not = WhyNot(differences, kFewest, "units");
   if (!why_not.empty()) {
     result.test = NotApplicable(why_not);
     return result;
@@ -86,15 +72,9 @@ MeanDifferenceTest DieboldMariano(const Eigen::Ref<const VectorXd>& differences,
   if (scale == 0.0) return MakeTest(0.0, n - 1.0);
   const VectorXd d = differences / scale;
   const VectorXd deviations = d.array() - d.mean();
-  double variance = LongRunVariance(deviations, horizon);
-  if (!(variance > 0.0)) {
-    horizon = 1;
-    variance = LongRunVariance(deviations, horizon);
-  }
-  const double h = static_cast<double>(horizon);
+  const double variance = deviations.squaredNorm() / n;
   // Harvey, Leybourne & Newbold (1997), Eq. 9.
-  const double correction =
-      std::sqrt((n + 1.0 - 2.0 * h + h * (h - 1.0) / n) / n);
+  const double correction = std::sqrt((n - 1.0) / n);
   return MakeTest(correction * d.mean() / std::sqrt(variance / n), n - 1.0);
 }
 

@@ -23,14 +23,11 @@ MeanDifferenceTest CorrectedResampledT(
     const Eigen::Ref<const Eigen::VectorXd>& fold_differences,
     double test_to_train);
 
-/// Test of Diebold & Mariano (1995) on loss differences in time order, with
-/// the small-sample correction of Harvey, Leybourne & Newbold (1997): t with n
-/// - 1 degrees of freedom. Differences up to `horizon` - 1 apart may be
-/// correlated (1: none). A long-run variance that is not above 0 is replaced
-/// by that of horizon 1, as in R's forecast::dm.test. Needs n >= 2 and n >
-/// horizon. p = 1 if all differences are 0. Throws std::invalid_argument if
-/// horizon < 1.
+/// Test of Diebold & Mariano (1995) on loss differences in time order, of
+/// forecasts one step ahead, with the small-sample correction of Harvey,
+/// Leybourne & Newbold (1997): t with n - 1 degrees of freedom. Needs n >= 2.
+/// p = 1 if all differences are 0.
 MeanDifferenceTest DieboldMariano(
-    const Eigen::Ref<const Eigen::VectorXd>& differences, Eigen::Index horizon);
+    const Eigen::Ref<const Eigen::VectorXd>& differences);
 
 }  // namespace errmap::stats

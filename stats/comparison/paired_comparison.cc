@@ -134,7 +134,7 @@ void TestUnits(const UnitLosses& losses,
     pair.block_t = CorrectedResampledT(of_blocks.col(static_cast<Index>(i)),
                                        kBlocksTestToTrain);
     if (losses.time_ordered) {
-      pair.diebold_mariano = DieboldMariano(d, options.horizon);
+      pair.diebold_mariano = DieboldMariano(d);
     }
     pair.lag1 = TestSerially({d}).lag1;
     pair.correlated = pair.lag1.p <= kSignificance && pair.lag1.statistic > 0.0;
@@ -289,7 +289,6 @@ void ComparisonOptions::Validate() const {
   };
   check("flips", flips, 1);
   check("resamples", resamples, 99);
-  check("horizon", horizon, 1);
   margin.Validate();
 }
 

@@ -36,7 +36,6 @@ struct ComparisonOptions {
   std::uint64_t seed = 1;
   Eigen::Index flips = 9999;      // drawn if not all are counted; >= 1
   Eigen::Index resamples = 4999;  // of the bootstrap; >= 99
-  Eigen::Index horizon = 1;       // of Diebold-Mariano; >= 1
   Margin margin = {};             // between tiers
   /// True if the units are known to be separate sessions. `p` then allows for
   /// memory between them only if it exceeds chance. The `memory` test uses

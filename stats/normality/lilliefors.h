@@ -19,10 +19,9 @@ TestResult Lilliefors(const OrderedSample& sample);
 /// Throws std::invalid_argument if n < 4.
 double LillieforsProbability(double d, Eigen::Index n);
 
-/// Returns the same from published formulas, for comparison with R. For p <=
-/// 0.1: G. E. Dallal & L. Wilkinson, The American Statistician 40 (1986),
-/// accurate to 0.005. Above it: the polynomials in Stephens' (1974) modified
-/// distance that R's nortest uses, off by up to 0.012. Needs n >= 5.
+/// Returns the same from a published formula, as R's nortest does: G. E. Dallal
+/// & L. Wilkinson, The American Statistician 40 (1986). For p <= 0.1, accurate
+/// to 0.005. Needs n >= 5.
 double DallalWilkinsonProbability(double d, Eigen::Index n);
 
 }  // namespace errmap::stats

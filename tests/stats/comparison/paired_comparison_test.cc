@@ -125,9 +125,9 @@ TEST(CompareModels, TestsFoldsAndTimeOnlyWhereTheyAreGiven) {
   EXPECT_FALSE(without.pairs[0].diebold_mariano.has_value());
   losses.time_ordered = true;
   const FoldLosses folds = MakeFolds(5, 2);
-  const Comparison with = CompareModels(losses, &folds, {.horizon = 2});
+  const Comparison with = CompareModels(losses, &folds, {});
   const VectorXd d = losses.mean_squares.col(0) - losses.mean_squares.col(1);
-  EXPECT_EQ(with.pairs[0].diebold_mariano->test.p, DieboldMariano(d, 2).test.p);
+  EXPECT_EQ(with.pairs[0].diebold_mariano->test.p, DieboldMariano(d).test.p);
   EXPECT_EQ(with.pairs[0].corrected_t->test.p,
             CorrectedResampledT(VectorXd{{1, 2, 3, 4, 5}}, 0.25).test.p);
 }
@@ -418,9 +418,6 @@ TEST(ComparisonOptions, AreCheckedFieldByField) {
   EXPECT_THAT([] { ComparisonOptions{.resamples = 98}.Validate(); },
               ThrowsMessage<std::invalid_argument>(
                   HasSubstr("resamples must be at least 99, found 98")));
-  EXPECT_THAT([] { ComparisonOptions{.horizon = 0}.Validate(); },
-              ThrowsMessage<std::invalid_argument>(
-                  HasSubstr("horizon must be at least 1, found 0")));
   EXPECT_THROW(ComparisonOptions{.margin = {.share = -1.0}}.Validate(),
                std::invalid_argument);
 }

@@ -146,6 +146,7 @@ TEST(Lilliefors, PublishedFormulaIsThatOfNortest) {
   for (const std::string& name : GoldenSampleNames()) {
     const Json& r = Golden()[name]["R"];
     const double p = r["lillie_p"];
+    if (p > 0.1) continue;  // nortest has another formula there
     EXPECT_NEAR(DallalWilkinsonProbability(r["lillie_D"], r["n"].get<Index>()),
                 p,
                 kRelative * p)
