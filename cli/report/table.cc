@@ -140,6 +140,15 @@ std::string LineAbove(const Table& table,
 
 }  // namespace
 
+void Table::Add(std::vector<Named> row) {
+  const bool is_first = columns.empty();
+  std::vector<Cell>& cells = rows.emplace_back();
+  for (Named& named : row) {
+    if (is_first) columns.push_back(std::move(named.column));
+    cells.push_back(std::move(named.cell));
+  }
+}
+
 std::string Table::Shown(const Cell& cell) const {
   const std::string text = std::visit(Pen(*this), cell.value());
   const bool known = std::holds_alternative<std::string>(cell.value());

@@ -109,6 +109,16 @@ struct Table {
   std::string nothing = "-";  // shown for an unknown value
   std::optional<ErrorText> error = {};
 
+  /// A cell and the column that it is in.
+  struct Named {
+    Column column;
+    Cell cell;
+  };
+  /// Adds a row; the first one sets the columns.
+  void Add(std::vector<Named> row);
+  void SayIfEmpty(std::string_view why) {
+    if (rows.empty()) missing = why;
+  }
   /// Returns a cell's text for people.
   std::string Shown(const Cell& cell) const;
 };

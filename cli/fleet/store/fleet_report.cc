@@ -110,11 +110,12 @@ class FleetPage {
       remember += summary.recommendation->longest_memory ? 1 : 0;
     }
     report::Table table;
-    table.columns = {{"recommended", false}, {"components"}, {"with a memory"}};
     for (const auto& [choice, count] : counts) {
-      table.rows.push_back({choice, count.first, count.second});
+      table.Add({{{"recommended", false}, choice},
+                 {{"components"}, count.first},
+                 {{"with a memory"}, count.second}});
     }
-    if (table.rows.empty()) table.missing = "no component has a map";
+    table.SayIfEmpty("no component has a map");
     return table;
   }
 
@@ -252,20 +253,14 @@ class FleetPage {
     }
     if (tallies.empty()) return "";
     report::Table table;
-    table.columns = {{FieldName(field), false},
-                     {"components"},
-                     {"goal met"},
-                     {"not met"},
-                     {"failed"},
-                     {"error left, %"}};
     for (const auto& [value, tally] : tallies) {
-      table.rows.push_back(
-          {value,
-           tally.components,
-           tally.met,
-           tally.missed,
-           tally.failed,
-           report::Number{report::kPercent * tally.Left(), 3}});
+      table.Add({{{FieldName(field), false}, value},
+                 {{"components"}, tally.components},
+                 {{"goal met"}, tally.met},
+                 {{"not met"}, tally.missed},
+                 {{"failed"}, tally.failed},
+                 {{"error left, %"},
+                  report::Number{report::kPercent * tally.Left(), 3}}});
     }
     return Collapsed(fmt::format("By {}: {}", FieldName(field), tallies.size()),
                      report::HtmlTable(table));

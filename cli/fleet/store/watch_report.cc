@@ -160,9 +160,7 @@ report::Table WatchTable(const std::vector<WatchedComponent>& components,
     row.resize(table.columns.size());
     table.rows.push_back(std::move(row));
   }
-  if (table.rows.empty()) {
-    table.missing = "no component has a map deployed and new measurements";
-  }
+  table.SayIfEmpty("no component has a map deployed and new measurements");
   return table;
 }
 
@@ -181,27 +179,20 @@ std::ptrdiff_t Rank(const WatchedComponent& component) {
 report::Table ToDo(const std::string& store,
                    const std::vector<WatchedComponent>& sorted) {
   report::Table table;
-  table.columns = {{"component", false},
-                   {"verdict", false},
-                   {"map", false},
-                   {"found"},
-                   {"promised"},
-                   {"unit", false},
-                   {"what to do", false}};
   for (const WatchedComponent& component : sorted) {
     const std::string proposal = component.Proposal(store);
     if (proposal.empty()) continue;
     const Deployment& deployment = component.deployment;
     const double scale = deployment.shown_scale;
-    table.rows.push_back({deployment.component,
-                          ToString(component.status),
-                          deployment.model,
-                          report::Number{component.found, 3, scale},
-                          report::Number{deployment.promised, 3, scale},
-                          deployment.shown_unit,
-                          proposal});
+    table.Add({{{"component", false}, deployment.component},
+               {{"verdict", false}, ToString(component.status)},
+               {{"map", false}, deployment.model},
+               {{"found"}, report::Number{component.found, 3, scale}},
+               {{"promised"}, report::Number{deployment.promised, 3, scale}},
+               {{"unit", false}, deployment.shown_unit},
+               {{"what to do", false}, proposal}});
   }
-  if (table.rows.empty()) table.missing = "nothing is to be done";
+  table.SayIfEmpty("nothing is to be done");
   return table;
 }
 

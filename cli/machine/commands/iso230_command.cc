@@ -276,26 +276,21 @@ constexpr Figure kFigures[] = {
 
 report::Table FiguresTable(const Judged& judged, const data::Unit& unit) {
   report::Table table;
-  table.columns = {{.name = "figure", .is_number = false},
-                   {.name = "measured"},
-                   {.name = "with the map"},
-                   {.name = "unit", .is_number = false},
-                   {.name = "what", .is_number = false}};
-  const PositioningFigures before = PositioningFiguresOf(judged.before);
-  const PositioningFigures after = judged.after.empty()
-                                       ? PositioningFigures()
-                                       : PositioningFiguresOf(judged.after);
+  const auto number_in = [&](const std::vector<PositioningPoint>& points,
+                             const Figure& figure) {
+    return report::Number{
+        figure.of(PositioningFiguresOf(points)), 4, unit.display_scale};
+  };
   for (const Figure& figure : kFigures) {
-    table.rows.push_back(
-        {report::Cell(figure.key),
-         report::Cell(report::Number{figure.of(before), 4, unit.display_scale}),
-         report::Cell(report::Number{figure.of(after), 4, unit.display_scale}),
-         report::Cell(std::string_view(unit.display_symbol)),
-         report::Cell(figure.words)});
-  }
-  if (judged.after.empty()) {
-    table.columns.erase(table.columns.begin() + 2);
-    for (auto& row : table.rows) row.erase(row.begin() + 2);
+    std::vector<report::Table::Named> row = {
+        {{"figure", false}, figure.key},
+        {{"measured"}, number_in(judged.before, figure)}};
+    if (!judged.after.empty()) {
+      row.push_back({{"with the map"}, number_in(judged.after, figure)});
+    }
+    row.push_back({{"unit", false}, std::string_view(unit.display_symbol)});
+    row.push_back({{"what", false}, figure.words});
+    table.Add(std::move(row));
   }
   return table;
 }

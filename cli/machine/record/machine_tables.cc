@@ -52,32 +52,25 @@ Cell Ratio(const MachineRecord& machine, double p95) {
   return Number{machine.choices.front().p95 / p95, 3};
 }
 
-Table PositioningColumns(const MachineRecord& machine, const char* title) {
-  return {.title = fmt::format("{}, {}", title, ShownUnit(machine).symbol),
-          .columns = {{"axis", false},
-                      {"maps", false},
-                      {"A accuracy"},
-                      {"E systematic"},
-                      {"M mean"},
-                      {"B reversal"},
-                      {"R repeatability"}}};
-}
-
-void AddPositioning(const MachineRecord& machine,
-                    std::vector<PositioningRecord> MachineChoiceRecord::*member,
-                    Table* table) {
+Table TableOfPositioning(
+    const MachineRecord& machine,
+    const char* title,
+    const char* along,
+    std::vector<PositioningRecord> MachineChoiceRecord::*member) {
   const Shown shown = ShownUnit(machine);
+  Table table{.title = fmt::format("{}, {}", title, shown.symbol)};
   for (const MachineChoiceRecord& choice : machine.choices) {
     for (const PositioningRecord& figures : choice.*member) {
-      table->rows.push_back({figures.component,
-                             choice.name,
-                             Length(figures.accuracy, shown),
-                             Length(figures.systematic, shown),
-                             Length(figures.mean_bidirectional, shown),
-                             Length(figures.reversal, shown),
-                             Length(figures.repeatability, shown)});
+      table.Add({{{along, false}, figures.component},
+                 {{"maps", false}, choice.name},
+                 {{"A accuracy"}, Length(figures.accuracy, shown)},
+                 {{"E systematic"}, Length(figures.systematic, shown)},
+                 {{"M mean"}, Length(figures.mean_bidirectional, shown)},
+                 {{"B reversal"}, Length(figures.reversal, shown)},
+                 {{"R repeatability"}, Length(figures.repeatability, shown)}});
     }
   }
+  return table;
 }
 
 // How the half-widths of a choice were found.
@@ -105,50 +98,36 @@ Table ToolTipTable(const MachineRecord& machine) {
           machine.later.size() < 2
               ? ""
               : " Over days: 95 % interval of the geometric mean of the days' "
-                "95th percentiles."),
-      .columns = {{"maps", false},
-                  {"points"},
-                  {"RMS"},
-                  {"95th percentile"},
-                  {"over days"},
-                  {"largest"},
-                  {"times smaller"}}};
+                "95th percentiles.")};
   for (const MachineChoiceRecord& choice : machine.choices) {
     if (choice.why) {
       table.note += fmt::format(" {}: {}.", choice.name, *choice.why);
       continue;
     }
-    table.rows.push_back({choice.name,
-                          choice.points,
-                          Length(choice.rms, shown),
-                          Length(choice.p95, shown),
-                          Interval95(choice.p95_ci95, shown),
-                          Length(choice.max, shown),
-                          Ratio(machine, choice.p95)});
+    table.Add({{{"maps", false}, choice.name},
+               {{"points"}, choice.points},
+               {{"RMS"}, Length(choice.rms, shown)},
+               {{"95th percentile"}, Length(choice.p95, shown)},
+               {{"over days"}, Interval95(choice.p95_ci95, shown)},
+               {{"largest"}, Length(choice.max, shown)},
+               {{"times smaller"}, Ratio(machine, choice.p95)}});
   }
   return table;
 }
 
 Table ToolTipDayTable(const MachineRecord& machine) {
   const Shown shown = ShownUnit(machine);
-  Table table{
-      .title = fmt::format("Error at the tool by day, {}", shown.symbol),
-      .columns = {{"maps", false},
-                  {"session"},
-                  {"points"},
-                  {"RMS"},
-                  {"95th percentile"},
-                  {"largest"},
-                  {"within 90 %: X Y Z"}}};
+  Table table{.title =
+                  fmt::format("Error at the tool by day, {}", shown.symbol)};
   for (const MachineChoiceRecord& choice : machine.choices) {
     for (const MachineDayRecord& day : choice.days) {
-      table.rows.push_back({choice.name,
-                            day.session,
-                            day.points,
-                            Length(day.rms, shown),
-                            Length(day.p95, shown),
-                            Length(day.max, shown),
-                            Shares(day.within_90)});
+      table.Add({{{"maps", false}, choice.name},
+                 {{"session"}, day.session},
+                 {{"points"}, day.points},
+                 {{"RMS"}, Length(day.rms, shown)},
+                 {{"95th percentile"}, Length(day.p95, shown)},
+                 {{"largest"}, Length(day.max, shown)},
+                 {{"within 90 %: X Y Z"}, Shares(day.within_90)}});
     }
   }
   return table;
@@ -159,11 +138,7 @@ Table ToolTipIntervalTable(const MachineRecord& machine) {
   Table table{.title = fmt::format("Stated 90 % intervals of the error at the "
                                    "tool, {}",
                                    shown.symbol),
-              .note = "Half-widths, mean over the points.",
-              .columns = {{"maps", false},
-                          {"direction", false},
-                          {"half-width"},
-                          {"share within"}}};
+              .note = "Half-widths, mean over the points."};
   // Of choices that were calibrated alike.
   std::map<std::string, std::vector<std::string>> calibrated;
   for (const MachineChoiceRecord& choice : machine.choices) {
@@ -173,10 +148,11 @@ Table ToolTipIntervalTable(const MachineRecord& machine) {
       if (names.empty() || names.back() != choice.name) {
         names.push_back(choice.name);
       }
-      table.rows.push_back({choice.name,
-                            std::string(1, static_cast<char>('X' + d)),
-                            Length(choice.half_width_90[d], shown),
-                            Number{choice.within_90[d], 3}});
+      table.Add(
+          {{{"maps", false}, choice.name},
+           {{"direction", false}, std::string(1, static_cast<char>('X' + d))},
+           {{"half-width"}, Length(choice.half_width_90[d], shown)},
+           {{"share within"}, Number{choice.within_90[d], 3}}});
     }
   }
   for (const auto& [how, names] : calibrated) {
@@ -189,23 +165,26 @@ Table ToolTipIntervalTable(const MachineRecord& machine) {
 }
 
 Table PositioningTable(const MachineRecord& machine) {
-  Table table = PositioningColumns(machine, "Positioning by ISO 230-2:2014");
+  Table table = TableOfPositioning(machine,
+                                   "Positioning by ISO 230-2:2014",
+                                   "axis",
+                                   &MachineChoiceRecord::positioning);
   table.note =
       "Of the readings of those sessions, less the map: the runs are its "
       "cycles, warm-up included.";
-  AddPositioning(machine, &MachineChoiceRecord::positioning, &table);
   return table;
 }
 
 Table DiagonalTable(const MachineRecord& machine) {
-  Table table = PositioningColumns(
-      machine, "Diagonals of the work volume, ISO 230-6:2002");
-  table.columns.front().name = "diagonal";
+  Table table =
+      TableOfPositioning(machine,
+                         "Diagonals of the work volume, ISO 230-6:2002",
+                         "diagonal",
+                         &MachineChoiceRecord::diagonals);
   table.note =
       "Named by the signs of X, Y and Z along it (n: falling, 0: standing); "
       "true errors along it, both ways, runs of those sessions, warm-up "
       "included.";
-  AddPositioning(machine, &MachineChoiceRecord::diagonals, &table);
   return table;
 }
 
@@ -240,12 +219,12 @@ Table MachinePartTable(const MachineRecord& machine) {
 }
 
 Table MachineMapTable(const MachineRecord& machine) {
-  Table table{
-      .title = "Maps of the machine",
-      .columns = {{"component", false}, {"maps", false}, {"model", false}}};
+  Table table{.title = "Maps of the machine"};
   for (const MachineChoiceRecord& choice : machine.choices) {
     for (const MachineMapRecord& map : choice.maps) {
-      table.rows.push_back({map.component, choice.name, map.model});
+      table.Add({{{"component", false}, map.component},
+                 {{"maps", false}, choice.name},
+                 {{"model", false}, map.model}});
     }
   }
   return table;

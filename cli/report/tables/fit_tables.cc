@@ -37,10 +37,6 @@ std::string SettingsText(const models::ByName<T>& settings) {
   return text;
 }
 
-void SayWhyEmpty(const std::string& why, Table* table) {
-  if (table->rows.empty()) table->missing = why;
-}
-
 std::string StopText(const models::SummaryRecord& fit) {
   return std::string(fitting::ToString(fit.stop)) +
          (fit.converged ? "" : " (not converged)");
@@ -85,7 +81,7 @@ Table CostTable(const ReportView& view) {
     row.resize(table.columns.size());
     table.rows.push_back(std::move(row));
   }
-  SayWhyEmpty("No map was judged.", &table);
+  table.SayIfEmpty("No map was judged.");
   return table;
 }
 
@@ -94,19 +90,6 @@ Table RunTable(const ReportView& view) {
   table.note =
       "The fits to all rows, as the report's Table 4; sqrt(2 E) of the scaled "
       "target. Times were measured on the machine that fitted.";
-  table.columns = {{"model", false},
-                   {"inputs"},
-                   {"parameters"},
-                   {"iterations"},
-                   {"evaluations"},
-                   {"µs per iteration"},
-                   {"sd, µs"},
-                   {"µs per iteration and parameter"},
-                   {"elapsed, s"},
-                   {"sqrt(2 E) first"},
-                   {"sqrt(2 E) last"},
-                   {"stop", false},
-                   {"message", false}};
   for (const ModelRecord* model : view.models) {
     if (!model->final) continue;
     constexpr double kMicroseconds = 1e6;
@@ -116,37 +99,31 @@ Table RunTable(const ReportView& view) {
     // Equations solved at once have a sum of squares in the target's unit.
     const bool is_scaled = fit.iterations > 0;
     if (model->name == view.recommended) table.marked = table.rows.size();
-    table.rows.push_back(
-        {model->name,
-         model->inputs_used ? Cell(std::ssize(*model->inputs_used)) : Cell(),
-         model->parameters,
-         fit.iterations,
-         fit.evaluations,
-         Number{time},
-         Number{kMicroseconds * fit.sd_iteration_seconds, 3},
-         Number{parameters > 0.0 ? time / parameters : models::kNotKnown, 3},
-         Number{model->final->fit_seconds, 3},
-         Number{RootOfTwice(fit.initial_cost)},
-         Number{is_scaled ? RootOfTwice(fit.final_cost) : models::kNotKnown},
-         StopText(fit),
-         fit.message});
+    table.Add(
+        {{{"model", false}, model->name},
+         {{"inputs"},
+          model->inputs_used ? Cell(std::ssize(*model->inputs_used)) : Cell()},
+         {{"parameters"}, model->parameters},
+         {{"iterations"}, fit.iterations},
+         {{"evaluations"}, fit.evaluations},
+         {{"µs per iteration"}, Number{time}},
+         {{"sd, µs"}, Number{kMicroseconds * fit.sd_iteration_seconds, 3}},
+         {{"µs per iteration and parameter"},
+          Number{parameters > 0.0 ? time / parameters : models::kNotKnown, 3}},
+         {{"elapsed, s"}, Number{model->final->fit_seconds, 3}},
+         {{"sqrt(2 E) first"}, Number{RootOfTwice(fit.initial_cost)}},
+         {{"sqrt(2 E) last"},
+          Number{is_scaled ? RootOfTwice(fit.final_cost) : models::kNotKnown}},
+         {{"stop", false}, StopText(fit)},
+         {{"message", false}, fit.message}});
   }
-  SayWhyEmpty("The fits to all rows were not kept.", &table);
+  table.SayIfEmpty("The fits to all rows were not kept.");
   return table;
 }
 
 Table FoldTable(const ReportView& view) {
   Table table{.title = "Every fold"};
   table.error = ErrorTextOf(view);
-  table.columns = {{"model", false},
-                   {"hold-out", false},
-                   {"fold"},
-                   {WithUnit("training RMSE", view.shown_unit)},
-                   {WithUnit("test RMSE", view.shown_unit)},
-                   {"iterations"},
-                   {"evaluations"},
-                   {"fit, s"},
-                   {"stop", false}};
   for (const ModelRecord* model : view.models) {
     for (const std::string& holdout : view.holdouts) {
       const ResultRecord* result = ResultOf(*model, holdout);
@@ -154,45 +131,41 @@ Table FoldTable(const ReportView& view) {
       for (std::size_t i = 0; i < result->folds.size(); ++i) {
         const models::FoldRecord& fold = result->folds[i];
         const models::SummaryRecord& fit = fold.fit.value.summary.value;
-        table.rows.push_back({model->name,
-                              holdout,
-                              std::to_string(i),
-                              Error{fold.train_rmse},
-                              Error{fold.test_rmse},
-                              fit.iterations,
-                              fit.evaluations,
-                              Number{fold.fit.value.fit_seconds, 3},
-                              StopText(fit)});
+        table.Add(
+            {{{"model", false}, model->name},
+             {{"hold-out", false}, holdout},
+             {{"fold"}, std::to_string(i)},
+             {{WithUnit("training RMSE", view.shown_unit)},
+              Error{fold.train_rmse}},
+             {{WithUnit("test RMSE", view.shown_unit)}, Error{fold.test_rmse}},
+             {{"iterations"}, fit.iterations},
+             {{"evaluations"}, fit.evaluations},
+             {{"fit, s"}, Number{fold.fit.value.fit_seconds, 3}},
+             {{"stop", false}, StopText(fit)}});
       }
     }
   }
-  SayWhyEmpty("No fold was fitted.", &table);
+  table.SayIfEmpty("No fold was fitted.");
   return table;
 }
 
 Table StartTable(const ReportView& view) {
   Table table{.title = "Every start"};
   table.error = ErrorTextOf(view);
-  table.columns = {{"model", false},
-                   {"seed"},
-                   {"sqrt(2 E) last"},
-                   {"iterations"},
-                   {"stop", false},
-                   {WithUnit("inner hold-out RMSE", view.shown_unit)},
-                   {"chosen", false}};
   for (const ModelRecord* model : view.models) {
     if (!model->final || !model->final->starts) continue;
     for (const models::StartResult& start : model->final->starts->table) {
-      table.rows.push_back({model->name,
-                            std::to_string(start.seed),
-                            Number{RootOfTwice(start.final_cost), 5},
-                            start.iterations,
-                            std::string(fitting::ToString(start.stop)),
-                            Error{start.holdout_rmse},
-                            start.chosen ? "yes" : "no"});
+      table.Add({{{"model", false}, model->name},
+                 {{"seed"}, std::to_string(start.seed)},
+                 {{"sqrt(2 E) last"}, Number{RootOfTwice(start.final_cost), 5}},
+                 {{"iterations"}, start.iterations},
+                 {{"stop", false}, std::string(fitting::ToString(start.stop))},
+                 {{WithUnit("inner hold-out RMSE", view.shown_unit)},
+                  Error{start.holdout_rmse}},
+                 {{"chosen", false}, start.chosen ? "yes" : "no"}});
     }
   }
-  SayWhyEmpty("No model was fitted from several starts.", &table);
+  table.SayIfEmpty("No model was fitted from several starts.");
   return table;
 }
 
@@ -201,53 +174,44 @@ Table MemorisationTable(const ReportView& view) {
   table.note =
       "The same fit to shuffled targets: what it explains then is memory, not "
       "machine.";
-  table.columns = {{"model", false},
-                   {"R2 on shuffled targets"},
-                   {"R2 on the targets"},
-                   {"weights per row"},
-                   {"effective parameters"},
-                   {"in words", false}};
   for (const ModelRecord* model : view.models) {
     if (!model->memorisation) continue;
     const models::MemorisationRecord& check = *model->memorisation;
-    table.rows.push_back({model->name,
-                          Number{check.shuffled_r2, 3},
-                          Number{check.train_r2, 4},
-                          Number{check.weights_per_row, 3},
-                          Number{check.effective_parameters, 4},
-                          check.sentence});
+    table.Add(
+        {{{"model", false}, model->name},
+         {{"R2 on shuffled targets"}, Number{check.shuffled_r2, 3}},
+         {{"R2 on the targets"}, Number{check.train_r2, 4}},
+         {{"weights per row"}, Number{check.weights_per_row, 3}},
+         {{"effective parameters"}, Number{check.effective_parameters, 4}},
+         {{"in words", false}, check.sentence}});
   }
-  SayWhyEmpty("No net was checked.", &table);
+  table.SayIfEmpty("No net was checked.");
   return table;
 }
 
 Table OptionTable(const ReportView& view) {
   Table table{.title = "Options that took effect"};
-  table.columns = {{"model", false},
-                   {"kind", false},
-                   {"options", false},
-                   {"chosen by the fit", false}};
   for (const ModelRecord* model : view.models) {
     std::string choices;
     if (model->final && model->final->choices) {
       choices = SettingsText(*model->final->choices);
     }
-    table.rows.push_back({model->name,
-                          std::string(models::ToString(model->kind)),
-                          SettingsText(model->options),
-                          std::move(choices)});
+    table.Add({{{"model", false}, model->name},
+               {{"kind", false}, std::string(models::ToString(model->kind))},
+               {{"options", false}, SettingsText(model->options)},
+               {{"chosen by the fit", false}, std::move(choices)}});
   }
-  SayWhyEmpty("There is no model.", &table);
+  table.SayIfEmpty("There is no model.");
   return table;
 }
 
 Table DroppedTable(const ReportView& view) {
   Table table{.title = "Sensors and columns left out"};
-  table.columns = {{"column", false}, {"why", false}};
   for (const data::DroppedColumn& dropped : view.component->data.dropped) {
-    table.rows.push_back({dropped.column, dropped.why});
+    table.Add(
+        {{{"column", false}, dropped.column}, {{"why", false}, dropped.why}});
   }
-  SayWhyEmpty("No column was left out.", &table);
+  table.SayIfEmpty("No column was left out.");
   return table;
 }
 
@@ -266,26 +230,19 @@ std::string RangeOfSizes(const models::RowsOfFolds& lists) {
 
 Table HoldoutTable(const ReportView& view) {
   Table table{.title = "How rows were held out"};
-  table.columns = {{"hold-out", false},
-                   {"folds"},
-                   {"training rows"},
-                   {"test rows"},
-                   {"whole groups", false},
-                   {"unit of analysis", false},
-                   {"units"},
-                   {"what it does", false}};
   for (const models::HoldoutRecord& holdout : view.component->holdouts) {
-    table.rows.push_back(
-        {holdout.name,
-         holdout.folds,
-         RangeOfSizes(holdout.train_rows),
-         RangeOfSizes(holdout.test_rows),
-         holdout.whole_groups ? "yes" : "no",
-         holdout.unit_of_analysis.empty() ? "-" : holdout.unit_of_analysis,
-         holdout.units,
-         stats::HoldoutMeaning(holdout.name)});
+    table.Add(
+        {{{"hold-out", false}, holdout.name},
+         {{"folds"}, holdout.folds},
+         {{"training rows"}, RangeOfSizes(holdout.train_rows)},
+         {{"test rows"}, RangeOfSizes(holdout.test_rows)},
+         {{"whole groups", false}, holdout.whole_groups ? "yes" : "no"},
+         {{"unit of analysis", false},
+          holdout.unit_of_analysis.empty() ? "-" : holdout.unit_of_analysis},
+         {{"units"}, holdout.units},
+         {{"what it does", false}, stats::HoldoutMeaning(holdout.name)}});
   }
-  SayWhyEmpty("There is no hold-out.", &table);
+  table.SayIfEmpty("There is no hold-out.");
   return table;
 }
 

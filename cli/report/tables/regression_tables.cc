@@ -67,35 +67,23 @@ std::string PenaltyText(const models::PenaltyRecord& fit) {
 
 Table StepTable(const RegressionRecord& regression) {
   Table table{.title = "Steps (+ entered, - left, * chosen)"};
-  table.columns = {{"step", false},
-                   {"terms"},
-                   {"F"},
-                   {"p"},
-                   {"RSS"},
-                   {"AIC"},
-                   {"AICc"},
-                   {"BIC"},
-                   {"adj R2"},
-                   {"PRESS"},
-                   {"Cp"},
-                   {"CV"}};
   for (const models::StepRecord& step : regression.steps) {
     const bool chosen = std::ssize(table.rows) == regression.chosen_step;
-    table.rows.push_back(
-        {(chosen ? "* " : "  ") +
-             (step.term ? (step.entered ? "+ " : "- ") + *step.term
-                        : std::string("(start)")),
-         step.terms,
-         Number{step.f, 4},
-         P{step.p},
-         Number{step.rss, 5},
-         Fixed{step.aic, 3},
-         Fixed{step.aicc, 3},
-         Fixed{step.bic, 3},
-         Fixed{step.adjusted_r2, 6},
-         Number{step.press, 5},
-         Number{step.cp, 5},
-         Number{step.cv, 5}});
+    table.Add({{{"step", false},
+                (chosen ? "* " : "  ") +
+                    (step.term ? (step.entered ? "+ " : "- ") + *step.term
+                               : std::string("(start)"))},
+               {{"terms"}, step.terms},
+               {{"F"}, Number{step.f, 4}},
+               {{"p"}, P{step.p}},
+               {{"RSS"}, Number{step.rss, 5}},
+               {{"AIC"}, Fixed{step.aic, 3}},
+               {{"AICc"}, Fixed{step.aicc, 3}},
+               {{"BIC"}, Fixed{step.bic, 3}},
+               {{"adj R2"}, Fixed{step.adjusted_r2, 6}},
+               {{"PRESS"}, Number{step.press, 5}},
+               {{"Cp"}, Number{step.cp, 5}},
+               {{"CV"}, Number{step.cv, 5}}});
   }
   table.note = fmt::format(
       "Ended: {}. AIC = n ln(RSS/n) + 2k with k coefficients, as R's step() "
@@ -129,33 +117,22 @@ Table CoefficientTable(const RegressionRecord& regression) {
         fit.bootstrap.unit);
   }
   table.note += CentresText(regression.centres);
-  table.columns = {{"term", false},
-                   {"estimate"},
-                   {"std. error"},
-                   {"t"},
-                   {"p"},
-                   {"95 % from"},
-                   {"95 % to"},
-                   {"standardised"},
-                   {"VIF"},
-                   {"chosen in, %", true, "share of bootstrap repetitions"}};
   for (const models::CoefficientRecord& term : regression.coefficients) {
     const models::TermRecord more =
         term.of_term.value.value_or(models::TermRecord());
-    table.rows.push_back({term.term,
-                          Number{term.estimate, 9},
-                          Number{term.standard_error, 5},
-                          Number{term.t},
-                          P{term.p},
-                          Number{term.ci95[0], 5},
-                          Number{term.ci95[1], 5},
-                          Number{more.standardised},
-                          Number{more.vif},
-                          Number{kPercent * more.bootstrap_inclusion, 3}});
+    table.Add({{{"term", false}, term.term},
+               {{"estimate"}, Number{term.estimate, 9}},
+               {{"std. error"}, Number{term.standard_error, 5}},
+               {{"t"}, Number{term.t}},
+               {{"p"}, P{term.p}},
+               {{"95 % from"}, Number{term.ci95[0], 5}},
+               {{"95 % to"}, Number{term.ci95[1], 5}},
+               {{"standardised"}, Number{more.standardised}},
+               {{"VIF"}, Number{more.vif}},
+               {{"chosen in, %", true, "share of bootstrap repetitions"},
+                Number{kPercent * more.bootstrap_inclusion, 3}}});
   }
-  if (table.rows.empty()) {
-    table.missing = "The coefficients' statistics were not kept.";
-  }
+  table.SayIfEmpty("The coefficients' statistics were not kept.");
   return table;
 }
 
@@ -189,20 +166,19 @@ Table AnovaTable(const RegressionRecord& regression) {
 Table ExcludedTerms(const RegressionRecord& regression) {
   const auto terms = LeastSquaresOf(regression).excluded;
   Table table{.title = fmt::format("Terms left out ({})", terms.size())};
-  table.columns = {
-      {"term", false}, {"F if it entered"}, {"p"}, {"chosen in, %"}};
   constexpr std::size_t kMost = 40;
   for (std::size_t i = 0; i < std::min(terms.size(), kMost); ++i) {
-    table.rows.push_back({terms[i].term,
-                          Number{terms[i].f},
-                          P{terms[i].p},
-                          Number{kPercent * terms[i].bootstrap_inclusion, 3}});
+    table.Add({{{"term", false}, terms[i].term},
+               {{"F if it entered"}, Number{terms[i].f}},
+               {{"p"}, P{terms[i].p}},
+               {{"chosen in, %"},
+                Number{kPercent * terms[i].bootstrap_inclusion, 3}}});
   }
   if (terms.size() > kMost) {
     table.note = fmt::format(
         "The first {} of {}; all are in results.json.", kMost, terms.size());
   }
-  if (table.rows.empty()) table.missing = "No term was left out.";
+  table.SayIfEmpty("No term was left out.");
   return table;
 }
 
@@ -210,11 +186,10 @@ Table AliasedTerms(const RegressionRecord& regression) {
   const auto terms = LeastSquaresOf(regression).aliased;
   Table table{.title = fmt::format("Aliased terms ({})", terms.size())};
   table.note = "The terms in the model determine them.";
-  table.columns = {{"term", false}, {"why", false}};
   for (const auto& term : terms) {
-    table.rows.push_back({term.term, term.why});
+    table.Add({{{"term", false}, term.term}, {{"why", false}, term.why}});
   }
-  if (table.rows.empty()) table.missing = "No term is aliased.";
+  table.SayIfEmpty("No term is aliased.");
   return table;
 }
 

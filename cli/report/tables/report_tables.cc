@@ -11,6 +11,8 @@
 namespace errmap::report {
 namespace {
 
+using Named = Table::Named;
+
 std::string ErrorHead(const ReportView& view, const std::string& what) {
   return WithUnit(what, view.shown_unit);
 }
@@ -30,13 +32,9 @@ void MarkIfRecommended(const ReportView& view,
   if (model == view.recommended) table->marked = table->rows.size();
 }
 
-void SayIfEmpty(const std::string& why, Table* table) {
-  if (table->rows.empty()) table->missing = why;
-}
-
 // A row of each model that has results under the hold-out.
-using RowOf = std::vector<Cell>(const std::string& model,
-                                const ResultRecord& result);
+using RowOf = std::vector<Named>(const std::string& model,
+                                 const ResultRecord& result);
 
 void AddRowsOfModels(const ReportView& view,
                      const std::string& holdout,
@@ -46,61 +44,69 @@ void AddRowsOfModels(const ReportView& view,
     const ResultRecord* const result = ResultOf(*model, holdout);
     if (result == nullptr) continue;
     MarkIfRecommended(view, model->name, table);
-    table->rows.push_back(row_of(model->name, *result));
+    table->Add(row_of(model->name, *result));
   }
-  SayIfEmpty("No model has results under this hold-out.", table);
+  table->SayIfEmpty("No model has results under this hold-out.");
 }
 
-std::vector<Cell> ErrorsRow(const std::string& model,
-                            const ResultRecord& result) {
+std::vector<Named> ErrorsRow(const std::string& model,
+                             const ResultRecord& result) {
   const models::MetricsRecord& test = result.test;
-  std::vector<Cell> row{model, test.n};
-  for (const double value : {test.mean,
-                             test.sd,
-                             test.min,
-                             test.max,
-                             test.range,
-                             test.rmse,
-                             test.mae}) {
-    row.push_back(Error{value});
-  }
-  row.push_back(Fixed{test.r2, 4});
-  row.push_back(Error{result.train.rmse});
-  return row;
+  return {{{"model", false}, model},
+          {{"rows"}, test.n},
+          {{"mean"}, Error{test.mean}},
+          {{"sd"}, Error{test.sd}},
+          {{"min"}, Error{test.min}},
+          {{"max"}, Error{test.max}},
+          {{"range"}, Error{test.range}},
+          {{"RMSE"}, Error{test.rmse}},
+          {{"MAE"}, Error{test.mae}},
+          {{"R2"}, Fixed{test.r2, 4}},
+          {{"training RMSE"}, Error{result.train.rmse}}};
 }
 
-std::vector<Cell> NormalityRow(const std::string& model,
-                               const ResultRecord& result) {
+std::vector<Named> NormalityRow(const std::string& model,
+                                const ResultRecord& result) {
   const models::NormalityRecord& tests = result.normality;
-  return {model,
-          Statistic{tests.ks.d, tests.ks.p_given},
-          Statistic{tests.lilliefors.d, tests.lilliefors.p},
-          Statistic{tests.shapiro_wilk.w, tests.shapiro_wilk.p},
-          Statistic{tests.anderson_darling.a2, tests.anderson_darling.p},
-          Statistic{tests.jarque_bera.jb, tests.jarque_bera.p},
-          Number{tests.ppcc.lambda, 3},
-          Number{tests.ppcc.r_max},
-          Number{tests.ppcc.r_normal},
-          Number{tests.skewness, 3},
-          Number{tests.kurtosis, 3}};
+  return {
+      {{"model", false}, model},
+      {{"K-S D (p of Eq. 140)"}, Statistic{tests.ks.d, tests.ks.p_given}},
+      {{"Lilliefors (p)"}, Statistic{tests.lilliefors.d, tests.lilliefors.p}},
+      {{"Shapiro-Wilk (p)"},
+       Statistic{tests.shapiro_wilk.w, tests.shapiro_wilk.p}},
+      {{"Anderson-Darling (p)"},
+       Statistic{tests.anderson_darling.a2, tests.anderson_darling.p}},
+      {{"Jarque-Bera (p)"},
+       Statistic{tests.jarque_bera.jb, tests.jarque_bera.p}},
+      {{"PPCC lambda"}, Number{tests.ppcc.lambda, 3}},
+      {{"PPCC r"}, Number{tests.ppcc.r_max}},
+      {{"r normal"}, Number{tests.ppcc.r_normal}},
+      {{"skewness"}, Number{tests.skewness, 3}},
+      {{"kurtosis"}, Number{tests.kurtosis, 3}}};
 }
 
-std::vector<Cell> IndependenceRow(const std::string& model,
-                                  const ResultRecord& result) {
+std::vector<Named> IndependenceRow(const std::string& model,
+                                   const ResultRecord& result) {
   const models::RandomnessRecord& tests = result.randomness;
   const models::SerialRecord& order = tests.in_order;
   const auto& spread = tests.breusch_pagan;
   return {
-      model,
-      Statistic{order.runs.test.value.z, order.runs.test.value.p},
-      Statistic{order.lag1.test.value.r, order.lag1.test.value.p},
-      Statistic{order.durbin_watson.d, order.durbin_watson.p},
-      Statistic{order.ljung_box.test.value.q, order.ljung_box.test.value.p},
-      Number{ShareOf(tests.by_group), 3},
-      TestOf(tests.by_group),
-      Number{ShareOf(tests.by_position), 3},
-      TestOf(tests.by_position),
-      spread ? Statistic{spread->test.value.lm, spread->test.value.p} : Cell()};
+      {{"model", false}, model},
+      {{"runs z (p)"},
+       Statistic{order.runs.test.value.z, order.runs.test.value.p}},
+      {{"lag-1 r (p)"},
+       Statistic{order.lag1.test.value.r, order.lag1.test.value.p}},
+      {{"Durbin-Watson (p)"},
+       Statistic{order.durbin_watson.d, order.durbin_watson.p}},
+      {{"Ljung-Box (p)"},
+       Statistic{order.ljung_box.test.value.q, order.ljung_box.test.value.p}},
+      {{"between groups, %"}, Number{ShareOf(tests.by_group), 3}},
+      {{"F (p)"}, TestOf(tests.by_group)},
+      {{"between positions, %"}, Number{ShareOf(tests.by_position), 3}},
+      {{"F (p)"}, TestOf(tests.by_position)},
+      {{"Breusch-Pagan (p)"},
+       spread ? Statistic{spread->test.value.lm, spread->test.value.p}
+              : Cell()}};
 }
 
 }  // namespace
@@ -110,26 +116,22 @@ Table GapTable(const ReportView& view) {
   table.error = ErrorTextOf(view);
   const models::GapRecord gap =
       view.component->gap.value_or(models::GapRecord());
-  table.columns = {{"model", false},
-                   {ErrorHead(view, gap.neighbours + " RMSE")},
-                   {ErrorHead(view, gap.unseen + " RMSE")},
-                   {"ratio"},
-                   {"flattered", false}};
   for (const ModelRecord* viewed : view.models) {
     for (const models::GapModelRecord& model : gap.models) {
       if (model.model != viewed->name) continue;
       MarkIfRecommended(view, viewed->name, &table);
-      table.rows.push_back({viewed->name,
-                            Error{model.neighbours_rmse},
-                            Error{model.unseen_rmse},
-                            Number{model.ratio, 3},
-                            model.flatters ? "yes" : "no"});
+      table.Add(
+          {{{"model", false}, viewed->name},
+           {{ErrorHead(view, gap.neighbours + " RMSE")},
+            Error{model.neighbours_rmse}},
+           {{ErrorHead(view, gap.unseen + " RMSE")}, Error{model.unseen_rmse}},
+           {{"ratio"}, Number{model.ratio, 3}},
+           {{"flattered", false}, model.flatters ? "yes" : "no"}});
     }
   }
-  SayIfEmpty(
+  table.SayIfEmpty(
       "There is no gap to show: it needs a hold-out of neighbours and one of "
-      "whole groups.",
-      &table);
+      "whole groups.");
   return table;
 }
 
@@ -140,16 +142,6 @@ Table ComparisonTable(const ReportView& view, const std::string& holdout) {
       "Difference of RMSE, other model less the recommended one, with its 95 % "
       "interval; one mean loss difference per unit of analysis. All pairs are "
       "in results.json.";
-  table.columns = {{"other model", false},
-                   {ErrorHead(view, "difference")},
-                   {"p", true, "sign-flip permutation"},
-                   {"p (Holm)"},
-                   {"p Wilcoxon"},
-                   {"p corrected t", true, "Nadeau and Bengio"},
-                   {"p Diebold-Mariano"},
-                   {"units"},
-                   {"lag-1", true, "correlation of one unit with the next"},
-                   {"established", false}};
   for (const ModelRecord* model : view.models) {
     if (model->name == view.recommended) continue;
     const models::PairRecord* pair =
@@ -166,37 +158,37 @@ Table ComparisonTable(const ReportView& view, const std::string& holdout) {
     const auto p_of = [](const std::optional<models::MeanTestRecord>& test) {
       return P{test ? test->p : models::kNotKnown};
     };
-    table.rows.push_back({model->name,
-                          Interval{interval, difference},
-                          P{pair->p},
-                          P{pair->p_holm},
-                          P{pair->tests.wilcoxon.p},
-                          p_of(pair->tests.corrected_t),
-                          p_of(pair->tests.diebold_mariano),
-                          pair->units,
-                          Number{pair->lag1, 2},
-                          pair->established ? "yes" : "no"});
+    table.Add(
+        {{{"other model", false}, model->name},
+         {{ErrorHead(view, "difference")}, Interval{interval, difference}},
+         {{"p", true, "sign-flip permutation"}, P{pair->p}},
+         {{"p (Holm)"}, P{pair->p_holm}},
+         {{"p Wilcoxon"}, P{pair->tests.wilcoxon.p}},
+         {{"p corrected t", true, "Nadeau and Bengio"},
+          p_of(pair->tests.corrected_t)},
+         {{"p Diebold-Mariano"}, p_of(pair->tests.diebold_mariano)},
+         {{"units"}, pair->units},
+         {{"lag-1", true, "correlation of one unit with the next"},
+          Number{pair->lag1, 2}},
+         {{"established", false}, pair->established ? "yes" : "no"}});
   }
-  SayIfEmpty("Differences between models were not tested.", &table);
+  table.SayIfEmpty("Differences between models were not tested.");
   return table;
 }
 
 Table StabilityTable(const ReportView& view) {
   Table table{.title = "Would other cuts choose the same?"};
-  table.columns = {
-      {"hold-out", false}, {"repeats"}, {"model", false}, {"share of wins, %"}};
   for (const models::StabilityRecord& entry : view.component->stability) {
     for (const models::WinRecord& win : entry.wins) {
-      table.rows.push_back({entry.holdout,
-                            entry.repeats,
-                            win.model,
-                            Number{kPercent * win.share, 3}});
+      table.Add({{{"hold-out", false}, entry.holdout},
+                 {{"repeats"}, entry.repeats},
+                 {{"model", false}, win.model},
+                 {{"share of wins, %"}, Number{kPercent * win.share, 3}}});
     }
   }
-  SayIfEmpty(
+  table.SayIfEmpty(
       "The groups were cut once only; --holdout groups:5:repeats=20 tells how "
-      "stable the choice is.",
-      &table);
+      "stable the choice is.");
   return table;
 }
 
@@ -207,17 +199,6 @@ Table ResidualTable(const ReportView& view, const std::string& holdout) {
       "Residual = measured - predicted on the rows held out, sd with n - 1{}. "
       "R2 is about the training rows' mean.",
       view.shown_unit.empty() ? "" : ", in " + view.shown_unit);
-  table.columns = {{"model", false},
-                   {"rows"},
-                   {"mean"},
-                   {"sd"},
-                   {"min"},
-                   {"max"},
-                   {"range"},
-                   {"RMSE"},
-                   {"MAE"},
-                   {"R2"},
-                   {"training RMSE"}};
   AddRowsOfModels(view, holdout, ErrorsRow, &table);
   return table;
 }
@@ -226,15 +207,14 @@ Table SinceStartTable(const ReportView& view) {
   constexpr double kMinute = 60.0;
   Table table{.title = "Error since the start of a session, " +
                        view.recommended + ", " + view.decisive};
-  table.columns = {{"from, min"}, {"to, min"}, {"rows"}, {"mean"}, {"RMSE"}};
   if (view.component->recommendation) {
     for (const models::SinceStartRecord& part :
          view.component->recommendation->since_start) {
-      table.rows.push_back({Number{part.from / kMinute, 3},
-                            Number{part.until / kMinute, 3},
-                            part.n,
-                            Error{part.mean},
-                            Error{part.rmse}});
+      table.Add({{{"from, min"}, Number{part.from / kMinute, 3}},
+                 {{"to, min"}, Number{part.until / kMinute, 3}},
+                 {{"rows"}, part.n},
+                 {{"mean"}, Error{part.mean}},
+                 {{"RMSE"}, Error{part.rmse}}});
     }
   }
   return table;
@@ -245,17 +225,6 @@ Table NormalityTable(const ReportView& view, const std::string& holdout) {
   table.note =
       "Statistic and p. The p of Eq. 140 takes mean and sd as given though "
       "they were estimated: Lilliefors' is the right one.";
-  table.columns = {{"model", false},
-                   {"K-S D (p of Eq. 140)"},
-                   {"Lilliefors (p)"},
-                   {"Shapiro-Wilk (p)"},
-                   {"Anderson-Darling (p)"},
-                   {"Jarque-Bera (p)"},
-                   {"PPCC lambda"},
-                   {"PPCC r"},
-                   {"r normal"},
-                   {"skewness"},
-                   {"kurtosis"}};
   AddRowsOfModels(view, holdout, NormalityRow, &table);
   return table;
 }
@@ -265,16 +234,6 @@ Table IndependenceTable(const ReportView& view, const std::string& holdout) {
   table.note =
       "Statistic and p, in the file's order; then the share of the residuals' "
       "variance that lies between groups and between positions.";
-  table.columns = {{"model", false},
-                   {"runs z (p)"},
-                   {"lag-1 r (p)"},
-                   {"Durbin-Watson (p)"},
-                   {"Ljung-Box (p)"},
-                   {"between groups, %"},
-                   {"F (p)"},
-                   {"between positions, %"},
-                   {"F (p)"},
-                   {"Breusch-Pagan (p)"}};
   AddRowsOfModels(view, holdout, IndependenceRow, &table);
   return table;
 }

@@ -567,7 +567,7 @@ Table PageLeaderboard(const ReportView& view) {
     table.note += other + " ";
   }
   table.note += fmt::format("{}.", kIntervalCoverage);
-  if (table.rows.empty()) table.missing = "No model was fitted.";
+  table.SayIfEmpty("No model was fitted.");
   return table;
 }
 
