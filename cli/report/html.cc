@@ -62,6 +62,11 @@ std::string HtmlName(std::string_view name) {
   return "<bdi>" + HtmlText(name) + "</bdi>";
 }
 
+std::string ScrolledTable(std::string_view label, const std::string& rows) {
+  return "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"" +
+         HtmlText(label) + "\"><table>" + rows + "</table></div>";
+}
+
 std::string MarkdownText(std::string_view text) {
   constexpr std::string_view kSpecial = "\\`*_{}[]<>()#+!|~&$";
   std::string escaped;

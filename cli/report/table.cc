@@ -280,12 +280,7 @@ std::string HtmlTable(const Table& whole) {
   // What does not apply is left out of a page.
   if (!whole.missing.empty()) return "";
   const Table table = WithoutEmptyColumns(whole);
-  std::string html;
-  if (!table.title.empty()) html += "<h4>" + HtmlText(table.title) + "</h4>\n";
-  html += fmt::format(
-      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-      "aria-label=\"{}\"><table><thead><tr>",
-      HtmlText(table.title));
+  std::string html = "<thead><tr>";
   for (const Table::Column& column : table.columns) {
     html += fmt::format("<th scope=\"col\"{}>{}{}</th>",
                         column.is_number ? "" : " class=\"t\"",
@@ -308,7 +303,10 @@ std::string HtmlTable(const Table& whole) {
     }
     html += "</tr>\n";
   }
-  html += "</tbody></table></div>\n";
+  html = ScrolledTable(table.title, html + "</tbody>") + "\n";
+  if (!table.title.empty()) {
+    html = "<h4>" + HtmlText(table.title) + "</h4>\n" + html;
+  }
   if (table.note.empty()) return html;
   return html + "<p class=\"soft small\">" + HtmlText(table.note) + "</p>\n";
 }

@@ -37,15 +37,6 @@ std::string Collapsed(const std::string& title,
                      content);
 }
 
-// A table that is wider than some screens; `rows` begin with the head.
-std::string ScrolledTable(const std::string& label, const std::string& rows) {
-  return fmt::format(
-      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-      "aria-label=\"{}\"><table>{}</table></div>",
-      label,
-      rows);
-}
-
 class FleetPage {
  public:
   FleetPage(const StorePaths& paths, const FleetSummaries& found)
@@ -220,7 +211,7 @@ class FleetPage {
     }
     return Collapsed(
         fmt::format("Error by {} and {}", FieldName(0), FieldName(1)),
-        ScrolledTable("Errors", html),
+        report::ScrolledTable("Errors", html),
         rows.size() <= kMostShown);
   }
 
@@ -301,7 +292,7 @@ class FleetPage {
           report::HtmlName(found.model));
     }
     return "<h2>The worst against their goals</h2>\n" +
-           ScrolledTable("The worst", html) + "\n";
+           report::ScrolledTable("The worst", html) + "\n";
   }
 
   std::string Failures() const {
@@ -369,7 +360,7 @@ class FleetPage {
     if (rows.empty()) return "";
     return Collapsed(
         "All components",
-        ScrolledTable(
+        report::ScrolledTable(
             "All components",
             fmt::format(
                 "<tr><th class=\"t\">component</th><th "
@@ -415,16 +406,11 @@ class FleetPage {
 }  // namespace
 
 std::string StorePage(const std::string& title, const std::string& main) {
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta name=\"viewport\" content=\"width=device-width, "
-      "initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" "
-      "content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
-      "data:\">\n<title>{0}</title>\n<style>{1}</style></head>\n<body>\n"
-      "<header><h1>{0}</h1></header>\n<main>\n{2}</main>\n</body></html>\n",
-      report::HtmlText(title),
-      report::kReportStyle,
-      main);
+  return report::PageHtml(
+      title,
+      fmt::format("<header><h1>{}</h1></header>\n<main>\n{}</main>\n",
+                  report::HtmlText(title),
+                  main));
 }
 
 std::string FigureHtml(const report::Plot& plot,

@@ -30,6 +30,7 @@
 #include "data/text.h"
 #include "models/kinematics/iso230.h"
 #include "models/model_file.h"
+#include "models/study/record/record_json.h"
 
 namespace errmap::cli {
 namespace {
@@ -345,19 +346,6 @@ Json FiguresJson(const std::vector<PositioningPoint>& points) {
   return json;
 }
 
-Json PointsJson(const std::vector<PositioningPoint>& points) {
-  Json list = Json::array();
-  const auto side = [](const models::Approaches& of) {
-    return Json{{"runs", of.runs}, {"mean", of.mean}, {"sd", of.sd}};
-  };
-  for (const PositioningPoint& point : points) {
-    list.push_back({{"position", point.position},
-                    {"up", side(point.up)},
-                    {"down", side(point.down)}});
-  }
-  return list;
-}
-
 Json TestJson(const Iso230Arguments& arguments,
               const Approached& all,
               const Judged& judged,
@@ -379,8 +367,8 @@ Json TestJson(const Iso230Arguments& arguments,
           {"measured", FiguresJson(judged.before)},
           {"with_map", FiguresJson(judged.after)},
           {"points",
-           {{"measured", PointsJson(judged.before)},
-            {"with_map", PointsJson(judged.after)}}},
+           {{"measured", models::ToJson(judged.before)},
+            {"with_map", models::ToJson(judged.after)}}},
           {"provenance", ProvenanceJson(command_line, Json(nullptr), inputs)}};
 }
 

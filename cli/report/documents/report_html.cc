@@ -206,10 +206,7 @@ std::string Page::Notices() const {
 }
 
 std::string Page::Index(const std::vector<ReportView>& views) const {
-  std::string html =
-      "<nav aria-label=\"Components\"><h2>Components</h2>\n<div "
-      "class=\"scroll\" tabindex=\"0\" role=\"region\" "
-      "aria-label=\"Components\"><table><thead><tr>";
+  std::string html = "<thead><tr>";
   for (const char* name : {"component",
                            "use",
                            "error",
@@ -252,8 +249,9 @@ std::string Page::Index(const std::vector<ReportView>& views) const {
     links += fmt::format(
         "<p><a href=\"#{}\">{}</a></p>", part.id, HtmlText(part.link));
   }
-  return html +
-         "</tbody></table></div><p class=\"soft small\">Left of the error: the "
+  return "<nav aria-label=\"Components\"><h2>Components</h2>\n" +
+         ScrolledTable("Components", html + "</tbody>") +
+         "<p class=\"soft small\">Left of the error: the "
          "dot between 0 and the error without a map, its bar the 95 % "
          "interval. Unit by unit: the error on each cycle, day or block held "
          "out whole, from 0 to the largest. Proven: better than the best "
@@ -518,16 +516,8 @@ std::string Page::Html() const {
   for (std::size_t i = 0; i < NumComponents(); ++i) {
     views.push_back(ViewOf(Components()[i]));
   }
-  const std::string title = HtmlText(Title());
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, "
-      "initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" "
-      "content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
-      "data:\">\n<link rel=\"icon\" href=\"data:,\">\n<title>" +
-      title + "</title>\n<style>" + kReportStyle +
-      "</style>\n</head>\n<body>\n";
-  html += "<header id=\"top\"><h1>" + title + "</h1></header>\n<main>\n";
+  std::string html = "<header id=\"top\"><h1>" + HtmlText(Title()) +
+                     "</h1></header>\n<main>\n";
   html += Notices();
   if (views.size() > kOpenComponents) html += Index(views);
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -547,7 +537,7 @@ std::string Page::Html() const {
       "<p>Drawn by errmap{}; errmap report DIR draws it anew from "
       "results.json.</p>",
       version.empty() ? "" : " " + HtmlText(version));
-  return html + "</footer>\n</body>\n</html>\n";
+  return PageHtml(Title(), html + "</footer>\n");
 }
 
 }  // namespace

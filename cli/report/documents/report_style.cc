@@ -1,8 +1,11 @@
 #include "cli/report/documents/report_style.h"
 
-namespace errmap::report {
+#include "cli/report/html.h"
 
-const char* const kReportStyle = R"css(
+namespace errmap::report {
+namespace {
+
+constexpr const char* kStyle = R"css(
 :root{color-scheme:light;--ink:#1b1f24;--soft:#4c5560;--line:#d5dae0;--paper:#fff;--tint:#f4f6f8;--mark:#e6f1fa;--blue:#0b5394;--good:#0a6b3d;--bad:#a33a00}
 *{box-sizing:border-box}
 html{-webkit-text-size-adjust:100%}
@@ -91,5 +94,18 @@ a{color:inherit;text-decoration:none}
 .card,th,tr.mark td{-webkit-print-color-adjust:exact;print-color-adjust:exact}
 }
 )css";
+
+}  // namespace
+
+std::string PageHtml(const std::string& title, const std::string& body) {
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta "
+         "charset=\"utf-8\">\n<meta name=\"viewport\" "
+         "content=\"width=device-width, initial-scale=1\">\n<meta "
+         "http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+         "style-src 'unsafe-inline'; img-src data:\">\n<link rel=\"icon\" "
+         "href=\"data:,\">\n<title>" +
+         HtmlText(title) + "</title>\n<style>" + kStyle +
+         "</style>\n</head>\n<body>\n" + body + "</body>\n</html>\n";
+}
 
 }  // namespace errmap::report
