@@ -137,22 +137,6 @@ Vector3d KinematicChain::NominalReach(const VectorXd& coordinates) const {
   return nominal.tool.translation() - nominal.work.translation();
 }
 
-Isometry3d KinematicChain::Tool(const VectorXd& coordinates,
-                                const VectorXd& errors) const {
-  CheckSizes(coordinates, &errors);
-  return EndsOf(coordinates, &errors).tool;
-}
-
-Isometry3d KinematicChain::Work(const VectorXd& coordinates,
-                                const VectorXd& errors) const {
-  CheckSizes(coordinates, &errors);
-  const Ends nominal = EndsOf(coordinates, nullptr);
-  Isometry3d work =
-      EndsOf(coordinates, &errors).work * nominal.work.inverse() * nominal.tool;
-  work.linear() = Orthonormal(work.linear());
-  return work;
-}
-
 Vector3d KinematicChain::ExactError(const VectorXd& coordinates,
                                     const VectorXd& errors) const {
   CheckSizes(coordinates, &errors);

@@ -81,15 +81,6 @@ class KinematicChain {
   /// theirs of errors likewise.
   Eigen::Vector3d NominalReach(const Eigen::VectorXd& coordinates) const;
 
-  /// T_TOOL of Eq. 6 with errors: the tool's frame in that of the base.
-  Eigen::Isometry3d Tool(const Eigen::VectorXd& coordinates,
-                         const Eigen::VectorXd& errors) const;
-
-  /// T_WORK with errors: the frame that the workpiece carries and that is Tool
-  /// without errors (Eq. 3 and 4).
-  Eigen::Isometry3d Work(const Eigen::VectorXd& coordinates,
-                         const Eigen::VectorXd& errors) const;
-
   /// Tool less work (3) by the product of the matrices.
   Eigen::Vector3d ExactError(const Eigen::VectorXd& coordinates,
                              const Eigen::VectorXd& errors) const;
