@@ -110,12 +110,18 @@ class LayoutFinder {
     }
   }
 
-  // The first row with more numbers than words there; kNone where the table
-  // has none.
+  // The first row with more numbers than words there, as long as the others
+  // or with half of their numbers ("Targets,17" is a line above the table);
+  // kNone where the table has none.
   std::size_t FirstDataRow() const {
     for (std::size_t i = 0; i < records_.size(); ++i) {
-      const CellCounts counts = CountsOf(records_[i].cells);
-      if (counts.numbers > counts.words && !AreNumberNames(i)) return i;
+      const std::vector<std::string>& cells = records_[i].cells;
+      const CellCounts counts = CountsOf(cells);
+      const bool is_whole =
+          cells.size() + 1 >= usual_ || 2 * counts.numbers >= num_numeric_;
+      if (is_whole && counts.numbers > counts.words && !AreNumberNames(i)) {
+        return i;
+      }
     }
     return kNone;
   }

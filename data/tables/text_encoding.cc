@@ -31,6 +31,9 @@ constexpr auto kFormats = std::to_array<KnownFormat>(
      {"<!DOCTYPE", "a web page; save the table as CSV"},
      {"<html", "a web page; save the table as CSV"},
      {"<?xml", "XML; export the table as CSV"},
+     {"CREATE TABLE", "SQL; export the table as CSV"},
+     {"INSERT INTO", "SQL; export the table as CSV"},
+     {"[{", "JSON; export the table as CSV"},
      {"{", "JSON, as maps and results are; measurements are CSV or xlsx"}});
 
 enum class Order { kNone, kLittleEndian, kBigEndian };

@@ -25,7 +25,7 @@ std::optional<CsvColumn> FilledDown(const CsvTable& table, std::size_t column) {
   for (const auto& [row, text] : given.exceptions) {
     empty += given.texts[text].empty() ? 1 : 0;
   }
-  if (2 * empty < table.num_rows || is_empty(0)) return std::nullopt;
+  if (2 * empty <= table.num_rows || is_empty(0)) return std::nullopt;
   std::vector<Eigen::Index> from;
   for (std::size_t row = 0; row < table.num_rows; ++row) {
     from.push_back(is_empty(row) ? from.back()

@@ -133,6 +133,8 @@ TEST(MessyFiles, AllElseIsOneLineThatSaysWhatToDo) {
       {"%PDF-1.4\n", "PDF"},
       {"<!doctype html><table></table>\n", "web page"},
       {"{\n \"schema\": \"errmap-model-1\"}\n", "this is JSON"},
+      {"[{\"x\": 1}, {\"x\": 2}]\n", "this is JSON"},
+      {"INSERT INTO t VALUES (1, 2);\n", "this is SQL"},
       {text + "4,5,6\n", "line 122 (data row 120): 3 fields"},
       {text + "End of file,,,,,,\n", "'End of file' where the other rows"},
       {text + "Mean,,,200,24,21,9.5\n", "a row of totals or a remark"},

@@ -91,6 +91,21 @@ TEST(TableShape, FindsNamesBelowTitlesWhateverTheRowsEndWith) {
   }
 }
 
+// Lines of a name and a number above rows that begin with a date.
+TEST(TableShape, FindsNamesBelowLinesOfTwoCells) {
+  std::string text =
+      "Machine,Lathe 3\nTargets,17\nRuns,10\n\nDate/Time," + kNames + "\n";
+  for (int i = 0; i < 8; ++i) {
+    text += "2024-03-04 08:00:0" + std::to_string(i) + "," +
+            std::to_string(20 * i) + ",20.5,-1.5\n";
+  }
+  const CsvTable table = ParseCsv(text, "f.csv");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("Date/Time", "position_mm", "t1_degC", "error_um"));
+  EXPECT_EQ(table.num_rows, 8U);
+  EXPECT_THAT(table.titles, SizeIs(3));
+}
+
 TEST(TableShape, FindsNamesInCommentsAndBehindDollars) {
   for (const std::string& head : {"# a test stand\n# " + kNames + "\n",
                                   "##Instrument A\n##\n##" + kNames + "\n",
