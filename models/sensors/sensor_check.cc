@@ -303,7 +303,7 @@ std::optional<SensorFaultFound> FindSensorFault(const FittedModel& fitted,
   if (auto unit = OfAnotherUnit(fitted, all_readings)) return unit;
   if (fitted.applicability == nullptr) return std::nullopt;
   MatrixXd readings = all_readings;
-  const auto spike = TakeSpikes(fitted, &readings);
+  auto spike = TakeSpikes(fitted, &readings);
   const MatrixXd all = readings(Eigen::all, fitted.applicability->columns);
   if (auto silent = Silent(fitted, all)) return silent;
   const MatrixXd states = WholeRows(all);
