@@ -86,7 +86,8 @@ std::vector<NextStep> NextSteps(const models::StudyRecord& record,
       words.insert(words.end(), {"-o", map});
       steps.push_back({"write the map", std::move(words)});
     }
-    steps.push_back({"does it hold?", {"errmap", "check", map, "NEW_READINGS.csv"}});
+    steps.push_back(
+        {"does it hold?", {"errmap", "check", map, "NEW_READINGS.csv"}});
     steps.push_back({"run it", {"errmap", "predict", map, "NEW_INPUTS.csv"}});
     Words to_control{"errmap", "export", map, "--c", "-o", "control"};
     if (model.counts_rows) {

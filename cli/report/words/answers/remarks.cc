@@ -83,15 +83,15 @@ Remarks Rival(const Numbers& of) {
       of.Rmse(*rival, advice.holdout) < of.Rmse(advice.model, advice.holdout);
   if (*rival == "zero" && !errs_less) return {};  // WithoutAMap
   const std::string rmse = of.RmseWithUnit(*rival);
-  return {
-      {advice.choice == Choice::kBaseline ? "best other map" : "best simple map",
-       rmse == of.RmseWithUnit(advice.model)
-           ? fmt::format("{}, {}: as good", rmse, *rival)
-           : fmt::format("{}, {}{}; {}",
-                         rmse,
-                         *rival,
-                         errs_less ? ", which errs less" : "",
-                         of.Certainty(*rival))}};
+  return {{advice.choice == Choice::kBaseline ? "best other map"
+                                              : "best simple map",
+           rmse == of.RmseWithUnit(advice.model)
+               ? fmt::format("{}, {}: as good", rmse, *rival)
+               : fmt::format("{}, {}{}; {}",
+                             rmse,
+                             *rival,
+                             errs_less ? ", which errs less" : "",
+                             of.Certainty(*rival))}};
 }
 
 Remarks AnotherDay(const Numbers& of) {

@@ -139,7 +139,7 @@ TEST(Remarks, TellTheShareAboutTheMeanOfATargetFarFromZero) {
   }
   record.recommendation->removed_share = 1.0 - 1.9 / 3.0;
   EXPECT_THAT(TextOf(record, "without a map"),
-              HasSubstr("3.000 um about the mean; 37 % removed"));
+              HasSubstr("3.00 um about the mean; 37 % removed"));
 }
 
 TEST(Remarks, TellOffsetAndScatterOfAGoalThatAnOffsetHides) {
