@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "data/measurements/dataset.h"
 #include "data/units.h"
 
 namespace errmap::data {
