@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "data/measurements/column_checks.h"
+#include "data/measurements/reading/digit_dates.h"
+#include "data/measurements/reading/merged_cells.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -100,6 +102,8 @@ MatchedColumn MatchColumn(const CsvTable& table, const ColumnInfo& of_map) {
 
 TableForMap InMapUnits(CsvTable table, const std::vector<ColumnInfo>& of_map) {
   TableForMap result;
+  FillMergedCells(FindMergedCells(table), &table);
+  WriteDates(FindDigitDates(table), &table);
   // Told here, and to nobody again.
   result.remarks = std::exchange(table.remarks, {});
   for (const ColumnInfo& wanted : of_map) {

@@ -278,20 +278,23 @@ class SessionFinder : private RowColumns {
                        ArgumentName("session"));
     }
     sessions.codes = std::move(codes);
-    if (!named && !rows_repeat_) PartWhatComesAgain(&sessions);
+    if (!rows_repeat_) PartWhatComesAgain(&sessions);
     found_.sessions = std::move(sessions);
     found_.by = "column";
     found_.evidence = Evidence::kName;
     return true;
   }
 
-  // "day", "night", "day" are three sessions, the last of them "day (2)".
+  // "day", "night", "day" are three sessions, the last of them "day (2)". What
+  // has a number or a date is the same day, as where directions or files stand
+  // one below the other.
   void PartWhatComesAgain(Grouping* sessions) {
     constexpr std::size_t kFewestRows = 8;
     const std::vector<Index> starts = RunStarts(sessions->codes);
     come_again_ = starts.size() > sessions->labels.size();
-    if (!found_.ordered || !come_again_ ||
-        rows_.size() < kFewestRows * starts.size()) {
+    if (!found_.ordered || !come_again_ || table_.parts.size() > 1 ||
+        rows_.size() < kFewestRows * starts.size() ||
+        std::ranges::any_of(sessions->labels, HasDigit)) {
       return;
     }
     std::vector<Index> times(sessions->labels.size(), 0);
@@ -313,6 +316,10 @@ class SessionFinder : private RowColumns {
     }
     sessions->labels = std::move(labels);
     sessions->codes = std::move(codes);
+  }
+
+  static bool HasDigit(const std::string& label) {
+    return label.find_first_of("0123456789") != label.npos;
   }
 
   void RefuseTimeGoingBack() const {

@@ -72,10 +72,10 @@ struct FoundSessions {
 /// kSessionColumns that there is, else of several files kFileColumn, else,
 /// where time has no dates, the only column that holds nothing but dates;
 /// without one they are cut where time goes back or leaps by more than 20
-/// median steps. What comes again after another ("day", "night", "day") begins
-/// another session. A column that nobody named and that will not do is passed
-/// over with a remark; "none" names none, save where a column is called so. The
-/// target and the weight are neither.
+/// median steps. A word that comes again after another ("day", "night", "day")
+/// begins another session. A column that nobody named and that will not do is
+/// passed over with a remark; "none" names none, save where a column is called
+/// so. The target and the weight are neither.
 ///
 /// Throws InputError, with row and remedy, where a named column is not there,
 /// is the target or the weight, holds no times, lacks a cell (kDropRows: such

@@ -9,6 +9,7 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/date_time.h"
+#include "data/measurements/joined_tables.h"
 #include "data/measurements/reading/axis.h"
 #include "data/measurements/reading/row_columns.h"
 #include "data/measurements/reading/time_units.h"
@@ -321,10 +322,16 @@ class ClockFinder : private RowColumns {
                              " are read as " + times.order);
   }
 
+  // The names of files tell days apart, and not the time of a next file.
+  bool HasDatesBeside() const {
+    const std::ptrdiff_t date = DateColumn();
+    return date >= 0 && table_.At(date).name != kFileColumn;
+  }
+
   // As Excel counts hours beside a column of dates.
   bool ArePartsOfDays(const std::string& name,
                       const std::vector<double>& values) const {
-    return StatedUnit(name) == nullptr && DateColumn() >= 0 &&
+    return StatedUnit(name) == nullptr && HasDatesBeside() &&
            std::ranges::none_of(
                values, [](double part) { return part < 0.0 || part >= 1.0; });
   }
@@ -333,9 +340,8 @@ class ClockFinder : private RowColumns {
   // where the date beside them changes, which what runs through the days is
   // not.
   bool TellsTheHour(const std::vector<double>& values) const {
-    const std::ptrdiff_t date = DateColumn();
-    if (date < 0) return false;
-    const CsvColumn& dates = table_.At(date);
+    if (!HasDatesBeside()) return false;
+    const CsvColumn& dates = table_.At(DateColumn());
     const double pause = kLeapSteps * PaceOf(values).step;
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (values[i] < 0.0 || values[i] >= kSecondsOfDay) return false;
@@ -369,6 +375,24 @@ class ClockFinder : private RowColumns {
     SayOrder(column, dates);
   }
 
+  // Rows of the day after their date: it is that of the beginning, and stays
+  // where the clock passes midnight, once. None where rows are in no order.
+  static std::vector<bool> AfterMidnight(const std::vector<double>& days,
+                                         const std::vector<double>& clock) {
+    std::vector<bool> after(days.size(), false);
+    for (std::size_t i = 1; i < days.size(); ++i) {
+      const double back = clock[i - 1] - clock[i];
+      const bool is_same = days[i] == days[i - 1];
+      const bool passes = is_same && back > kSecondsOfDay / 2.0;
+      const bool disorder =
+          days[i] < days[i - 1] ||
+          (is_same && back > 0.0 && (!passes || after[i - 1]));
+      if (disorder) return std::vector<bool>(days.size(), false);
+      after[i] = is_same && (passes || after[i - 1]);
+    }
+    return after;
+  }
+
   // Adds the days (NaN: missing) of another column to times of day. Between
   // rows of one day it is that day; else the time is not known, or without
   // leave to drop rows no day is.
@@ -397,13 +421,7 @@ class ClockFinder : private RowColumns {
         return false;
       }
     }
-    // A date of the beginning: the clock passes midnight, the date stays.
-    std::vector<bool> next_day(days.size(), false);
-    for (std::size_t i = 1; i < days.size(); ++i) {
-      const double back = (*values)[i - 1] - (*values)[i];
-      next_day[i] = days[i] == days[i - 1] &&
-                    (next_day[i - 1] || back > kSecondsOfDay / 2.0);
-    }
+    const std::vector<bool> next_day = AfterMidnight(days, *values);
     for (std::size_t i = 0; i < days.size(); ++i) {
       (*values)[i] += days[i] + (next_day[i] ? kSecondsOfDay : 0.0);
       (*known)[i] = (*known)[i] && !lack[i];

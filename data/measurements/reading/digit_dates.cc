@@ -230,10 +230,23 @@ DigitDates FindDigitDates(const CsvTable& table) {
     }
   }
   if (const DateParts parts(table); parts.are_found()) {
-    found.columns.push_back({table.columns.size(), parts.Joined()});
     found.parts = parts.columns();
+    CsvColumn joined = parts.Joined();
+    if (table.Find(joined.name) < 0) {  // not written yet
+      found.columns.push_back({table.columns.size(), std::move(joined)});
+    }
   }
   return found;
+}
+
+void WriteDates(const DigitDates& dates, CsvTable* table) {
+  for (const DigitDates::Rewritten& rewritten : dates.columns) {
+    if (rewritten.column < table->columns.size()) {
+      table->columns[rewritten.column] = rewritten.text;
+    } else {
+      table->columns.push_back(rewritten.text);
+    }
+  }
 }
 
 }  // namespace errmap::data

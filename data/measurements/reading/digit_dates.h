@@ -22,4 +22,7 @@ struct DigitDates {
 };
 DigitDates FindDigitDates(const CsvTable& table);
 
+/// Puts them into a table.
+void WriteDates(const DigitDates& dates, CsvTable* table);
+
 }  // namespace errmap::data

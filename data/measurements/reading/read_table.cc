@@ -52,8 +52,7 @@ class TableReader {
 
   ReadTable Read() {
     read_.where = selection_.where;
-    FillMergedCells();
-    TakeDigitDates();
+    TakeAsMeant();
     TakeTarget();
     read_.roles = ChooseRoles(table(), WithoutDerivedCycles());
     read_.reading.rows = static_cast<std::int64_t>(given_.num_rows);
@@ -101,23 +100,17 @@ class TableReader {
     columns.pop_back();
   }
 
-  void FillMergedCells() {
-    std::vector<std::string> filled;
-    for (std::size_t i = 0; i < given_.columns.size(); ++i) {
-      if (std::optional<CsvColumn> column = FilledDown(given_, i)) {
-        PutColumn(i, *std::move(column));
-        filled.push_back(table().columns[i].name);
-      }
+  // What a spreadsheet or a program wrote otherwise than it was meant.
+  void TakeAsMeant() {
+    const std::vector<FilledColumn> merged = FindMergedCells(given_);
+    if (!merged.empty()) {
+      read_.table = Borrowed(given_);
+      FillMergedCells(merged, &*read_.table);
     }
-    if (filled.empty()) return;
-    read_.table->remarks.push_back("empty cells of " + ListOfNames(filled) +
-                                   " are filled from above, as merged cells");
-  }
-
-  void TakeDigitDates() {
     DigitDates dates = FindDigitDates(table());
-    for (DigitDates::Rewritten& rewritten : dates.columns) {
-      PutColumn(rewritten.column, std::move(rewritten.text));
+    if (!dates.columns.empty()) {
+      if (!read_.table) read_.table = Borrowed(given_);
+      WriteDates(dates, &*read_.table);
     }
     read_.date_parts = std::move(dates.parts);
   }
@@ -635,7 +628,8 @@ FoundSessions FindSessions(const CsvTable& table,
                selection,
                target < 0 ? kNoTarget : static_cast<std::size_t>(target),
                rows);
-  if (!axis.motion.is_sorted) GoOnOverMidnight(table, rows, &clues.clock);
+  clues.ordered = !axis.motion.is_sorted;
+  if (clues.ordered) GoOnOverMidnight(table, rows, &clues.clock);
   if (axis.motion.is_commanded) clues.passes = axis.motion.passes;
   clues.nights = NightsOf(clues.clock, axis.motion, selection);
   clues.cycles = {CycleColumn(table)};

@@ -184,7 +184,7 @@ TEST_F(CliFit, WeightsEnterAndTemperaturesNeedNoPosition) {
 TEST_F(CliFit, RefusesBadSpecsInOneClearLine) {
   const auto refusal = [&](const std::string& model, int status) {
     const Outcome outcome =
-        Run({"fit", kDown, "--model", model, "-o", "m.json"});
+        Run({"fit", kDown, "--model", model, "-o", "m.json", "--quiet"});
     EXPECT_EQ(outcome.status, status) << model;
     EXPECT_EQ(SplitLines(outcome.err).size(), 1U) << outcome.err;
     return outcome.err;

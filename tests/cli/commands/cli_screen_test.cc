@@ -300,13 +300,12 @@ TEST_F(Screens, NameASmallerMapThatErrsAtMostTwiceAsMuch) {
   EXPECT_THAT(screen("blend"), Not(HasSubstr("a smaller map")));
 }
 
-TEST_F(Screens, NameTheFileThatTellsWhichRowsWereExtrapolated) {
+TEST_F(Screens, TellHowManyRowsWereExtrapolated) {
   const std::vector<std::string> words{
       "compare", kDown, "--models", "poly:full:degree=3", "--quiet"};
   EXPECT_THAT(Squeezed(Run(words).out),
-              ContainsRegex("extrapolated +[0-9]+ % of the held-out rows lie "
-                            "outside what their fold was trained on: inside = "
-                            "0 in residuals.csv of --out, as from predict"));
+              ContainsRegex("extrapolated +[0-9]+ % of the test readings were "
+                            "beyond all that the map had learnt from"));
   Run(With(words, {"--out", "study"}));
   const Json component =
       Json::parse(Read("study/results.json"))["components"][0];

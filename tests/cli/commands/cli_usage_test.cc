@@ -155,7 +155,8 @@ TEST_F(Cli, EveryFitFailedIsItsOwnStatus) {
                              "--model",
                              "poly:full:degree=12",
                              "-o",
-                             "m.json"}),
+                             "m.json",
+                             "--quiet"}),
                         kEveryFitFailed),
               HasSubstr("91 coefficients"));
   EXPECT_FALSE(Exists("m.json"));

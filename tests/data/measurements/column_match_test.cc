@@ -92,5 +92,18 @@ TEST(InMapUnits, RenamesAndConvertsWhatTheMapReads) {
                   "mm"));
 }
 
+// As where the map was fitted: its clock and its sessions are these.
+TEST(InMapUnits, WritesDatesAndFillsMergedCells) {
+  const TableForMap read =
+      InMapUnits(ParseCsv("Year,Month,Day,cycle,x\n2024,3,4,1,5\n2024,3,4,,6\n"
+                          "2024,3,4,,7\n",
+                          "f.csv"),
+                 {Column("x")});
+  ASSERT_EQ(read.table.columns.size(), 6U);
+  EXPECT_EQ(read.table.columns[5].name, "Year + Month + Day");
+  EXPECT_EQ(read.table.CellText(read.table.columns[5], 2), "2024-03-04");
+  EXPECT_EQ(read.table.columns[3].values[2], 1.0);
+}
+
 }  // namespace
 }  // namespace errmap::data

@@ -113,7 +113,7 @@ TEST(Counting, TellsSessionsWhateverItsColumnIsCalled) {
       {"sweep", way, 1, "one"},
       {"pass", way_anew, 3, "counter"},
       {"Shift", turns, 3, "column"},
-      {"run", turns_in_numbers, 3, "column"},
+      {"run", turns_in_numbers, 2, "column"},
       {"date", date_of_digits, 3, "dates"},
       {"Datum", date_of_excel, 3, "dates"},
   };
@@ -156,6 +156,16 @@ TEST(Counting, TakesATargetForNothingElse) {
   EXPECT_EQ(made.dataset.target().name, "Position [um]");
   EXPECT_EQ(made.reading.position.column, "x [mm]");
   EXPECT_EQ(made.dataset.num_inputs(), 2);
+}
+
+// A map names the column of its sessions, and finds them as it was fitted.
+TEST(Counting, PartsWhatComesAgainInANamedColumn) {
+  const Cell shift = [](const Place& at) {
+    return std::string(at.day % 2 == 0 ? "day" : "night");
+  };
+  const Reading reading =
+      MadeWith("Shift", shift, {.session = "Shift"}).reading;
+  EXPECT_EQ(reading.sessions.count, kDays);
 }
 
 // What a spreadsheet shows once for merged cells holds for all of them.
