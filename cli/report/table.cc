@@ -46,7 +46,7 @@ class Pen {
   }
   std::string operator()(const Interval& interval) const {
     const auto& [low, high] = interval.ends;
-    const std::string of = (*this)(Error{interval.of});
+    std::string of = (*this)(Error{interval.of});
     if (!std::isfinite(low) || !std::isfinite(high)) return of;
     const std::string from = (*this)(Error{low});
     const std::string to = (*this)(Error{high});

@@ -574,6 +574,7 @@ class Parser {
     shape.any_parted = true;
     shape.all_threes = shape.all_threes && may_part;
     shape.most_parted = std::max(shape.most_parted, std::abs(form.value));
+    shape.least_parted = std::min(shape.least_parted, std::abs(form.value));
     column->NoteMarks(table_.num_rows, form.decimal_comma, !form.decimal_comma);
     column->values.push_back(form.value);
   }

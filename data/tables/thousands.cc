@@ -25,14 +25,18 @@ bool PartThousands(const CsvTable& table,
   bool any = false;
   for (std::size_t i = 0; i < shapes->size(); ++i) {
     ColumnShape& shape = (*shapes)[i];
+    // Beside numbers of three digits the next have a mark after the first;
+    // those of four have none, so that it is not the file's way. Thousands go
+    // on from the whole numbers: 0, 133.333, 266.667, 400 are thirds.
+    constexpr double kThreeDigits = 100.0;
+    constexpr double kFourDigits = 1000.0;
+    constexpr double kNext = 10.0;
     if (!shape.any_parted || !shape.all_threes ||
         shape.most_whole <= shape.most_parted) {
       continue;
     }
-    // Beside numbers of three digits the next have a mark after the first;
-    // those of four have none, so that it is not the file's way.
-    constexpr double kThreeDigits = 100.0;
-    constexpr double kFourDigits = 1000.0;
+    const bool go_on =
+        kFourDigits * shape.least_parted <= kNext * shape.most_whole;
     const CsvColumn& column = table.columns[i];
     const auto first =
         std::max(column.first_decimal_comma, column.first_decimal_point);
@@ -41,7 +45,8 @@ bool PartThousands(const CsvTable& table,
     const std::string place =
         " (line " +
         std::to_string(table.LineOfRow(static_cast<std::size_t>(first))) + ")";
-    if (shape.most_whole >= kThreeDigits && shape.most_whole < kFourDigits) {
+    if (go_on && shape.most_whole >= kThreeDigits &&
+        shape.most_whole < kFourDigits) {
       shape.by_thousands = true;
       any = true;
       say(name +

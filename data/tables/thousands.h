@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,7 +16,8 @@ struct ColumnShape {
   bool all_threes = true;  // each point or comma has three digits behind it
   bool any_parted = false;
   double most_parted = 0.0;  // the largest of those, read as decimals
-  double most_whole = 0.0;   // the largest number without
+  double least_parted = std::numeric_limits<double>::infinity();
+  double most_whole = 0.0;  // the largest number without
   bool by_thousands = false;
 };
 

@@ -97,7 +97,7 @@ std::string ClockOfDigits(double digits) {
   return fmt::format("{:02}:{:02}:{:09.6f}",
                      whole / 10000,
                      whole / 100 % 100,
-                     digits - static_cast<double>(whole / 100 * 100));
+                     std::fmod(digits, 100.0));
 }
 
 // Columns of one number each that make a date together, "" where none.

@@ -1,6 +1,7 @@
 #include "data/tables/loose_numbers.h"
 
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,6 +14,17 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+
+// Thousands go on from the whole numbers beside them; thirds do not.
+TEST(LooseNumbers, TellsThirdsFromThousands) {
+  const auto values = [](const char* text) {
+    return std::vector<double>(ParseCsv(text, "f.csv").columns[0].values);
+  };
+  EXPECT_THAT(values("x_mm;e\n0;1\n133.333;2\n266.667;3\n400;4\n"),
+              ElementsAre(0.0, 133.333, 266.667, 400.0));
+  EXPECT_THAT(values("x_mm;e\n500;1\n950;2\n1.050;3\n1.200;4\n"),
+              ElementsAre(500.0, 950.0, 1050.0, 1200.0));
+}
 
 TEST(LooseNumbers, AreNamedByWhatIsDoneToThem) {
   const CsvTable table = ParseCsv(
