@@ -339,10 +339,8 @@ class Parser {
       cells_.Next();
       more = cells_.PassEnd();
     }
-    if (found == 1 && layout_.width > 2 && IsWords()) {
-      odd_rows_.AddWords(TextIn(0));
-      UndoRow();
-    } else if (AreTotals(found)) {
+    const bool are_words = found == 1 && layout_.width > 2 && IsWords();
+    if (are_words || AreTotals(found)) {
       odd_rows_.AddWords(TextIn(0));
       UndoRow();
     } else if (!HasItsCells(found)) {

@@ -276,8 +276,7 @@ class CellFaultFinder {
   Rows RowsWithoutPower(Index input, const VectorXd& values) {
     constexpr double kFar = 5.0;  // degC
     Bounds others{};
-    const Rows rows =
-        RowsOfCode(values, kFar * DegreeIn(UnitOf(input)), &others);
+    Rows rows = RowsOfCode(values, kFar * DegreeIn(UnitOf(input)), &others);
     if (rows.empty()) return rows;
     Add(FaultKind::kOutlying, input, rows, values[rows.front()], others);
     found_.faults.back().of_cells = true;

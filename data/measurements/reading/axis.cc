@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <utility>
 
 #include "data/argument_name.h"
@@ -247,14 +246,15 @@ class AxisFinder {
       }
       const ColumnValues& values = table_.columns[i].values;
       std::vector<double> number(axis_.levels.centers.size(), std::nan(""));
-      const bool goes_with = std::ranges::all_of(
-          std::views::iota(std::size_t{0}, rows_.size()), [&](std::size_t k) {
-            const double value = values[static_cast<std::size_t>(rows_[k])];
-            if (codes[k] < 0 || value != std::floor(value)) return false;
-            double& known = number[static_cast<std::size_t>(codes[k])];
-            if (std::isnan(known)) known = value;
-            return known == value;
-          });
+      bool goes_with = true;
+      for (std::size_t k = 0; goes_with && k < rows_.size(); ++k) {
+        const double value = values[static_cast<std::size_t>(rows_[k])];
+        goes_with = codes[k] >= 0 && value == std::floor(value);
+        if (!goes_with) break;
+        double& known = number[static_cast<std::size_t>(codes[k])];
+        if (std::isnan(known)) known = value;
+        goes_with = known == value;
+      }
       if (!goes_with) continue;
       const bool rises = number.front() < number.back();
       if (!rises) std::ranges::reverse(number);

@@ -7,6 +7,7 @@
 
 #include "data/column_words.h"
 #include "data/measurements/column_roles.h"
+#include "data/text.h"
 #include "data/units.h"
 
 namespace errmap::data {

@@ -123,16 +123,13 @@ std::optional<DerivedTarget> FindDerivedTarget(const CsvTable& table,
   Unit unit;
   if (table.Find(of) < 0 && of.ends_with(']')) {
     const std::size_t open = of.rfind('[');
-    const Unit stated = UnitOfColumn(of);
-    if (open != of.npos && table.Find(Trimmed(of.substr(0, open))) >= 0) {
-      unit = stated;
-      of = Trimmed(of.substr(0, open));
-    } else if (auto difference = Difference(table, of, name, {})) {
-      return difference;
-    } else if (open != of.npos) {
-      unit = stated;
-      of = Trimmed(of.substr(0, open));
+    const std::string_view bare =
+        open == of.npos ? of : Trimmed(of.substr(0, open));
+    if (open == of.npos || table.Find(bare) < 0) {
+      if (auto difference = Difference(table, of, name, {})) return difference;
     }
+    if (open != of.npos) unit = UnitOfColumn(of);
+    of = bare;
   }
   const std::ptrdiff_t found = table.Find(of);
   if (found < 0) return Difference(table, of, name, unit);

@@ -6,6 +6,7 @@
 #include "data/columns.h"
 #include "data/measurements/reading/axis.h"
 #include "data/measurements/reading/derived_columns.h"
+#include "data/measurements/row_filters.h"
 #include "data/text.h"
 #include "data/units.h"
 
