@@ -1,6 +1,9 @@
 #include "data/tables/thousands.h"
 
 #include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
 
 #include "data/text.h"
 
@@ -41,22 +44,28 @@ bool PartThousands(const CsvTable& table,
     const auto first =
         std::max(column.first_decimal_comma, column.first_decimal_point);
     const double value = column.values[static_cast<std::size_t>(first)];
-    const std::string name = "column " + QuotedName(column.name);
-    const std::string place =
-        " (line " +
-        std::to_string(table.LineOfRow(static_cast<std::size_t>(first))) + ")";
+    const std::string column_name = QuotedName(column.name);
+    const std::string as_thousands = CsvNumber(kFourDigits * value);
+    const std::size_t line = table.LineOfRow(static_cast<std::size_t>(first));
     if (go_on && shape.most_whole >= kThreeDigits &&
         shape.most_whole < kFourDigits) {
       shape.by_thousands = true;
       any = true;
-      say(name +
-          " is read with marks between thousands, as its other "
-          "numbers are whole: " +
-          CsvNumber(kFourDigits * value) + place);
+      say(
+          fmt::format("column {} is read with marks between thousands, as its "
+                      "other numbers are whole: {} (line {})",
+                      column_name,
+                      as_thousands,
+                      line));
     } else {
-      say(name + " has numbers with three decimals among whole ones: " +
-          CsvNumber(value) + place + "; if its mark parts thousands, write " +
-          CsvNumber(kFourDigits * value));
+      say(
+          fmt::format("column {} has numbers with three decimals among whole "
+                      "ones: {} (line {}); if its mark parts thousands, write "
+                      "{}",
+                      column_name,
+                      CsvNumber(value),
+                      line,
+                      as_thousands));
     }
   }
   return any;
