@@ -121,6 +121,10 @@ bool IsOneOf(std::string_view word, std::string_view words) {
   return false;
 }
 
+bool HasDigit(std::string_view text) {
+  return text.find_first_of("0123456789") != text.npos;
+}
+
 bool ParseNumber(std::string_view text, double* value) {
   // from_chars takes no plus sign, but would take the minus of "+-1".
   if (text.starts_with('+')) {

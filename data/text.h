@@ -21,6 +21,9 @@ std::vector<std::string_view> SplitWords(std::string_view text);
 /// Whether a word is among those of "one two", in any case.
 bool IsOneOf(std::string_view word, std::string_view words);
 
+/// Whether one of its characters is 0 to 9.
+bool HasDigit(std::string_view text);
+
 /// True, and the value in `value`, where the whole text is one finite decimal
 /// number: an optional sign, a decimal point, an exponent; no hexadecimal, no
 /// "inf" or "nan", nothing beyond the range of a double.

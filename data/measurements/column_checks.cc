@@ -39,7 +39,7 @@ bool HasDecimalComma(std::string_view text) {
 
 // A word that no list has ("No Signal", "****") is no reading all the same.
 bool HasNoDigit(std::string_view text) {
-  return text.find_first_of("0123456789") == text.npos && !IsInfinity(text);
+  return !HasDigit(text) && !IsInfinity(text);
 }
 
 // Whether a word is a unit where it is sure to mean one.

@@ -15,6 +15,7 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/reading/derived_columns.h"
 #include "data/measurements/reading/reading.h"
+#include "data/measurements/reading/time_units.h"
 #include "data/measurements/sessions.h"
 #include "data/measurements/text_times.h"
 #include "data/text.h"
@@ -380,14 +381,9 @@ class InputChooser {
         UnitOfColumn(column.name).quantity != Quantity::kTime) {
       return false;
     }
-    std::size_t on = 0;
-    std::size_t back = 0;
-    for (std::size_t i = 1; i < column.values.size(); ++i) {
-      on += column.values[i] > column.values[i - 1] ? 1 : 0;
-      back += column.values[i] < column.values[i - 1] ? 1 : 0;
-    }
+    const Steps steps = StepsOf(column.values);
     constexpr std::size_t kHardly = 5;
-    return on > kHardly * back;
+    return steps.on > kHardly * steps.back;
   }
 
   void ChooseDefaultInputs() {

@@ -20,12 +20,6 @@ using Eigen::Index;
 constexpr std::size_t kMostChannels = 64;
 constexpr std::size_t kFewestOfEach = 3;
 
-bool AreTimes(const CsvColumn& column) {
-  if (!column.is_text()) return false;
-  const TextTimes times = ReadTimes(column);
-  return times.all && times.any;
-}
-
 class PartFinder {
  public:
   PartFinder(const CsvTable& log,
@@ -48,7 +42,7 @@ class PartFinder {
     for (std::size_t i = 0; i < log_.columns.size(); ++i) {
       const CsvColumn& column = log_.columns[i];
       if (std::ranges::count(clock, static_cast<std::ptrdiff_t>(i)) == 0 &&
-          !KeepsRecord(column.name) && !AreTimes(column) &&
+          !KeepsRecord(column.name) && !HoldsTimes(column) &&
           !CountsRows(TakeRows(column, rows_))) {
         columns_.push_back(i);
       }

@@ -105,7 +105,9 @@ bool LooksLikeTime(const std::string& text) {
 // The first row whose cell is no time in a column that looks like times by most
 // of its cells; else nothing.
 std::optional<std::size_t> FirstUnreadTime(const CsvColumn& column) {
+  if (!column.is_text()) return std::nullopt;
   const TextTimes times = ReadTimes(column);
+  if (times.all) return std::nullopt;
   std::optional<std::size_t> first;
   std::size_t alike = 0;
   std::size_t others = 0;
@@ -115,7 +117,21 @@ std::optional<std::size_t> FirstUnreadTime(const CsvColumn& column) {
     ++(LooksLikeTime(cell) ? alike : others);
     if (!first && !times.seconds[text]) first = row;
   }
-  return column.is_text() && alike > others ? first : std::nullopt;
+  return alike > others ? first : std::nullopt;
+}
+
+// What the first cell says: most columns are told by it, without the others.
+std::optional<DateTime> FirstTime(const CsvColumn& column) {
+  if (!column.is_text()) return std::nullopt;
+  for (const std::string& text : column.texts) {
+    if (IsMissingNumber(text)) continue;
+    for (const DateOrder order :
+         {DateOrder::kDayFirst, DateOrder::kMonthFirst, DateOrder::kNoDate}) {
+      if (auto time = ParseDateTime(text, order)) return time;
+    }
+    return std::nullopt;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -162,13 +178,16 @@ TextTimes ReadTimes(const CsvColumn& column) {
 }
 
 bool HoldsTimes(const CsvColumn& column) {
-  if (!column.is_text()) return false;
+  if (!FirstTime(column)) return false;
   const TextTimes times = ReadTimes(column);
   return times.all && times.any;
 }
 
 bool HoldsDates(const CsvColumn& column) {
-  return HoldsTimes(column) && !ReadTimes(column).any_hours;
+  const std::optional<DateTime> first = FirstTime(column);
+  if (!first || first->has_time) return false;
+  const TextTimes times = ReadTimes(column);
+  return times.all && times.any && !times.any_hours;
 }
 
 }  // namespace errmap::data

@@ -42,10 +42,6 @@ bool IsSummary(std::string_view text) {
                  "\u5e73\u5747\u503c \u5e73\u5747");
 }
 
-bool HasDigit(std::string_view text) {
-  return text.find_first_of("0123456789") != std::string_view::npos;
-}
-
 // Of the rows, what numbers or times must be for a word to be out of place.
 constexpr std::size_t kUsualPercent = 80;
 

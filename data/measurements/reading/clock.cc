@@ -112,7 +112,7 @@ class ClockFinder : private RowColumns {
         if (IsMeasured(i)) continue;
         if (CountsFrom1970(column)) found[0].push_back(i);
         if (!GoesOn(column)) continue;
-        (IsCalledTime(column) ? found[1] : found[2]).push_back(i);
+        (IsCalledTime(column.name) ? found[1] : found[2]).push_back(i);
       }
     }
     return found;
@@ -135,7 +135,7 @@ class ClockFinder : private RowColumns {
                           EpochOf(pace, Named::kDate).has_value();
     return are_days || CountsFrom1970(column) ||
            (says_time &&
-            (GoesForward(values) ||
+            (StepsOf(values).GoForward(values.size()) ||
              (IsCalled(column.name, Word::kTime) && AreEven(values))));
   }
 
@@ -156,50 +156,51 @@ class ClockFinder : private RowColumns {
   }
 
   // In a unit of time, or called by one ("ms", "t", "MJD").
-  bool IsCalledTime(const CsvColumn& column) const {
-    return UnitOfColumn(column.name).quantity == Quantity::kTime ||
-           StatedUnit(column.name) != nullptr ||
-           EqualsIgnoringCase(column.name, "t") ||
-           NamedEpoch(column.name, PaceOf(ValuesOf(column)));
+  static bool IsCalledTime(std::string_view name) {
+    return UnitOfColumn(name).quantity == Quantity::kTime ||
+           StatedUnit(name) != nullptr || EqualsIgnoringCase(name, "t") ||
+           NamedDays(name).has_value();
   }
 
   // What goes on with the rows: in a unit of time most often, else with each
   // row but where it begins anew, in steps that are not all the same, as those
-  // of a number of the row are.
+  // of a number of the row are. What costs least is looked at first: most
+  // columns are sensors.
   bool GoesOn(const CsvColumn& column) const {
-    const bool called = IsCalledTime(column);
+    const bool called = IsCalledTime(column.name);
     if (column.is_text() || !column.exceptions.empty() || rows_.size() < 2 ||
         !(called || UnitOfColumn(column.name).symbol.empty())) {
       return false;
     }
     const std::vector<double> values = ValuesOf(column);
-    if (NamedEpoch(column.name, PaceOf(values))) return true;
-    if (called) return GoesForward(values) || AreEven(values);
-    if (Says(column.name, Word::kTemperature) ||
-        (Says(column.name, Word::kDate) && AreWholeDays(values))) {
-      return false;
-    }
-    std::size_t back = 0;
-    std::size_t on = 0;
-    const Pace pace = PaceOf(values);
-    bool even = true;
-    bool leaps = false;
-    bool whole = values[0] == std::floor(values[0]);
-    for (std::size_t i = 1; i < values.size(); ++i) {
-      whole = whole && values[i] == std::floor(values[i]);
-      leaps = leaps || values[i] - values[i - 1] > kLeapSteps * pace.step;
-      on += values[i] > values[i - 1] ? 1 : 0;
-      back += values[i] < values[i - 1] ? 1 : 0;
-      even = even && (i < 2 || std::abs(values[i] + values[i - 2] -
-                                        2.0 * values[i - 1]) < 1e-9);
+    const Steps steps = StepsOf(values);
+    if (called) {
+      return steps.GoForward(values.size()) || AreEven(values) ||
+             NamedEpoch(column.name, PaceOf(values));
     }
     constexpr std::size_t kFewest = 24;
     constexpr std::size_t kHardly = 50;
-    // Numbers of rows have no pauses.
-    const bool may_count = whole && !(leaps && AreEven(values));
-    return values.size() >= kFewest && !even && !may_count &&
-           kHardly * back < values.size() && on + back + 1 == values.size() &&
-           !CountsCycles({column.name, {}}) && !IsCalledPosition(column.name);
+    return values.size() >= kFewest && kHardly * steps.back < values.size() &&
+           steps.on + steps.back + 1 == values.size() &&
+           !Says(column.name, Word::kTemperature) &&
+           !CountsCycles({column.name, {}}) && !IsCalledPosition(column.name) &&
+           !(Says(column.name, Word::kDate) && AreWholeDays(values)) &&
+           !AreNumbersOfRows(values);
+  }
+
+  // All steps alike, or whole numbers without pauses.
+  static bool AreNumbersOfRows(const std::vector<double>& values) {
+    bool even = true;
+    bool whole = values[0] == std::floor(values[0]);
+    double longest = 0.0;
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      whole = whole && values[i] == std::floor(values[i]);
+      longest = std::max(longest, values[i] - values[i - 1]);
+      even = even && (i < 2 || std::abs(values[i] + values[i - 2] -
+                                        2.0 * values[i - 1]) < 1e-9);
+    }
+    if (even || !whole) return even;
+    return longest <= kLeapSteps * PaceOf(values).step || !AreEven(values);
   }
 
   bool CountsFrom1970(const CsvColumn& column) const {

@@ -150,38 +150,29 @@ std::optional<Epoch> EpochOf(const Pace& pace, Named called) {
   return std::nullopt;
 }
 
-std::optional<Epoch> NamedEpoch(std::string_view column, const Pace& pace) {
+std::optional<double> NamedDays(std::string_view column) {
   constexpr double kJulianTo1970 = 2440587.5;
   constexpr double kModifiedJulianTo1970 = 40587.0;
-  constexpr double kFrom = 3650.0;  // days from 1970
-  constexpr double kTo = 36500.0;
   const std::vector<std::string> words = WordsOf(column);
   const auto says = [&](std::string_view known) {
     return std::ranges::any_of(
         words, [&](const std::string& word) { return IsOneOf(word, known); });
   };
-  std::optional<double> days_to_1970;
-  if (says("mjd")) days_to_1970 = kModifiedJulianTo1970;
-  if (says("jd bjd hjd julian")) days_to_1970 = kJulianTo1970;
-  if (says("days tage jours") && column.find("1970") != column.npos) {
-    days_to_1970 = 0.0;
-  }
+  if (says("mjd")) return kModifiedJulianTo1970;
+  if (says("jd bjd hjd julian")) return kJulianTo1970;
+  if (says("days tage jours") && column.find("1970") != column.npos) return 0.0;
+  return std::nullopt;
+}
+
+std::optional<Epoch> NamedEpoch(std::string_view column, const Pace& pace) {
+  constexpr double kFrom = 3650.0;  // days from 1970
+  constexpr double kTo = 36500.0;
+  const std::optional<double> days_to_1970 = NamedDays(column);
   if (!days_to_1970 || pace.least - *days_to_1970 < kFrom ||
       pace.most - *days_to_1970 > kTo) {
     return std::nullopt;
   }
   return Epoch{FindTimeUnit("days"), -*days_to_1970 * kSecondsOfDay};
-}
-
-bool GoesForward(const std::vector<double>& values) {
-  std::size_t on = 0;
-  std::size_t back = 0;
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    on += values[i] > values[i - 1] ? 1 : 0;
-    back += values[i] < values[i - 1] ? 1 : 0;
-  }
-  constexpr std::size_t kSeldom = 10;
-  return 2 * on > values.size() && kSeldom * back < values.size();
 }
 
 bool AreWholeDays(const std::vector<double>& values) {

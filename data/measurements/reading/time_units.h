@@ -45,12 +45,32 @@ enum class Named { kNothing, kTime, kDate };
 /// (and MATLAB's) days are numbers as others, too: of a date any, of a time
 /// such as part days.
 std::optional<Epoch> EpochOf(const Pace& pace, Named called);
-/// The days that a column counts by its name, if its values fit: "JD", "BJD",
-/// "HJD" (from noon, 4713 BC), "MJD", "days since 1970".
+/// Days from 0 to 1970 of what a column counts by its name: "JD", "BJD", "HJD"
+/// (from noon, 4713 BC), "MJD", "days since 1970"; and where its values are of
+/// our time.
+std::optional<double> NamedDays(std::string_view column);
 std::optional<Epoch> NamedEpoch(std::string_view column, const Pace& pace);
 
-/// Whether numbers go up with most rows, and seldom back.
-bool GoesForward(const std::vector<double>& values);
+/// Steps from row to row: up, and back.
+struct Steps {
+  std::size_t on = 0;
+  std::size_t back = 0;
+
+  /// Up with most of so many rows, and seldom back.
+  bool GoForward(std::size_t rows) const {
+    constexpr std::size_t kSeldom = 10;
+    return 2 * on > rows && kSeldom * back < rows;
+  }
+};
+template <typename Values>
+Steps StepsOf(const Values& values) {
+  Steps steps;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    steps.on += values[i] > values[i - 1] ? 1 : 0;
+    steps.back += values[i] < values[i - 1] ? 1 : 0;
+  }
+  return steps;
+}
 
 /// Excel counts days from 30 December 1899.
 inline constexpr double kExcelDaysTo1970 = 25569.0;
