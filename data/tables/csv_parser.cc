@@ -20,8 +20,8 @@
 #include "data/tables/cut_line.h"
 #include "data/tables/folded_positions.h"
 #include "data/tables/gzip.h"
+#include "data/tables/last_row.h"
 #include "data/tables/loose_numbers.h"
-#include "data/tables/missing_cells.h"
 #include "data/tables/odd_rows.h"
 #include "data/tables/rewritten_text.h"
 #include "data/tables/spreadsheet.h"
@@ -297,6 +297,11 @@ class Parser {
   void ReadRows() {
     in_data_ = true;
     ReserveRows();
+    if (layout_.header_line != 0 && names_as_written_.empty()) {
+      for (std::size_t i = 0; i < layout_.width; ++i) {
+        names_as_written_.push_back(AsUtf8(TextOf(layout_.names[i])));
+      }
+    }
     std::size_t blank_line = 0;
     while (!cells_.at_end()) {
       if (cells_.front() == '#') {
@@ -339,21 +344,23 @@ class Parser {
       cells_.Next();
       more = cells_.PassEnd();
     }
-    const bool are_words = found == 1 && layout_.width > 2 && IsWords();
-    if (are_words || AreTotals(found)) {
-      odd_rows_.AddWords(TextIn(0));
+    const bool is_remark = found == 1 && layout_.width > 2 &&
+                           num_numbers_ == 0 && IsRemark(table_);
+    if (is_remark || (found == 2 && AreTotals(table_))) {
+      odd_rows_.AddWords(table_.CellText(table_.columns[0], table_.num_rows));
       UndoRow();
     } else if (!HasItsCells(found)) {
       if (after_blank) ThrowAnotherTable(line, found);
       TakeOddRow(line, found);
-    } else if (num_numbers_ == 0 && AreNamesAgain()) {
+    } else if (num_numbers_ == 0 && RepeatsNames(table_, names_as_written_)) {
       UndoRow();
       odd_rows_.AddNames();
       below_names_ = true;
       return;
-    } else if (below_names_ && num_numbers_ == 0 && AreUnitsAgain()) {
+    } else if (below_names_ && num_numbers_ == 0 &&
+               HasUnits(table_, layout_.width)) {
       UndoRow();
-    } else if (num_numbers_ == 0 && AreOtherNames()) {
+    } else if (num_numbers_ == 0 && HasWordsForNumbers(table_, column_)) {
       ThrowAnotherTable(line, found);
     } else {
       if (found < layout_.width) short_rows_.push_back(line);
@@ -381,69 +388,6 @@ class Parser {
     return found == layout_.width ||
            (found < layout_.width && found >= num_named_ &&
             layout_.header_line != 0 && !last_named_is_empty_);
-  }
-
-  // Whether the only cell of a line is a remark: words, and no time.
-  bool IsWords() const {
-    if (num_numbers_ > 0) return false;
-    const std::string& text = TextIn(0);
-    return text.size() > 2 && text.find_first_of("0123456789") != 0 &&
-           !IsMissingNumber(text) && text.find(' ') != text.npos;
-  }
-
-  // What stands in the last row of a column, where it is no number.
-  const std::string& TextIn(std::size_t index) const {
-    const CsvColumn& column = table_.columns[index];
-    return column.texts[column.exceptions.back().second];
-  }
-
-  // "Mean,2.31" below the rows: a name where numbers stood so far, and a value,
-  // in far fewer cells than a row has.
-  bool AreTotals(std::size_t found) const {
-    constexpr std::size_t kFewestOfRow = 4;
-    const CsvColumn& first = table_.columns[0];
-    if (found != 2 || layout_.width < kFewestOfRow || table_.num_rows == 0 ||
-        first.exceptions.empty() ||
-        first.exceptions.back().first != table_.num_rows ||
-        2 * (first.exceptions.size() - 1) >= table_.num_rows) {
-      return false;
-    }
-    return !IsMissingNumber(TextIn(0)) &&
-           TextIn(0).find_first_of("0123456789+-.") != 0;
-  }
-
-  // Whether a row of words repeats the names.
-  bool AreNamesAgain() const {
-    for (std::size_t i = 0; i < layout_.width; ++i) {
-      const CsvColumn& column = table_.columns[i];
-      const auto& [row, text] = column.exceptions.back();
-      if (column.texts[text] != AsUtf8(TextOf(layout_.names[i]))) return false;
-    }
-    return table_.num_rows > 0 && layout_.header_line != 0;
-  }
-
-  // Whether a row of words has the units below names that stand there again.
-  bool AreUnitsAgain() const {
-    std::vector<std::string> cells;
-    for (std::size_t i = 0; i < layout_.width; ++i) {
-      const CsvColumn& column = table_.columns[i];
-      cells.push_back(column.texts[column.exceptions.back().second]);
-    }
-    return AreUnitCells(std::move(cells));
-  }
-
-  // Whether words stand where numbers stood so far, in half of those columns.
-  bool AreOtherNames() const {
-    std::size_t num_numeric = 0;
-    std::size_t num_words = 0;
-    for (std::size_t i = 0; i < column_; ++i) {
-      const CsvColumn& column = table_.columns[i];
-      if (2 * (column.exceptions.size() - 1) >= table_.num_rows) continue;
-      ++num_numeric;
-      const std::string& text = column.texts[column.exceptions.back().second];
-      num_words += IsMissingNumber(text) ? 0 : 1;
-    }
-    return num_numeric > 1 && 2 * num_words >= num_numeric;
   }
 
   [[noreturn]] void ThrowAnotherTable(std::size_t line,
@@ -600,8 +544,9 @@ class Parser {
   CsvLayout layout_;
   bool has_apostrophes_ = false;  // kFormulaMark stands at the top
   bool in_data_ = false;
-  std::size_t num_named_ = 0;     // columns down to the last with a name
-  std::vector<TextIndex> texts_;  // (columns)
+  std::size_t num_named_ = 0;  // columns down to the last with a name
+  std::vector<std::string> names_as_written_;  // none without a header
+  std::vector<TextIndex> texts_;               // (columns)
   std::vector<ColumnShape> shapes_;
   CsvTable table_;
 

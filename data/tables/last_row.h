@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "data/csv.h"
+
+namespace errmap::data {
+
+// What the row is that a table ends in: its cells stand at the end of the
+// columns, and table.num_rows does not count it yet.
+
+/// Whether its only cell is a remark: words, and no time.
+bool IsRemark(const CsvTable& table);
+/// Whether its two cells are totals below the rows ("Mean,2.31"): a name where
+/// numbers stood so far, and a value, in far fewer cells than a row has.
+bool AreTotals(const CsvTable& table);
+/// Of a row of words: whether it repeats these names; never where there are
+/// none.
+bool RepeatsNames(const CsvTable& table, std::span<const std::string> names);
+/// Of a row of words: whether it has units.
+bool HasUnits(const CsvTable& table, std::size_t width);
+/// Of a row of words of so many cells: whether they stand where numbers stood
+/// so far, in half of those columns.
+bool HasWordsForNumbers(const CsvTable& table, std::size_t cells);
+
+}  // namespace errmap::data
