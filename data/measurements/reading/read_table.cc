@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <memory>
-#include <set>
 #include <utility>
 
 #include "data/argument_name.h"
@@ -18,6 +15,7 @@
 #include "data/measurements/reading/digit_dates.h"
 #include "data/measurements/reading/directions.h"
 #include "data/measurements/reading/merged_cells.h"
+#include "data/measurements/reading/row_order.h"
 #include "data/measurements/row_filters.h"
 #include "data/text.h"
 
@@ -205,32 +203,18 @@ class TableReader {
     nights_ = NightsOf(clock_, Passes(), selection_);
   }
 
-  // Whether the number of the cycle changes every few rows, and not to the next
-  // one or to the first, or at one position.
   bool CyclesAreMixed() const {
     std::ptrdiff_t column = read_.roles.group;
     if (column == kNoColumn) column = FirstCalled(Word::kRun);
     if (column == kNoColumn) return false;
-    const ColumnValues& values = table().At(column).values;
-    const std::vector<Index>& codes = read_.axis.levels.codes;
-    Index changes = 0;
-    Index odd = 0;
-    double first = INFINITY;
+    std::vector<double> cycles;
     for (const Index row : base_rows_) {
-      first = std::min(first, values[static_cast<std::size_t>(row)]);
+      cycles.push_back(
+          table().At(column).values[static_cast<std::size_t>(row)]);
     }
-    for (std::size_t i = 1; i < base_rows_.size(); ++i) {
-      const double now = values[static_cast<std::size_t>(base_rows_[i])];
-      const double before = values[static_cast<std::size_t>(base_rows_[i - 1])];
-      if (now == before || std::isnan(now - before)) continue;
-      ++changes;
-      const bool stays =
-          codes.size() == base_rows_.size() && codes[i] == codes[i - 1];
-      odd += stays || (now != before + 1.0 && now != first) ? 1 : 0;
-    }
-    constexpr Index kFewRows = 6;  // of a cycle in one piece
-    return std::ssize(base_rows_) >= kFewestRowsInOrder && 2 * odd > changes &&
-           kFewRows * changes > std::ssize(base_rows_);
+    const std::vector<Index>& codes = read_.axis.levels.codes;
+    return AreMixed(
+        cycles, codes.size() == cycles.size() ? codes : std::vector<Index>());
   }
 
   // -1: none.
@@ -249,65 +233,22 @@ class TableReader {
                : kNone;
   }
 
-  // False where times come again in other rows, as those of a clock that starts
-  // anew would.
+  // False where there is no such order.
   bool SortByTime() {
-    std::vector<Index> places = AllRows(base_rows_.size());
-    const std::vector<std::string> sessions = SessionLabels();
-    std::vector<std::pair<std::string, double>> moments;
-    std::map<std::string, std::pair<double, double>> spans;
-    for (const Index place : places) {
-      const std::string& session = sessions[static_cast<std::size_t>(place)];
-      const double at = clock_.time[place];
-      moments.emplace_back(session, at);
-      auto [span, is_new] = spans.try_emplace(session, at, at);
-      span->second.first = std::min(span->second.first, at);
-      span->second.second = std::max(span->second.second, at);
-    }
-    std::ranges::sort(moments);
-    const auto distinct = static_cast<Index>(
-        std::unique(moments.begin(), moments.end()) - moments.begin());
-    if (10 * distinct < 9 * std::ssize(base_rows_)) return false;
-    // One clock for all, or one for each session in its order of appearance.
-    std::vector<std::pair<double, double>> in_order;
-    for (const auto& [session, span] : spans) in_order.push_back(span);
-    std::ranges::sort(in_order);
-    bool apart = true;
-    for (std::size_t i = 1; i < in_order.size(); ++i) {
-      apart = apart && in_order[i].first >= in_order[i - 1].second;
-    }
-    std::map<std::string, std::size_t> rank;
-    for (const std::string& session : sessions) {
-      rank.try_emplace(session, rank.size());
-    }
-    std::ranges::stable_sort(places, [&](Index a, Index b) {
-      const auto& of_a = sessions[static_cast<std::size_t>(a)];
-      const auto& of_b = sessions[static_cast<std::size_t>(b)];
-      if (!apart && of_a != of_b) return RanksBefore(of_a, of_b, rank);
-      return clock_.time[a] < clock_.time[b];
-    });
+    const auto places = OrderOfTime(clock_.time, SessionLabels());
+    if (!places) return false;
     std::vector<Index> order;
-    for (const Index place : places) {
+    std::vector<bool> taken(given_.num_rows, false);
+    for (const Index place : *places) {
       order.push_back(base_rows_[static_cast<std::size_t>(place)]);
+      taken[static_cast<std::size_t>(order.back())] = true;
     }
-    std::set<Index> taken(order.begin(), order.end());
-    for (std::size_t row = 0; row < given_.num_rows; ++row) {
-      if (!taken.contains(static_cast<Index>(row))) {
-        order.push_back(static_cast<Index>(row));
-      }
+    for (std::size_t row = 0; row < taken.size(); ++row) {
+      if (!taken[row]) order.push_back(static_cast<Index>(row));
     }
     read_.table = InOrder(table(), order);
     base_rows_ = AllRows(base_rows_.size());
     return true;
-  }
-
-  static bool RanksBefore(const std::string& a,
-                          const std::string& b,
-                          const std::map<std::string, std::size_t>& rank) {
-    double of_a = 0.0;
-    double of_b = 0.0;
-    if (ParseNumber(a, &of_a) && ParseNumber(b, &of_b)) return of_a < of_b;
-    return rank.at(a) < rank.at(b);
   }
 
   // Of each base row, by the column that is called so; "" without one.
