@@ -278,7 +278,7 @@ class DatasetBuilder {
                    parts_.target_values);
     if (selection_.only_to_judge) return;
     if (auto remark = UnlikelySize(parts_.target, parts_.target_values)) {
-      AskForUnit();
+      AskForUnit(table_, parts_.target.name, parts_.target_values);
       remarks_.push_back(std::move(*remark));
     }
     const double first = parts_.target_values(0);
@@ -294,27 +294,6 @@ class DatasetBuilder {
             ArgumentName("target"));
   }
 
-  // A unit that nobody stated and that the values speak against.
-  void AskForUnit() const {
-    constexpr std::size_t kFewestRows = 12;
-    constexpr double kMost = 1.0;  // mm
-    const std::string& name = Name(roles_.target);
-    const double size = parts_.target_values.norm();
-    if (ReadHeader(name).source == UnitSource::kStated ||
-        parts_.rows.size() < kFewestRows ||
-        size * size < kMost * static_cast<double>(parts_.rows.size())) {
-      return;
-    }
-    throw OpenQuestion(
-        PrintablePath(table_.file),
-        {.topic = "unit",
-         .question = "in which unit is " + QuotedName(name) + "?",
-         .answers = {{.option = ArgumentName("target", name + " [um]"),
-                      .means = "in um"},
-                     {.option = ArgumentName("target", name + " [mm]"),
-                      .means = "in mm"}}});
-  }
-
   void RequireSquaresOfInputs() const {
     if (selection_.only_to_judge) return;
     for (std::size_t i = 0; i < parts_.inputs.size(); ++i) {
@@ -326,31 +305,9 @@ class DatasetBuilder {
     }
   }
 
-  // Only the ratios of weights mean something. Their mean becomes 1, so that
-  // weights which are all equal are none.
   void TakeWeights() {
     if (roles_.weight == kNoColumn) return;
-    const CsvColumn& column = table_.At(roles_.weight);
-    parts_.weights = ValuesOfRows(column, parts_.rows);
-    for (std::size_t i = 0; i < parts_.rows.size(); ++i) {
-      const double weight = parts_.weights(static_cast<Eigen::Index>(i));
-      if (weight > 0.0) continue;
-      throw InputError(
-          table_.Where(static_cast<std::size_t>(parts_.rows[i]), column.name) +
-          ": weight " + CsvNumber(weight) +
-          " is not positive; correct it or remove the row");
-    }
-    Eigen::Index least = 0;
-    parts_.weights /= parts_.weights.maxCoeff();
-    constexpr double kLeastShare = 1e-30;
-    if (parts_.weights.minCoeff(&least) < kLeastShare) {
-      const auto row = static_cast<std::size_t>(
-          parts_.rows[static_cast<std::size_t>(least)]);
-      throw InputError(table_.Where(row, column.name) + ": weight " +
-                       CsvNumber(column.values[row]) +
-                       " is less than 1e-30 of the largest; remove the row");
-    }
-    parts_.weights /= parts_.weights.mean();
+    parts_.weights = WeightsOf(table_, table_.At(roles_.weight), parts_.rows);
   }
 
   void TakeInputs() {
@@ -608,18 +565,6 @@ class DatasetBuilder {
     return reading;
   }
 
-  bool IsOneInEachSession(const PartingColumn& column) const {
-    if (NumSessions() < 2) return false;
-    const std::vector<Eigen::Index> sessions = SessionOfRows();
-    for (std::size_t i = 1; i < column.codes.size(); ++i) {
-      if (column.codes[i] != column.codes[i - 1] &&
-          sessions[i] == sessions[i - 1]) {
-        return false;
-      }
-    }
-    return true;
-  }
-
   // Rows of several machines, tools or directions, which err differently.
   void LookForParts() {
     constexpr double kDiffers = 0.7;
@@ -627,14 +572,15 @@ class DatasetBuilder {
     for (const std::size_t index : words_) {
       const PartingColumn column =
           PartBy(table_, table_.At(index), parts_.rows);
+      const bool parts = PartsComponents(table_, table_.At(index));
+      // A map for each day is of no use on another.
+      if (!parts && NumSessions() > 1 && IsOneInEach(SessionOfRows(), column)) {
+        continue;
+      }
       const PartingEffect effect =
           EffectOfParting(column, parts_.target_values, parts_.input_values);
-      if (!PartsComponents(table_, table_.At(index)) &&
-          IsOneInEachSession(column)) {
-        continue;  // a map for each day is of no use on another
-      }
       if (!(effect.each < kDiffers * effect.one)) {
-        if (!PartsComponents(table_, table_.At(index))) continue;
+        if (!parts) continue;
         remarks_.push_back("rows that differ in " + QuotedName(column.name) +
                            " may need a map each, by " + ArgumentName("where"));
         continue;

@@ -2,8 +2,10 @@
 
 #include <cmath>
 
+#include "data/argument_name.h"
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
+#include "data/measurements/reading/reading.h"
 #include "data/measurements/rounded.h"
 #include "data/units.h"
 
@@ -23,6 +25,48 @@ std::optional<std::string> UnlikelySize(const ColumnInfo& target,
          target.unit.symbol + " RMS, " + (size > kMost ? "more" : "less") +
          " than machine tools err by; if it is in another unit, write that "
          "into its name: error_um, 'error [mm]'";
+}
+
+void AskForUnit(const CsvTable& table,
+                const std::string& target,
+                const Eigen::VectorXd& values) {
+  constexpr Eigen::Index kFewestRows = 12;
+  constexpr double kMost = 1.0;  // mm
+  if (ReadHeader(target).source == UnitSource::kStated ||
+      values.size() < kFewestRows ||
+      values.squaredNorm() < kMost * static_cast<double>(values.size())) {
+    return;
+  }
+  throw OpenQuestion(
+      PrintablePath(table.file),
+      {.topic = "unit",
+       .question = "in which unit is " + QuotedName(target) + "?",
+       .answers = {{.option = ArgumentName("target", target + " [um]"),
+                    .means = "in um"},
+                   {.option = ArgumentName("target", target + " [mm]"),
+                    .means = "in mm"}}});
+}
+
+Eigen::VectorXd WeightsOf(const CsvTable& table,
+                          const CsvColumn& column,
+                          const std::vector<Eigen::Index>& rows) {
+  constexpr double kLeastShare = 1e-30;
+  Eigen::VectorXd weights = ValuesOfRows(column, rows);
+  Eigen::Index least = 0;
+  const double smallest = weights.minCoeff(&least);
+  const auto row =
+      static_cast<std::size_t>(rows[static_cast<std::size_t>(least)]);
+  const std::string weight =
+      table.Where(row, column.name) + ": weight " + CsvNumber(smallest);
+  if (!(smallest > 0.0)) {
+    throw InputError(weight + " is not positive; correct it or remove the row");
+  }
+  if (smallest < kLeastShare * weights.maxCoeff()) {
+    throw InputError(weight +
+                     " is less than 1e-30 of the largest; remove the row");
+  }
+  weights /= weights.maxCoeff();
+  return weights / weights.mean();
 }
 
 void RequireSquares(const CsvTable& table,

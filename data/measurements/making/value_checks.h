@@ -17,6 +17,19 @@ namespace errmap::data {
 std::optional<std::string> UnlikelySize(const ColumnInfo& target,
                                         const Eigen::VectorXd& values);
 
+/// Throws OpenQuestion where nobody stated the unit of a target and its values
+/// (RMS above 1) speak against the one assumed.
+void AskForUnit(const CsvTable& table,
+                const std::string& target,
+                const Eigen::VectorXd& values);
+
+/// The weights of these rows, of mean 1, since only their ratios mean something
+/// and equal ones are none. Throws InputError where one is not above 0, or less
+/// than 1e-30 of the largest.
+Eigen::VectorXd WeightsOf(const CsvTable& table,
+                          const CsvColumn& column,
+                          const std::vector<Eigen::Index>& rows);
+
 /// Throws InputError where the squares of `values` cannot be summed, as every
 /// figure of a target or an input is such a sum. `what`: "target", "input" that
 /// is called `column`, of these `rows` of the table.

@@ -48,6 +48,17 @@ PartingColumn PartBy(const CsvTable& table,
           .codes = std::move(codes)};
 }
 
+bool IsOneInEach(const std::vector<Index>& sessions,
+                 const PartingColumn& column) {
+  for (std::size_t i = 1; i < column.codes.size(); ++i) {
+    if (column.codes[i] != column.codes[i - 1] &&
+        sessions[i] == sessions[i - 1]) {
+      return false;
+    }
+  }
+  return true;
+}
+
 PartingEffect EffectOfParting(const PartingColumn& column,
                               const Eigen::VectorXd& target,
                               const Eigen::MatrixXd& input_values) {

@@ -22,6 +22,10 @@ PartingColumn PartBy(const CsvTable& table,
                      const CsvColumn& column,
                      const std::vector<Eigen::Index>& rows);
 
+/// Whether it changes only where a session (codes of the same rows) does.
+bool IsOneInEach(const std::vector<Eigen::Index>& sessions,
+                 const PartingColumn& column);
+
 /// Root mean squares of what plain linear maps miss, degrees of freedom taken
 /// into account: one for all rows, and one for each value of the column. NaN
 /// where the rows are too few to tell.
