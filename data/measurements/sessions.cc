@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -11,7 +10,6 @@
 #include "data/argument_name.h"
 #include "data/column_words.h"
 #include "data/measurements/column_checks.h"
-#include "data/measurements/column_roles.h"
 #include "data/measurements/date_time.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/reading/row_columns.h"
@@ -318,10 +316,6 @@ class SessionFinder : private RowColumns {
     sessions->codes = std::move(codes);
   }
 
-  static bool HasDigit(const std::string& label) {
-    return label.find_first_of("0123456789") != label.npos;
-  }
-
   void RefuseTimeGoingBack() const {
     if (found_.time_column < 0) return;
     std::vector<double> last(found_.sessions.labels.size(), -INFINITY);
@@ -378,9 +372,7 @@ class SessionFinder : private RowColumns {
     if (blocks_ >= 0 &&
         TakeSessions(static_cast<std::size_t>(blocks_), false)) {
       found_.evidence = Evidence::kValues;
-      return;
     }
-    TakeBlocksOfWords();
   }
 
   bool CutWhereCyclesCountAnew() {
@@ -394,46 +386,6 @@ class SessionFinder : private RowColumns {
       return true;
     }
     return false;
-  }
-
-  // Where there is no clock, words that change a few times down the rows and
-  // never come back ("Mo", "Di"; "meas_01.dat"), each over some passes.
-  void TakeBlocksOfWords() {
-    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
-      const CsvColumn& column = table_.columns[i];
-      if (IsMeasured(i) || !column.is_text() || !column.has_name ||
-          PartsComponents(table_, column) || !AreBlocks(column)) {
-        continue;
-      }
-      const FoundSessions one = found_;
-      if (TakeSessions(i, false)) {
-        found_.evidence = Evidence::kValues;
-        return;
-      }
-      found_ = one;
-    }
-  }
-
-  bool AreBlocks(const CsvColumn& column) const {
-    constexpr std::size_t kFewestRows = 8;
-    std::set<std::uint32_t> seen;
-    std::size_t rows = kFewestRows;
-    auto cell = column.exceptions.begin();
-    std::uint32_t last = 0;
-    for (std::size_t i = 0; i < rows_.size(); ++i, ++rows) {
-      while (cell->first < DataRow(i)) ++cell;
-      if (i > 0 && cell->second == last) continue;
-      if (rows < kFewestRows || !seen.insert(cell->second).second ||
-          IsMissingText(column.texts[cell->second])) {
-        return false;
-      }
-      const bool inside_a_pass =
-          i > 0 && !passes_.empty() && passes_[i] == passes_[i - 1];
-      if (inside_a_pass) return false;
-      last = cell->second;
-      rows = 0;
-    }
-    return seen.size() >= 2 && rows >= kFewestRows;
   }
 
   template <typename Begins>

@@ -6,7 +6,10 @@
 #include <limits>
 
 #include "data/column_words.h"
+#include "data/columns.h"
+#include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
+#include "data/measurements/text_times.h"
 #include "data/text.h"
 #include "data/units.h"
 
@@ -24,19 +27,14 @@ bool AreNearlyAll(Index part, Index of) {
 // Where a column changes, and how.
 class ChangesOf {
  public:
-  // False in `is_whole` where a value is no whole number.
-  ChangesOf(const CsvColumn& column,
-            const std::vector<Index>& rows,
-            const Motion& motion)
+  ChangesOf(const std::vector<double>& values, const Motion& motion)
       : motion_(motion),
         has_passes_(motion.num_passes >= 2),
-        rows_(std::ssize(rows)) {
+        rows_(std::ssize(values)) {
     double before = std::nan("");
     Index length = 0;  // of the block so far: passes, or rows without any
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const double now = column.values[static_cast<std::size_t>(rows[i])];
-      is_whole_ = is_whole_ && now == std::floor(now);  // NaN is not
-      if (!is_whole_) return;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double now = values[i];
       if (i == 0) {
         first_ = now;
       } else if (now != before) {
@@ -56,7 +54,7 @@ class ChangesOf {
 
   Counted Counts(bool is_called) const {
     const Index changes = passes_with_ + turns_with_ + inside_;
-    if (!is_whole_ || changes == 0 || 2 * even_ <= changes) {
+    if (changes == 0 || 2 * even_ <= changes) {
       return Counted::kNothing;
     }
     constexpr Index kFewestRows = 12;
@@ -106,7 +104,6 @@ class ChangesOf {
   const Motion& motion_;
   bool has_passes_;
   Index rows_;
-  bool is_whole_ = true;
   double first_ = 0.0;
   Index passes_with_ = 0;
   Index passes_without_ = 0;
@@ -118,6 +115,38 @@ class ChangesOf {
   Index back_ = 0;
   Index shortest_ = std::numeric_limits<Index>::max();
 };
+
+bool MayCount(const CsvColumn& column) {
+  return column.has_name && UnitOfColumn(column.name).symbol.empty() &&
+         !IsCalledPosition(column.name) &&
+         !Says(column.name, Word::kTemperature) &&
+         !IsCalled(column.name, Word::kPart) &&
+         !IsCalled(column.name, Word::kComponent) &&
+         !IsCalled(column.name, Word::kDirection) && !HoldsTimes(column);
+}
+
+// Whole numbers; of words 0, 1, ... in the order in which they appear. None
+// where the column has others, or lacks one.
+std::vector<double> NumbersOf(const CsvTable& table,
+                              const CsvColumn& column,
+                              const std::vector<Index>& rows) {
+  constexpr std::size_t kMostWords = 1000;
+  std::vector<double> numbers;
+  if (!column.is_text()) {
+    for (const Index row : rows) {
+      const double value = column.values[static_cast<std::size_t>(row)];
+      if (value != std::floor(value)) return {};  // NaN, too
+      numbers.push_back(value);
+    }
+    return numbers;
+  }
+  const LabelsOfRows words = LabelsOf(table, column, rows, kMostWords);
+  if (words.codes.size() == rows.size() &&
+      std::ranges::none_of(words.labels, IsMissingText)) {
+    numbers.assign(words.codes.begin(), words.codes.end());
+  }
+  return numbers;
+}
 
 }  // namespace
 
@@ -140,21 +169,15 @@ std::vector<Counter> FindCounters(const CsvTable& table,
   std::vector<Counter> found;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const CsvColumn& column = table.columns[i];
-    const bool is_named =
-        std::ranges::count(selection.inputs, column.name) > 0 ||
-        column.name == selection.session;
-    if (i == target || is_named || column.is_text() ||
-        IsCalledPosition(column.name) ||
-        !UnitOfColumn(column.name).symbol.empty() ||
-        Says(column.name, Word::kTemperature) ||
-        IsCalled(column.name, Word::kPart) ||
-        IsCalled(column.name, Word::kDirection)) {
-      continue;
-    }
+    const std::string& name = column.name;
+    const bool is_named = std::ranges::count(selection.inputs, name) > 0 ||
+                          name == selection.session;
+    if (i == target || is_named || !MayCount(column)) continue;
+    const bool is_called = KeepsRecord(name) || column.is_text();
     Counted counts =
-        ChangesOf(column, rows, motion).Counts(KeepsRecord(column.name));
-    if (counts == Counted::kPasses && !KeepsRecord(column.name) &&
-        CountsCycles({.name = column.name, .unit = {}})) {
+        ChangesOf(NumbersOf(table, column, rows), motion).Counts(is_called);
+    if (counts == Counted::kPasses && !is_called &&
+        CountsCycles({.name = name, .unit = {}})) {
       counts = Counted::kElapsed;
     }
     if (counts != Counted::kNothing) found.push_back({i, counts});

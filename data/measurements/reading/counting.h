@@ -30,11 +30,12 @@ struct Counter {
 };
 
 /// The columns that count, whatever they are called: whole numbers without a
-/// unit, that change only where a pass or a way begins, mostly by the same.
-/// Blocks go up by one, never back; where nothing else says that they count,
-/// they begin at 1 (three of them or more at 0). Without passes, a block has 8
-/// rows or more. Neither positions, nor the target, nor what `selection` names.
-/// `motion` is that of `rows`, which are in the order of measurement.
+/// unit that change only where a pass or a way begins, mostly by the same, and
+/// words by the order in which they appear. Blocks go up by one, never back;
+/// numbers of no name that says so begin at 1 (three of them or more at 0).
+/// Without passes, a block has 8 rows or more. Neither positions, nor the
+/// target, nor what `selection` names. `motion` is that of `rows`, which are in
+/// the order of measurement.
 std::vector<Counter> FindCounters(const CsvTable& table,
                                   const DatasetSelection& selection,
                                   std::size_t target,
