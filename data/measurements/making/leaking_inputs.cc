@@ -78,8 +78,7 @@ class LeakFinder {
     }
     const auto size = static_cast<Index>(candidates_.size());
     Eigen::MatrixXd values(target_.size(), size);
-    // Of one size, as counts of an encoder are far larger than a position in m.
-    for (Index k = 0; k < size; ++k) values.col(k) = Of(k).values / Of(k).sd;
+    for (Index k = 0; k < size; ++k) values.col(k) = Of(k).values;
     products_ = values.transpose() * values;
     with_target_ = values.transpose() * target_;
     std::vector<Leak> leaks = shares_;
@@ -216,12 +215,8 @@ class LeakFinder {
     for (std::size_t i = 0; i < set.size(); ++i) {
       size = std::max(size, std::abs(b[static_cast<Index>(i)]) * Of(set[i]).sd);
     }
-    const auto num_positions =
-        std::ranges::count_if(set, [&](Index k) { return Of(k).position; });
-    // A position as read, perhaps in counts, less the position.
-    const bool is_difference = (1.0 - kUnitSlack) * most < least ||
-                               (set.size() == 2 && num_positions == 1);
-    if (set.size() > 1 && is_difference && size > kCancels * sd_) {
+    if (set.size() > 1 && least > (1.0 - kUnitSlack) * most &&
+        size > kCancels * sd_) {
       return rounding <= kMostOfDifference * sd_;
     }
     if (rounding > kMostOfOther * sd_) return false;
@@ -233,12 +228,9 @@ class LeakFinder {
     const auto rows = static_cast<double>(rows_.size());
     // By the products first, which costs little and tells nearly all.
     const Eigen::MatrixXd products = products_(set, set);
-    VectorXd rough = SolveLeastSquares(products, with_target_(set));
+    const VectorXd rough = SolveLeastSquares(products, with_target_(set));
     const double left =
         (target_.squaredNorm() - rough.dot(with_target_(set))) / rows;
-    for (std::size_t i = 0; i < set.size(); ++i) {
-      rough[static_cast<Index>(i)] /= Of(set[i]).sd;
-    }
     const double bound = 2.0 * RoundingOf(set, rough);
     if (!(left <= bound * bound + kMostOfParts * kMostOfParts * sd_ * sd_))
       return std::nullopt;
@@ -274,10 +266,8 @@ class LeakFinder {
                         : factor < 0.0       ? " - "
                                              : " + ";
       }
-      leak.formula +=
-          (one ? "" : Rounded(std::abs(factor)) + " ") +
-          NameInRemark(
-              inputs_[static_cast<std::size_t>(Of(set[i]).input)].name);
+      leak.formula += (one ? "" : Rounded(std::abs(factor)) + " ") +
+                      NameOf(Of(set[i]).input);
     }
     for (const Index k : set) {
       leak.inputs.push_back(Of(k).input);
@@ -324,7 +314,7 @@ class LeakFinder {
   double resolution_ = 0.0;
   std::vector<Candidate> candidates_;
   std::vector<Leak> shares_;
-  Eigen::MatrixXd products_;  // of candidates over their deviation
+  Eigen::MatrixXd products_;  // of candidates
   VectorXd with_target_;
 };
 

@@ -18,8 +18,9 @@ struct Leak {
 };
 
 /// Finds the error's own parts among the inputs (m x p) of a target (m), by
-/// least squares on the rows: the measured position beside the nominal one, in
-/// counts, too, a copy in another unit or in ppm of the position, two halves.
+/// least squares on the rows: the measured position beside the nominal one, a
+/// copy in another unit or in ppm of the position, two halves. Counts of an
+/// encoder are told by the axis.
 /// Temperatures, times, and positions by themselves are states of a machine,
 /// never parts of its error: a target that is a plain function of them is a
 /// good map. Of a set that has a position or a few settings in it, these stay.
