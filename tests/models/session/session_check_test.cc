@@ -135,6 +135,23 @@ TEST(CheckSession, SaysOfTheFirstMinutesOnlyThatTheMapHoldsSoFar) {
   EXPECT_GE(so_far, 10);
 }
 
+// Of a day whose map errs by `gain` times what it predicts.
+template <typename Predicted>
+SessionCheck CheckOfGain(const HeldOutErrors& errors,
+                         double gain,
+                         const Predicted& predicted,
+                         const std::vector<Index>& rows,
+                         stats::Random* random) {
+  HeldOutErrors::Unit day = Day(random);
+  const VectorXd map = VectorXd::NullaryExpr(kRows, predicted);
+  day.residuals += (gain - 1.0) * map;
+  return CheckSession(errors,
+                      {.elapsed = day.elapsed(rows),
+                       .position = day.position(rows),
+                       .predicted = map(rows),
+                       .residuals = day.residuals(rows)});
+}
+
 // What a map predicts grows over the day: a gain looks like an offset at first.
 TEST(CheckSession, TellsAGainAndAnotherSignFromAnOffset) {
   HeldOutErrors errors = DaysInSessionCheck(10, 1);
@@ -149,15 +166,8 @@ TEST(CheckSession, TellsAGainAndAnotherSignFromAnOffset) {
   for (const double gain : {2.0, -1.0}) {
     int told = 0;
     for (int i = 0; i < 30; ++i) {
-      HeldOutErrors::Unit day = Day(&random);
-      const VectorXd map = VectorXd::NullaryExpr(kRows, predicted);
-      day.residuals += (gain - 1.0) * map;
       const SessionCheck check =
-          CheckSession(errors,
-                       {.elapsed = day.elapsed(rows),
-                        .position = day.position(rows),
-                        .predicted = map(rows),
-                        .residuals = day.residuals(rows)});
+          CheckOfGain(errors, gain, predicted, rows, &random);
       EXPECT_NE(check.remedy, Remedy::kRezero);
       told += check.remedy == Remedy::kGain || check.remedy == Remedy::kSign;
       if (check.remedy == Remedy::kGain) {
@@ -182,15 +192,8 @@ TEST(CheckSession, LooksForASignOrAUnitBeforeItAsksForNewDays) {
   const std::vector<Index> rows = {0, 9, 11, 21, 31};
   for (const double gain : {-1.0, 2.0}) {
     for (int i = 0; i < 30; ++i) {
-      HeldOutErrors::Unit day = Day(&random);
-      const VectorXd map = VectorXd::NullaryExpr(kRows, predicted);
-      day.residuals += (gain - 1.0) * map;
       const SessionCheck check =
-          CheckSession(errors,
-                       {.elapsed = day.elapsed(rows),
-                        .position = day.position(rows),
-                        .predicted = map(rows),
-                        .residuals = day.residuals(rows)});
+          CheckOfGain(errors, gain, predicted, rows, &random);
       EXPECT_NE(check.remedy, Remedy::kRefit) << gain;
     }
   }
