@@ -24,8 +24,7 @@ constexpr std::size_t kMuchText = 1U << 20U;
 bool IsLikeTime(std::string_view cell) {
   return cell.find_first_not_of("0123456789.,:/-+TZ ") ==
              std::string_view::npos &&
-         HasDigit(cell) &&
-         cell.find_first_of(":/-.") != std::string_view::npos;
+         HasDigit(cell) && cell.find_first_of(":/-.") != std::string_view::npos;
 }
 
 bool IsKnown(std::string_view cell, bool decimal_comma) {
