@@ -5,6 +5,7 @@
 
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
+#include "data/measurements/reading/reading.h"
 
 namespace errmap::data {
 
@@ -32,6 +33,9 @@ MatchedColumn MatchColumn(const CsvTable& table, const ColumnInfo& of_map);
 struct TableForMap {
   CsvTable table;
   std::vector<std::string> remarks;  // one line for each column that differs
+  Reading reading = {};              // of its rows
+  /// Rows of the file, where they were put in order of time; else empty.
+  std::vector<Eigen::Index> order = {};
 };
 
 /// Renames and converts the columns that stand for those of the map; throws as

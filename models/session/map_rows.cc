@@ -6,13 +6,16 @@
 
 #include <fmt/format.h>
 
+#include "data/input_error.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/measured_files.h"
+#include "data/measurements/reading/derived_columns.h"
 #include "data/measurements/reading/directions.h"
 #include "data/measurements/reading/read_table.h"
 #include "data/measurements/row_filters.h"
 #include "data/measurements/sessions.h"
+#include "data/text.h"
 #include "stats/indices.h"
 
 namespace errmap::models {
@@ -64,10 +67,9 @@ data::Dataset WithMapLog(const data::Dataset& dataset, const MapLog& map) {
   return dataset.WithLog(map.log, std::move(log_rows));
 }
 
-data::FoundSessions FindSessionsOf(const FittedModel& fitted,
-                                   const data::CsvTable& table,
-                                   const std::vector<Index>& rows,
-                                   const MapLogArguments& arguments) {
+data::DatasetSelection SelectionOfRows(const FittedModel& fitted,
+                                       const data::CsvTable& table,
+                                       const MapLogArguments& arguments) {
   data::DatasetSelection selection;
   selection.time = arguments.time;
   selection.session = arguments.session;
@@ -78,7 +80,39 @@ data::FoundSessions FindSessionsOf(const FittedModel& fitted,
   if (fitted.history != nullptr && fitted.history->gap > 0.0) {
     selection.gap = data::CsvNumber(fitted.history->gap);
   }
-  return data::FindSessions(table, selection, rows);
+  return selection;
+}
+
+// Puts the rows in order of time; what was found of them.
+data::ReadTable ReadRows(const FittedModel& fitted,
+                         const MapLogArguments& arguments,
+                         data::CsvTable* table) {
+  data::DatasetSelection selection = SelectionOfRows(fitted, *table, arguments);
+  selection.target = fitted.target.name;
+  if (table->Find(PositionOf(fitted)) >= 0) {
+    selection.position = PositionOf(fitted);
+  }
+  const History* const history = fitted.history.get();
+  if (selection.time.empty() && history != nullptr &&
+      table->Find(history->time) >= 0) {
+    selection.time = history->time;
+  }
+  data::ReadTable read = data::ReadRowsForMap(*table, selection);
+  if (read.reading.order == "none" && history != nullptr &&
+      history->needs_sessions()) {
+    throw data::InputError(
+        data::PrintablePath(table->file) +
+        ": the rows do not stand in the order in which they were measured, and "
+        "the map's memory needs it; give them as measured, or add a column of "
+        "times");
+  }
+  if (!read.order.empty()) *table = data::InOrder(*table, read.order);
+  for (const TrainedInput& input : fitted.inputs) {
+    if (data::IsReadBySensor(input.column)) {
+      read.reading.sensors.push_back(input.column.name);
+    }
+  }
+  return read;
 }
 
 }  // namespace
@@ -114,7 +148,8 @@ std::string MadeForText(const FittedModel& fitted,
 
 data::TableForMap ReadForMap(const FittedModel& fitted,
                              const std::vector<std::string>& files,
-                             MapColumns columns) {
+                             MapColumns columns,
+                             const MapLogArguments& arguments) {
   std::vector<data::ColumnInfo> of_map;
   for (const TrainedInput& input : fitted.inputs) {
     of_map.push_back(input.column);
@@ -129,6 +164,7 @@ data::TableForMap ReadForMap(const FittedModel& fitted,
   if (by_file && read.table.Find(data::kFileColumn) < 0) {
     data::AddFileColumn(data::FileLabel(read.table.file), &read.table);
   }
+  data::ReadTable rows = ReadRows(fitted, arguments, &read.table);
   data::AddDerivedColumns(
       fitted.where,
       PositionOf(fitted),
@@ -137,6 +173,8 @@ data::TableForMap ReadForMap(const FittedModel& fitted,
   data::TableForMap result = data::InMapUnits(std::move(read.table), of_map);
   result.remarks.insert(
       result.remarks.begin(), read.remarks.begin(), read.remarks.end());
+  result.reading = std::move(rows.reading);
+  result.order = std::move(rows.order);
   return result;
 }
 
@@ -144,8 +182,8 @@ MomentsOfRows MomentsOf(const FittedModel& fitted,
                         const data::CsvTable& table,
                         const std::vector<Index>& rows,
                         const MapLogArguments& arguments) {
-  const data::FoundSessions found =
-      FindSessionsOf(fitted, table, rows, arguments);
+  const data::FoundSessions found = data::FindSessions(
+      table, SelectionOfRows(fitted, table, arguments), rows);
   const bool has_times = found.time_column >= 0;
   MomentsOfRows moments{.at = {}, .session_column = found.sessions.column};
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -74,7 +74,9 @@ ErrorCurve AfterLog(const models::FittedModel& fitted,
                     const models::MapProgram& program,
                     const TableArguments& arguments) {
   const data::CsvTable table =
-      ReadForMap(fitted, {arguments.log}, models::MapColumns::kInputs, true);
+      models::ReadForMap(
+          fitted, {arguments.log}, models::MapColumns::kInputs, {})
+          .table;
   const auto num_rows = static_cast<int>(table.num_rows);
   const int row = arguments.row < 0 ? num_rows - 1 : arguments.row;
   if (row >= num_rows) {

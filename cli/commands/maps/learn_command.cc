@@ -12,7 +12,6 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
-#include "cli/commands/maps/map_warnings.h"
 #include "cli/commands/progress.h"
 #include "cli/desk/data_options.h"
 #include "cli/desk/provenance.h"
@@ -28,8 +27,10 @@
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
+#include "data/csv.h"
 #include "data/files/atomic_file.h"
 #include "data/files/prepare_folder.h"
+#include "data/measurements/column_match.h"
 #include "fitting/interruption.h"
 #include "models/learning/learning_curve.h"
 #include "models/learning/learning_record.h"
@@ -146,17 +147,14 @@ models::StudyResult RunLearning(
 Eigen::MatrixXd ReadCandidates(const std::string& file,
                                const data::Dataset& dataset,
                                bool quiet) {
-  models::FittedModel columns;
-  for (const data::ColumnInfo& input : dataset.inputs()) {
-    columns.inputs.push_back({.column = input});
-  }
-  const data::CsvTable table =
-      ReadForMap(columns, {file}, models::MapColumns::kInputs, quiet);
-  Eigen::MatrixXd values(static_cast<Index>(table.num_rows),
+  const data::TableForMap read =
+      data::InMapUnits(data::ReadCsv(file), dataset.inputs());
+  SayUnless(quiet, read.remarks);
+  Eigen::MatrixXd values(static_cast<Index>(read.table.num_rows),
                          dataset.num_inputs());
   for (Index i = 0; i < values.cols(); ++i) {
     values.col(i) =
-        data::NumericColumn(table,
+        data::NumericColumn(read.table,
                             dataset.inputs()[static_cast<std::size_t>(i)].name,
                             data::MissingPolicy::kError,
                             nullptr);

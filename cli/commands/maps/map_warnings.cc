@@ -15,6 +15,7 @@
 #include "cli/report/words/commands/outside_text.h"
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
+#include "data/measurements/reading/reading.h"
 #include "data/text.h"
 #include "models/session/zero_schedule.h"
 #include "models/uncertainty/learnt_rows.h"
@@ -85,13 +86,9 @@ std::string LearntText(const RowsLearnt& learnt) {
                    learnt.of);
 }
 
-data::CsvTable ReadForMap(const models::FittedModel& fitted,
-                          const std::vector<std::string>& files,
-                          models::MapColumns columns,
-                          bool quiet) {
-  data::TableForMap read = models::ReadForMap(fitted, files, columns);
+void SayRead(const data::TableForMap& read, bool quiet) {
+  SayUnless(quiet, data::ReadingLines(read.reading));
   SayUnless(quiet, read.remarks);
-  return std::move(read.table);
 }
 
 models::MapRows ReadMapRows(const models::FittedModel& fitted,
@@ -100,16 +97,19 @@ models::MapRows ReadMapRows(const models::FittedModel& fitted,
                             bool quiet) {
   return RowsForMap(
       fitted,
-      ReadForMap(fitted, files, models::MapColumns::kInputsAndTarget, quiet),
+      models::ReadForMap(
+          fitted, files, models::MapColumns::kInputsAndTarget, options.log),
       options,
       quiet);
 }
 
 models::MapRows RowsForMap(const models::FittedModel& fitted,
-                           data::CsvTable table,
+                           data::TableForMap read,
                            const models::MapRowsOptions& options,
                            bool quiet) {
-  models::MapRows rows = models::MakeMapRows(fitted, std::move(table), options);
+  models::MapRows rows =
+      models::MakeMapRows(fitted, std::move(read.table), options);
+  SayRead(read, quiet);
   SayUnless(quiet, rows.prepared.remarks);
   SayUnless(quiet,
             report::FaultLines(

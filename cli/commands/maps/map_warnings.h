@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "cli/json_blocks.h"
-#include "data/csv.h"
+#include "data/measurements/column_match.h"
 #include "models/error_model.h"
 #include "models/model_file.h"
 #include "models/sensors/applicability.h"
@@ -18,17 +18,14 @@ namespace errmap::cli {
 /// the file.
 models::FittedModel LoadMap(const std::string& file, bool quiet);
 
-/// Calls models::ReadForMap and, unless quiet, says what was converted.
-data::CsvTable ReadForMap(const models::FittedModel& fitted,
-                          const std::vector<std::string>& files,
-                          models::MapColumns columns,
-                          bool quiet);
+/// Says how the rows of a file were read and what was converted.
+void SayRead(const data::TableForMap& read, bool quiet);
 
 /// Returns the measured rows of a table from ReadForMap, or of files. Remarks
 /// and warnings go to stderr unless quiet. Throws data::InputError as
 /// MakeMapRows does.
 models::MapRows RowsForMap(const models::FittedModel& fitted,
-                           data::CsvTable table,
+                           data::TableForMap read,
                            const models::MapRowsOptions& options,
                            bool quiet);
 models::MapRows ReadMapRows(const models::FittedModel& fitted,

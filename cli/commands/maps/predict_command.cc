@@ -23,6 +23,7 @@
 #include "data/files/atomic_file.h"
 #include "data/formula_text.h"
 #include "data/input_error.h"
+#include "data/measurements/column_match.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/dataset.h"
 #include "data/measurements/joined_tables.h"
@@ -75,18 +76,20 @@ models::ProbeCorrection Correct(const models::FittedModel& fitted,
         "the map holds no errors of unseen days to weigh probes by; fit it "
         "with compare, or with fit and without --no-interval");
   }
-  data::CsvTable table = ReadForMap(fitted,
-                                    {arguments.probes},
-                                    models::MapColumns::kInputsAndTarget,
-                                    arguments.quiet);
+  data::TableForMap read =
+      models::ReadForMap(fitted,
+                         {arguments.probes},
+                         models::MapColumns::kInputsAndTarget,
+                         arguments.log);
   // Where a file is a session, probes are of that of the rows.
   if (const std::ptrdiff_t file = today.table.Find(data::kFileColumn);
       file >= 0 && arguments.files.size() == 1) {
-    data::AddFileColumn(today.table.CellText(today.table.At(file), 0), &table);
+    data::AddFileColumn(today.table.CellText(today.table.At(file), 0),
+                        &read.table);
   }
   const models::MapRows probes =
       RowsForMap(fitted,
-                 std::move(table),
+                 std::move(read),
                  models::ProbeRowsOptions(fitted, arguments.log),
                  arguments.quiet);
   return models::CorrectByProbes(fitted, probes, today, arguments.log);
@@ -109,6 +112,7 @@ double HalfWidth(const models::FittedModel& fitted,
 struct Predicted {
   const models::FittedModel& fitted;
   const data::CsvTable& table;
+  const std::vector<Eigen::Index>& order;  // as data::TableForMap has it
   const models::MapLog& map;
   models::Prediction prediction;
   std::optional<models::ProbeCorrection> probes;
@@ -189,6 +193,16 @@ std::vector<const data::CsvColumn*> IdColumns(const Predicted& found,
   return ids;
 }
 
+// The rows as the file has them.
+std::vector<Eigen::Index> RowsOfFile(const Predicted& found) {
+  std::vector<Eigen::Index> rows = data::AllRows(found.table.num_rows);
+  for (std::size_t row = 0; row < found.order.size(); ++row) {
+    rows[static_cast<std::size_t>(found.order[row])] =
+        static_cast<Eigen::Index>(row);
+  }
+  return rows;
+}
+
 std::string PredictionsCsv(const Predicted& found, const std::string& time) {
   const std::vector<const data::CsvColumn*> ids = IdColumns(found, time);
   std::string text;
@@ -197,7 +211,7 @@ std::string PredictionsCsv(const Predicted& found, const std::string& time) {
       "predicted,lower_90,upper_90,lower_95,upper_95,inside,why,offender,"
       "unit\n";
   const std::string unit = data::CsvField(found.fitted.target.unit.symbol);
-  for (Eigen::Index row = 0; row < found.prediction.errors.size(); ++row) {
+  for (const Eigen::Index row : RowsOfFile(found)) {
     const auto at = static_cast<std::size_t>(row);
     for (const data::CsvColumn* id : ids) {
       text += data::CsvField(found.table.CellText(*id, at)) + ",";
@@ -264,14 +278,17 @@ int RunPredict(const PredictArguments& arguments) {
     return read;
   }());
   const models::FittedModel fitted = LoadMap(arguments.model, arguments.quiet);
-  const data::CsvTable table = ReadForMap(
-      fitted, arguments.files, models::MapColumns::kInputs, arguments.quiet);
+  const data::TableForMap read = models::ReadForMap(
+      fitted, arguments.files, models::MapColumns::kInputs, arguments.log);
+  const data::CsvTable& table = read.table;
   const Eigen::MatrixXd inputs = models::InputsOf(fitted, table);
   const models::MapLog map = models::MakeMapLog(fitted, table, arguments.log);
+  SayRead(read, arguments.quiet);
   const data::Dataset rows = RowsToPredict(fitted, table, inputs, map);
   const Eigen::MatrixXd form_inputs = fitted.FormInputs(rows);
   Predicted found{.fitted = fitted,
                   .table = table,
+                  .order = read.order,
                   .map = map,
                   .prediction = fitted.PredictForm(form_inputs),
                   .probes = {},

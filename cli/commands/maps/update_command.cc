@@ -63,10 +63,14 @@ data::Dataset ReadRows(const models::FittedModel& map,
   for (const models::TrainedInput& input : map.inputs) {
     selection.inputs.push_back(input.column.name);
   }
-  const data::CsvTable table = ReadForMap(
-      map, {file}, models::MapColumns::kInputsAndTarget, arguments.quiet);
-  selection.where = models::FiltersFor(map, table);
-  data::PreparedDataset prepared = data::MakeDataset(table, selection);
+  const data::TableForMap read = models::ReadForMap(
+      map,
+      {file},
+      models::MapColumns::kInputsAndTarget,
+      {.after = {}, .time = arguments.time, .session = arguments.session});
+  selection.where = models::FiltersFor(map, read.table);
+  data::PreparedDataset prepared = data::MakeDataset(read.table, selection);
+  SayRead(read, arguments.quiet);
   SayUnless(arguments.quiet, prepared.remarks);
   return std::move(prepared.dataset);
 }

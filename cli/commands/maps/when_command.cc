@@ -44,10 +44,11 @@ struct SinceProbe {
 SinceProbe ReadSinceProbe(const models::FittedModel& fitted,
                           const WhenArguments& arguments,
                           const models::ZeroTrigger& advised) {
-  const data::CsvTable table =
-      models::ReadForMap(
-          fitted, {arguments.log.after}, models::MapColumns::kInputs)
-          .table;
+  const data::CsvTable table = models::ReadForMap(fitted,
+                                                  {arguments.log.after},
+                                                  models::MapColumns::kInputs,
+                                                  arguments.log)
+                                   .table;
   const std::vector<Eigen::Index> rows = data::AllRows(table.num_rows);
   if (rows.empty()) {
     throw data::InputError(fmt::format(

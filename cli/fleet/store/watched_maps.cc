@@ -51,7 +51,8 @@ std::vector<Check> ChecksIn(const std::string& file,
                             const models::SensorRelations* relations) {
   const models::MapRows rows = models::MakeMapRows(
       fitted,
-      models::ReadForMap(fitted, {file}, models::MapColumns::kInputsAndTarget)
+      models::ReadForMap(
+          fitted, {file}, models::MapColumns::kInputsAndTarget, {})
           .table,
       {});
   std::vector<Check> checks;

@@ -109,11 +109,13 @@ void DescribeReading(const CsvTable& given,
                      ReadTable* read) {
   const CsvTable& table = read->table ? *read->table : given;
   Reading& reading = read->reading;
-  reading.target.column = table.columns[read->roles.target].name;
-  reading.target.unit = UnitOfColumn(*reading.target.column).symbol;
-  reading.target.evidence =
-      selection.target.empty() ? Evidence::kName : Evidence::kUser;
-  reading.target.sure = true;
+  if (read->roles.target < table.columns.size()) {
+    reading.target.column = table.columns[read->roles.target].name;
+    reading.target.unit = UnitOfColumn(*reading.target.column).symbol;
+    reading.target.evidence =
+        selection.target.empty() ? Evidence::kName : Evidence::kUser;
+    reading.target.sure = true;
+  }
   const Axis& axis = read->axis;
   if (axis.column >= 0) {
     read->position = table.At(axis.column).name;

@@ -83,6 +83,27 @@ class TableReader {
     return std::move(read_);
   }
 
+  ReadTable ReadForMap() {
+    TakeAsMeant();
+    const std::ptrdiff_t target = table().Find(selection_.target);
+    read_.roles.target =
+        target < 0 ? kNoTarget : static_cast<std::size_t>(target);
+    read_.roles.group = CycleColumn(table());
+    read_.reading.rows = static_cast<std::int64_t>(given_.num_rows);
+    base_rows_ = AllRows(given_.num_rows);
+    FindOrder();
+    FindDirection();
+    FindCycles();
+    read_.log_rows = base_rows_;
+    try {
+      FindSessionsOfRows();
+    } catch (const InputError&) {
+      // A map without a memory needs none; one with it says so later.
+    }
+    DescribeReading(given_, selection_, clock_, nights_, &read_);
+    return std::move(read_);
+  }
+
  private:
   const CsvTable& table() const { return read_.table ? *read_.table : given_; }
   void AddColumn(CsvColumn column) {
@@ -247,6 +268,7 @@ class TableReader {
       if (!taken[row]) order.push_back(static_cast<Index>(row));
     }
     read_.table = InOrder(table(), order);
+    read_.order = std::move(order);
     base_rows_ = AllRows(base_rows_.size());
     return true;
   }
@@ -557,6 +579,11 @@ class TableReader {
 
 ReadTable ReadRoles(const CsvTable& table, const DatasetSelection& selection) {
   return TableReader(table, selection).Read();
+}
+
+ReadTable ReadRowsForMap(const CsvTable& table,
+                         const DatasetSelection& selection) {
+  return TableReader(table, selection).ReadForMap();
 }
 
 FoundSessions FindSessions(const CsvTable& table,

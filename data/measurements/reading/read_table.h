@@ -21,6 +21,8 @@ struct ReadTable {
   /// given, which must outlive it.
   std::optional<CsvTable> table;
   ColumnRoles roles;
+  /// Rows of the table given, where they were put in order of time.
+  std::vector<Eigen::Index> order;
   std::vector<ColumnFilter> where;          // of the selection, direction too
   std::vector<bool> passes;                 // (rows of the table)
   std::vector<Eigen::Index> repeated_rows;  // that pass
@@ -37,5 +39,11 @@ struct ReadTable {
 /// Throws InputError as MakeDataset does, OpenQuestion where no reading is the
 /// cautious one.
 ReadTable ReadRoles(const CsvTable& table, const DatasetSelection& selection);
+
+/// Of rows for a map in use, whose columns the map knows: their order, axis,
+/// clock, cycles and sessions. The selection may name target, position, time
+/// and session. Throws InputError where a column that it names will not do.
+ReadTable ReadRowsForMap(const CsvTable& table,
+                         const DatasetSelection& selection);
 
 }  // namespace errmap::data

@@ -13,6 +13,7 @@
 #include "models/history/with_history.h"
 #include "models/model_file.h"
 #include "models/recipe_catalog.h"
+#include "tests/cli/cli_fixture.h"
 #include "tests/cli/cli_runner.h"
 #include "tests/cli/one_line.h"
 
@@ -94,6 +95,44 @@ TEST_F(CliMemory, PredictsFromASessionsFirstRow) {
     EXPECT_NEAR(predicted[i], table.columns[3].values[i], 1e-9) << i;
   }
   EXPECT_THAT(outcome.err, Not(HasSubstr("warning")));
+}
+
+// Newest first, as loggers write them, and by the time of day, as a sheet sorts
+// them: each row gets what it gets in a file in order, at its place.
+TEST_F(CliMemory, PutsRowsInOrderOfTime) {
+  WriteMap("map.json", Days(3));
+  Write("days.csv", Days(3));
+  const std::vector<double> in_order =
+      ColumnOf(Run({"predict", "map.json", "days.csv"}), "predicted");
+  std::vector<std::string> lines = SplitLines(Days(3));
+  const std::string header = lines.front() + "\n";
+  lines.erase(lines.begin());
+  const auto write = [&](const std::vector<std::size_t>& order) {
+    std::string text = header;
+    for (const std::size_t row : order) text += lines[row] + "\n";
+    Write("other.csv", text);
+  };
+  std::vector<std::size_t> newest_first;
+  std::vector<std::size_t> by_time;
+  for (std::size_t row = 0; row < lines.size(); ++row) {
+    newest_first.push_back(lines.size() - 1 - row);
+    by_time.push_back(row % 3 * kRowsPerDay + row / 3);
+  }
+  for (const auto& order : {newest_first, by_time}) {
+    write(order);
+    const Outcome outcome = Run({"predict", "map.json", "other.csv"});
+    // The column of days keeps the others in order.
+    EXPECT_EQ(outcome.err.find("put in it, by time_s.") != std::string::npos,
+              order == newest_first);
+    const std::vector<double> predicted = ColumnOf(outcome, "predicted");
+    ASSERT_EQ(predicted.size(), order.size());
+    for (std::size_t row = 0; row < order.size(); ++row) {
+      EXPECT_EQ(predicted[row], in_order[order[row]]) << row;
+    }
+    const Json judged =
+        RunJson({"evaluate", "map.json", "other.csv", "--format", "json"});
+    EXPECT_LT(judged["summary"]["rmse"].get<double>(), 1e-9);
+  }
 }
 
 TEST_F(CliMemory, RunsThroughEarlierRowsFirst) {
