@@ -22,13 +22,18 @@ Nights FindNights(const Eigen::VectorXd& time,
   const bool by_passes = motion.is_commanded && motion.num_passes >= 2;
   std::vector<double> between;  // passes
   std::vector<double> within;
+  // A pass that goes on the next day is broken by a night all the same.
+  constexpr double kBreak = 10.0;
+  const double longest_step =
+      std::max(kShortestNight, kBreak * MedianStepOf(time));
   Index other_dates = 0;
   for (Index i = 1; i < time.size(); ++i) {
     const double step = time[i] - time[i - 1];
     if (!(step > 0.0)) continue;
     const auto at = static_cast<std::size_t>(i);
-    const bool is_between =
-        !by_passes || motion.passes[at] != motion.passes[at - 1];
+    const bool is_between = !by_passes ||
+                            motion.passes[at] != motion.passes[at - 1] ||
+                            step > longest_step;
     (is_between ? between : within).push_back(step);
     if (is_between && std::floor(time[i] / kSecondsOfDay) !=
                           std::floor(time[i - 1] / kSecondsOfDay)) {
@@ -47,7 +52,6 @@ Nights FindNights(const Eigen::VectorXd& time,
       return nights;
     }
     // A break, yet no night: lunch, or sessions by the hour.
-    constexpr double kBreak = 10.0;
     if (high >= kBreak * low) nights.other = std::sqrt(low * high);
   }
   nights.sure = nights.other == 0.0;

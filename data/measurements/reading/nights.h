@@ -17,8 +17,9 @@ struct Nights {
 
 /// Pauses of another order than those between the passes of `motion` (those
 /// between rows where it has none): the lowest gap in the sorted pauses above
-/// which they are nights of 3.5 h or more. `time` (n) is in order; dates tell
-/// whether passes hours apart are days.
+/// which they are nights of 3.5 h or more. One of ten median steps or more that
+/// breaks a pass is a night, too. `time` (n) is in order; dates tell whether
+/// passes hours apart are days.
 Nights FindNights(const Eigen::VectorXd& time,
                   const Motion& motion,
                   bool dated);

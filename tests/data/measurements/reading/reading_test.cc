@@ -147,6 +147,17 @@ TEST(Reading, PartsSessionsByNightsAndNotByPausesOfOneOrder) {
   }
 }
 
+TEST(Reading, EndsASessionWhereANightBreaksAPass) {
+  std::vector<Log::Row> rows = Log{.days = 1, .cycles = 20}.Rows();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (i >= 62) rows[i].time += 50000.0;  // behind the second of six positions
+  }
+  const Reading reading = Read(
+      Text("time_s,position_mm,t1_degC,error_um", rows, TimePositionTempError));
+  EXPECT_EQ(reading.sessions.by, "nights");
+  EXPECT_THAT(reading.sessions.first_rows, ElementsAre(0, 62));
+}
+
 TEST(Reading, TakesOneRunOfOneDayForOneSession) {
   Log log;
   log.days = 1;
