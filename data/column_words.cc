@@ -16,43 +16,45 @@ constexpr auto kWords = std::to_array<std::string_view>({
     "error err errors deviation dev fehler abweichung abw messfehler erreur "
     "ecart deviazione errore scarto scostamento desvio desviacion erro "
     "afwijking fout odchylka blad chyba avvikelse fel afvigelse avvik fejl "
-    "feil virhe poikkeama hata sapma gosa 誤差 误差 偏差",
+    "feil virhe poikkeama hata sapma gosa ошибка погрешность отклонение откл "
+    "誤差 误差 偏差",
     // kCorrection
     "correction compensation corrective correctif corr comp korr komp "
     "korrektur kompensation correccion compensacion correzione "
     "compensazione correcao compensacao correctie compensatie korekta "
-    "korekcja kompensacja korekce kompenzace korrigering hosei 補正 补偿",
+    "korekcja kompensacja korekce kompenzace korrigering hosei коррекция "
+    "поправка 補正 补偿",
     // kPosition
     "position pos posn coordinate coord posicion posizione posicao quota "
     "weg stellung koordinate positie pozycja polozenie poloha pozice lage "
-    "asema konum ichi travel verfahrweg 位置",
+    "asema konum ichi travel verfahrweg положение позиция координата 位置",
     // kNominal
     "nominal nom commanded command cmd setpoint target ziel soll sollwert "
     "sollposition consigne nominale consigna theorique teorica nominaal "
-    "nominalna zadana",
+    "nominalna zadana заданное номинал",
     // kMeasured
     "actual act meas measured encoder laser ist istwert istposition "
     "gemessen reelle mesuree mesure misurata misurato medida medido gemeten "
-    "zmierzona",
+    "zmierzona измеренное факт",
     // kTime
     "time timestamp datetime elapsed utc zeit uhrzeit zeitstempel zeitpunkt "
     "uhr tiempo hora ora heure horodatage orario temps tempo tijd czas "
     "godzina cas tid klockslag klokken kello aika saat zaman jikoku jikan "
-    "時刻 時間 时间",
+    "время 時刻 時間 时间",
     // kDate
-    "date datum fecha datetime datenum data dato tarih hizuke 日付 日期",
+    "date datum fecha datetime datenum data dato tarih hizuke дата 日付 日期",
     // kTemperature
     "temperature temp temperatur temperatura temperatuur teplota lampotila "
-    "sicaklik ondo 温度",
+    "sicaklik ondo температура темп 温度",
     // kDirection
     "direction dir bidir approach motion richtung anfahrrichtung direccion "
     "direzione direcao sens sentido senso richting kierunek riktning "
-    "retning smer suunta yon 方向",
+    "retning smer suunta yon направление 方向",
     // kCycle
-    "cycle zyklus takt ciclo cyclus cykl cykel cyklus",
+    "cycle zyklus takt ciclo cyclus cykl cykel cyklus цикл 循环 サイクル",
     // kSession
     "session day shift series weekday tag messtag schicht serie messreihe "
-    "wochentag jour seance giorno dia sesion sessione dag dzien",
+    "wochentag jour seance giorno dia sesion sessione dag dzien день смена",
     // kRun
     "run lauf messlauf",
     // kDay
@@ -67,8 +69,10 @@ constexpr auto kWords = std::to_array<std::string_view>({
     "machine maschine tool werkzeug pallet palette station operator",
     // kComponent
     "side axis slide component",
+    // kPlace
+    "station point punkt messpunkt stelle messstelle punto stazione estacion",
 });
-static_assert(kWords.size() == static_cast<std::size_t>(Word::kComponent) + 1);
+static_assert(kWords.size() == static_cast<std::size_t>(Word::kPlace) + 1);
 
 const std::vector<std::string_view>& WordsFor(Word word) {
   static const std::vector<std::vector<std::string_view>> kSplit = [] {
@@ -83,7 +87,8 @@ const std::vector<std::string_view>& WordsFor(Word word) {
 
 // Small letters without accents: those of Latin-1 are two bytes of UTF-8, the
 // first of them 0xC3, those of Latin Extended-A begin with 0xC4 or 0xC5; an
-// accent of its own (0xCC) follows its letter.
+// accent of its own (0xCC) follows its letter. Cyrillic capitals (0xD0) are 32
+// letters before the small ones.
 std::string Plain(std::string_view text) {
   constexpr std::string_view kLatin =
       "aaaaaaaceeeeiiiidnooooo*ouuuuypsaaaaaaaceeeeiiiidnooooo/ouuuuypy";
@@ -100,6 +105,9 @@ std::string Plain(std::string_view text) {
       plain += kLatin[next];
     } else if (more && (c == 0xC4 || c == 0xC5)) {
       plain += kExtended[64U * (c - 0xC4U) + next];
+    } else if (more && c == 0xD0 && next >= 0x10 && next < 0x30) {
+      plain += next < 0x20 ? '\xD0' : '\xD1';
+      plain += static_cast<char>(0x80U | ((next + 0x20U) & 0x3FU));
     } else if (!more || c != 0xCC) {
       plain += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
       continue;

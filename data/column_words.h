@@ -25,6 +25,7 @@ enum class Word {
   kCounter,    // "index", "record", "Nr.": numbers or dates the rows
   kPart,       // "machine", "tool": which of several
   kComponent,  // "axis", "slide": what errors are of
+  kPlace,      // "station", "point": numbers places along the axis
 };
 
 /// The words of a name in small letters without accents, its unit left out:

@@ -81,7 +81,8 @@ enum class OddRows { kRefuse, kOffer, kLeaveOut };
 /// rows; quotes as RFC 4180 has them, those inside a cell that nobody doubled
 /// too; decimal comma where no comma parts cells; UTF-8 byte order mark, CRLF,
 /// lines starting with `#`, and blank lines at the end are passed over. Text
-/// that is no valid UTF-8 is taken for Latin-1 and converted; what begins as
+/// that is no valid UTF-8 is taken for Latin-1, or with a remark for what makes
+/// more known words (tables/text_encoding.h), and converted; what begins as
 /// gzip does is unpacked first, up to kMostTextOfPrograms; of an xlsx file a
 /// sheet is read ("book.xlsx:Day 2", formats/spreadsheet.h). Linear time, about
 /// twice the file's memory; never looks at the locale.
@@ -92,7 +93,8 @@ enum class OddRows { kRefuse, kOffer, kLeaveOut };
 /// rows, points that part thousands ("1.050" where others are whole numbers of
 /// three digits), a last line cut off in mid number, which is left out; a
 /// column for each position ("e@-215.9mm_um", "X=25 mm") or for each run ("Run
-/// 1 up [um]") becomes a row for each reading; numbers as people write them
+/// 1 up [um]") becomes a row for each reading, and rows of one reading each
+/// (time, variable, value) a row for all; numbers as people write them
 /// (tables/loose_numbers.h), lines of words among the rows, cells in single
 /// quotes, columns set apart by blanks (tables/rewritten_text.h).
 /// An unnamed column is called column_N (`has_name` is false).

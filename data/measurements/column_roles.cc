@@ -426,7 +426,8 @@ class InputChooser {
       } else if (IsAnotherClock(table_.At(i))) {
         had_candidates_ = true;
         Drop(i, "is another clock");
-      } else if (IsCalled(Name(i), Word::kPart)) {
+      } else if (IsCalled(Name(i), Word::kPart) &&
+                 Name(i) != selection_.position) {
         had_candidates_ = true;
         Drop(i, "tells which one, and measures nothing");
         chosen_.words.push_back(i);

@@ -83,7 +83,8 @@ std::string_view CsvCells::Quoted() {
                   : static_cast<const char*>(std::memchr(part, '"', rest));
     if (quote == nullptr) ThrowNeverClosed(opening_line);
     const bool is_double = quote + 1 != end_ && quote[1] == '"';
-    const char* const after = SkipBlanks(quote + 1);
+    // A blank that parts cells ends this one.
+    const char* const after = by_blanks() ? quote + 1 : SkipBlanks(quote + 1);
     if (is_double || !EndsCell(after)) {
       has_bare_quote = has_bare_quote || !is_double;
       unquoted_.append(part, quote + 1);

@@ -87,6 +87,14 @@ void TakeDecimals(const std::vector<CsvRecord>& records, CsvDialect* dialect) {
   }
 }
 
+// The names lack one for the first column, which numbers the rows.
+bool AreNamesOfAllButOne(const CsvRecord& record, std::size_t width) {
+  return record.cells.size() + 1 == width &&
+         std::ranges::none_of(record.cells, [](const std::string& cell) {
+           return IsKnown(cell, true);
+         });
+}
+
 // Blanks part cells where they do so in most rows, of known cells, and a row of
 // names or of numbers that begins the file has as many.
 bool ArePartedByBlanks(const std::vector<CsvRecord>& records) {
@@ -94,7 +102,7 @@ bool ArePartedByBlanks(const std::vector<CsvRecord>& records) {
   const auto [score, agrees, cells] = ScoreOf(records, ' ');
   constexpr double kHalf = 0.5;
   return width > 1 && score > kHalf &&
-         (agrees ||
+         (agrees || AreNamesOfAllButOne(records.front(), width) ||
           (records.size() > 2 &&
            std::ranges::any_of(records.begin(),
                                records.begin() + 2,

@@ -351,6 +351,12 @@ class LayoutFinder {
       if (AreEmptyBeyond(names.size(), usual, first)) {
         names.resize(usual);
         layout_.width = usual;
+      } else if (usual == names.size() + 1 && NumberRows(first, usual)) {
+        names.insert(names.begin(), "row");
+        layout_.num_names = usual;
+        layout_.width = usual;
+        Say("the names begin over the second column: the first numbers the "
+            "rows");
       }
       return;
     }
@@ -373,6 +379,20 @@ class LayoutFinder {
           (beyond + 1 == names.end() ? "" : ", ...") + "), which stay" +
           (beyond + 1 == names.end() ? "s" : "") + " empty");
     }
+  }
+
+  // 1, 2, 3, ... before the cells that have names, as R writes a table.
+  bool NumberRows(std::size_t first, std::size_t usual) const {
+    double next = NAN;
+    return std::all_of(
+        At(first), records_.cend(), [&](const CsvRecord& record) {
+          double number = NAN;
+          const bool goes_on = record.cells.size() == usual &&
+                               ParseNumber(record.cells[0], &number) &&
+                               (std::isnan(next) || number == next);
+          next = number + 1.0;
+          return goes_on;
+        });
   }
 
   // A column with a unit is meant to have numbers.

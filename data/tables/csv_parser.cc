@@ -21,6 +21,7 @@
 #include "data/tables/folded_positions.h"
 #include "data/tables/gzip.h"
 #include "data/tables/last_row.h"
+#include "data/tables/long_table.h"
 #include "data/tables/loose_numbers.h"
 #include "data/tables/odd_rows.h"
 #include "data/tables/rewritten_text.h"
@@ -581,13 +582,22 @@ CsvTable ParseCsv(std::string_view text, const std::string& name, OddRows odd) {
   } catch (const InputError& error) {
     throw InputError(PrintablePath(name) + ": " + error.what());
   }
-  const std::string converted = sheet ? *sheet : TextOfFile(text, name);
-  if (!converted.empty()) text = converted;
+  const EncodedText converted =
+      sheet ? EncodedText{.text = *sheet, .encoding = ""}
+            : TextOfFile(text, name);
+  if (!converted.text.empty()) text = converted.text;
   const std::optional<std::string> rewritten = RewrittenText(text);
   if (rewritten) text = *rewritten;
   const char delimiter = sheet ? '\t' : CsvCells::kNoDelimiter;
   CsvTable table = Parser(text, name, delimiter, odd).Parse();
   FoldPositions(&table);
+  SpreadReadings(&table);
+  if (!converted.encoding.empty()) {
+    table.remarks.insert(table.remarks.begin(),
+                         PrintablePath(name) + ": the text is read as " +
+                             converted.encoding +
+                             ", by the words of its first lines");
+  }
   return table;
 }
 

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "data/column_words.h"
+#include "data/columns.h"
 #include "data/tables/missing_cells.h"
 #include "data/tables/unit_cells.h"
 #include "data/text.h"
@@ -140,11 +142,29 @@ std::vector<std::string> LooseNumbers::Remarks() const {
 
 namespace {
 
-// The numbers of cells that all carry one unit, or are missing.
+// The numbers of cells that all carry one unit, or an axis, or are missing.
 struct UnitCells {
   std::string unit;
+  std::string axis;  // "X" of a program's "X-215.9" or "N10 G1 X-215.9"
   std::vector<std::optional<NumberForm>> numbers;  // (texts) none: missing
 };
+
+// Takes the words of a program before a number off a cell; the axis, or "".
+std::string TakeAxis(std::string_view* cell) {
+  std::string_view rest = *cell;
+  while (rest.size() > 2 && (rest[0] == 'N' || rest[0] == 'G') &&
+         IsNumeral(rest[1])) {
+    rest = Trimmed(rest.substr(1 + DigitsOf(rest.substr(1))));
+  }
+  constexpr std::string_view kAxes = "XYZUVWABC";
+  if (rest.size() < 2 || kAxes.find(rest[0]) == kAxes.npos) return "";
+  const std::string axis(rest.substr(0, 1));
+  rest = Trimmed(rest.substr(rest[1] == '=' ? 2 : 1));
+  // "X1" may be the name of a place.
+  if (rest.find_first_of(".,-+") == rest.npos && rest.size() < 3) return "";
+  *cell = rest;
+  return axis;
+}
 
 std::optional<UnitCells> ReadUnitCells(const CsvColumn& column,
                                        bool decimal_comma) {
@@ -152,22 +172,27 @@ std::optional<UnitCells> ReadUnitCells(const CsvColumn& column,
   for (const std::string& text : column.texts) {
     cells.numbers.emplace_back();
     if (IsMissingNumber(text)) continue;
+    std::string_view cell = text;
+    const std::string axis = TakeAxis(&cell);
     const std::size_t size =
-        std::min(text.find_first_not_of("+-.,0123456789"), text.size());
+        std::min(cell.find_first_not_of("+-.,0123456789"), cell.size());
     NumberForm form;
-    const std::string_view behind =
-        Trimmed(std::string_view(text).substr(size));
-    std::string unit(behind);
-    if (behind.empty() || IsNumeral(behind.back()) ||
-        !ReadNumberForm(text.substr(0, size), decimal_comma, &form) ||
-        !ReadUnitCell(&unit) || unit.empty() ||
-        !(cells.unit.empty() || cells.unit == unit)) {
+    std::string unit(Trimmed(cell.substr(size)));
+    const bool is_bare = unit.empty() && axis.empty();
+    const bool is_first = cells.unit.empty() && cells.axis.empty();
+    if (is_bare || (!unit.empty() && IsNumeral(unit.back())) ||
+        !ReadNumberForm(cell.substr(0, size), decimal_comma, &form) ||
+        !ReadUnitCell(&unit) || (unit.empty() && axis.empty()) ||
+        !(is_first || (cells.unit == unit && cells.axis == axis))) {
       return std::nullopt;
     }
     cells.unit = unit;
+    cells.axis = axis;
     cells.numbers.back() = form;
   }
-  return cells.unit.empty() ? std::nullopt : std::optional(std::move(cells));
+  return cells.unit.empty() && cells.axis.empty()
+             ? std::nullopt
+             : std::optional(std::move(cells));
 }
 
 void TakeNumbers(const UnitCells& cells, CsvColumn* column) {
@@ -202,10 +227,21 @@ void TakeUnitsOfCells(bool decimal_comma, CsvTable* table) {
     if (!column.is_text() || column.values.empty()) continue;
     const auto cells = ReadUnitCells(column, decimal_comma);
     if (!cells) continue;
+    if (!cells->axis.empty()) {
+      TakeNumbers(*cells, &column);
+      table->remarks.push_back(PrintablePath(table->file) + ": the cells of " +
+                               QuotedName(column.name) +
+                               " are words of a program, read as positions " +
+                               cells->axis);
+      if (!IsCalledPosition(column.name)) {
+        column.name = FreeName(*table, cells->axis);
+      }
+    }
+    if (cells->unit.empty()) continue;
     const auto name = FreeNameWithUnit(*table, column, cells->unit);
     if (!name) continue;
     column.name = *name;
-    TakeNumbers(*cells, &column);
+    if (cells->axis.empty()) TakeNumbers(*cells, &column);
     table->remarks.push_back(PrintablePath(table->file) + ": the cells of " +
                              QuotedName(column.name) + " carry their unit (" +
                              cells->unit + "), which is read as the column's");

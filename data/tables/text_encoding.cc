@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
+#include <iconv.h>
+#include <optional>
 
+#include "data/column_words.h"
 #include "data/input_error.h"
 #include "data/text.h"
+#include "data/units.h"
 
 namespace errmap::data {
 namespace {
@@ -36,81 +39,115 @@ constexpr auto kFormats = std::to_array<KnownFormat>(
      {"[{", "JSON; export the table as CSV"},
      {"{", "JSON, as maps and results are; measurements are CSV or xlsx"}});
 
-enum class Order { kNone, kLittleEndian, kBigEndian };
-
-// By the mark, else where every other byte of the first characters is NUL.
-Order OrderOf(std::string_view bytes) {
-  if (bytes.starts_with("\xFF\xFE")) return Order::kLittleEndian;
-  if (bytes.starts_with("\xFE\xFF")) return Order::kBigEndian;
+// Of UTF-16, by the mark, else where every other byte of the first characters
+// is NUL; null: it is none.
+const char* Utf16Of(std::string_view bytes) {
+  if (bytes.starts_with("\xFF\xFE")) return "UTF-16LE";
+  if (bytes.starts_with("\xFE\xFF")) return "UTF-16BE";
   constexpr std::size_t kLooked = 64;
   const std::size_t size = std::min(bytes.size(), kLooked) / 2 * 2;
-  if (size < 4) return Order::kNone;
+  if (size < 4) return nullptr;
   std::array<std::size_t, 2> nuls{};
   for (std::size_t i = 0; i < size; ++i) nuls[i % 2] += bytes[i] == '\0';
-  if (nuls[0] == 0 && nuls[1] == size / 2) return Order::kLittleEndian;
-  if (nuls[1] == 0 && nuls[0] == size / 2) return Order::kBigEndian;
-  return Order::kNone;
+  if (nuls[0] == 0 && nuls[1] == size / 2) return "UTF-16LE";
+  if (nuls[1] == 0 && nuls[0] == size / 2) return "UTF-16BE";
+  return nullptr;
+}
+
+// Text in another encoding as UTF-8, as far as it is whole.
+struct Decoded {
+  std::string text;
+  std::size_t used = 0;  // bytes
+};
+
+// Nothing where the system does not know the encoding.
+std::optional<Decoded> Decode(std::string_view bytes, const char* encoding) {
+  const iconv_t converter = iconv_open("UTF-8", encoding);
+  if (converter == reinterpret_cast<iconv_t>(-1)) return std::nullopt;
+  Decoded decoded;
+  std::array<char, 1U << 14U> part{};
+  std::string input(bytes);
+  char* in = input.data();
+  std::size_t left = input.size();
+  for (bool goes_on = true; goes_on;) {
+    char* out = part.data();
+    std::size_t room = part.size();
+    const bool failed = iconv(converter, &in, &left, &out, &room) ==
+                        static_cast<std::size_t>(-1);
+    decoded.text.append(part.data(), part.size() - room);
+    goes_on = failed && room < 16 && left > 0;  // more than a character's room
+  }
+  iconv_close(converter);
+  decoded.used = bytes.size() - left;
+  return decoded;
+}
+
+// Words and units that tables have and that are not written in ASCII.
+int CountKnownWords(std::string_view text) {
+  constexpr std::string_view kBetween = ",;|\t\r\n\"";
+  int count = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(kBetween), text.size());
+    const std::string cell = AsUtf8(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (std::ranges::all_of(cell, [](char c) { return (c & 0x80) == 0; })) {
+      continue;
+    }
+    const std::vector<std::string> words = WordsOf(cell);
+    count += ReadHeader(cell).source == UnitSource::kStated ? 1 : 0;
+    for (int word = 0; word <= static_cast<int>(Word::kPlace); ++word) {
+      count += SayAny(words, static_cast<Word>(word)) ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+// What makes known words of the first lines where they are no UTF-8; null:
+// Latin-1 does as well, which is read cell by cell.
+const char* EncodingByWords(std::string_view bytes) {
+  constexpr std::size_t kLooked = 1U << 14U;
+  std::string_view head = bytes.substr(0, kLooked);
+  head = head.substr(0, head.find_last_of("\r\n"));
+  if (AsUtf8(head) == head) return nullptr;
+  const char* best = nullptr;
+  int most = CountKnownWords(head);
+  for (const char* encoding :
+       {"CP850", "CP1250", "CP1251", "CP932", "EUC-JP", "GB18030", "BIG5"}) {
+    const std::optional<Decoded> decoded = Decode(head, encoding);
+    if (!decoded || decoded->used < head.size()) continue;
+    const int words = CountKnownWords(decoded->text);
+    if (words <= most) continue;
+    most = words;
+    best = encoding;
+  }
+  return best;
 }
 
 }  // namespace
 
-void AppendUtf8(std::uint32_t code, std::string* text) {
-  const auto put = [&](std::uint32_t byte) {
-    *text += static_cast<char>(static_cast<unsigned char>(byte));
-  };
-  if (code < 0x80U) {
-    put(code);
-  } else if (code < 0x800U) {
-    put(0xC0U | (code >> 6U));
-    put(0x80U | (code & 0x3FU));
-  } else if (code < 0x10000U) {
-    put(0xE0U | (code >> 12U));
-    put(0x80U | ((code >> 6U) & 0x3FU));
-    put(0x80U | (code & 0x3FU));
-  } else {
-    put(0xF0U | (code >> 18U));
-    put(0x80U | ((code >> 12U) & 0x3FU));
-    put(0x80U | ((code >> 6U) & 0x3FU));
-    put(0x80U | (code & 0x3FU));
-  }
-}
-
-std::string TextOfFile(std::string_view bytes, const std::string& name) {
+EncodedText TextOfFile(std::string_view bytes, const std::string& name) {
   for (const KnownFormat& format : kFormats) {
     if (StartsWithIgnoringCase(bytes, format.start)) {
       throw InputError(PrintablePath(name) + ": this is " +
                        std::string(format.what));
     }
   }
-  const Order order = OrderOf(bytes);
-  if (order == Order::kNone) return "";
-  const auto unit_at = [&](std::size_t i) {
-    const auto first = static_cast<unsigned char>(bytes[i]);
-    const auto second = static_cast<unsigned char>(bytes[i + 1]);
-    return order == Order::kLittleEndian
-               ? static_cast<std::uint32_t>(first | (second << 8U))
-               : static_cast<std::uint32_t>((first << 8U) | second);
-  };
-  std::string text;
-  text.reserve(bytes.size() / 2);
-  for (std::size_t i = 0; i < bytes.size(); i += 2) {
-    const bool whole = i + 1 < bytes.size();
-    std::uint32_t code = whole ? unit_at(i) : 0xD800U;
-    if (code >= 0xD800U && code < 0xDC00U && i + 3 < bytes.size()) {
-      const std::uint32_t low = unit_at(i + 2);
-      if (low >= 0xDC00U && low < 0xE000U) {
-        code = 0x10000U + ((code - 0xD800U) << 10U) + (low - 0xDC00U);
-        i += 2;
-      }
-    }
-    if (code >= 0xD800U && code < 0xE000U) {
-      throw InputError(PrintablePath(name) +
-                       ": UTF-16 that breaks off at byte " + std::to_string(i) +
-                       "; save it as CSV in UTF-8");
-    }
-    if (i > 0 || code != 0xFEFFU) AppendUtf8(code, &text);
+  const char* const utf16 = Utf16Of(bytes);
+  const char* const encoding =
+      utf16 != nullptr ? utf16 : EncodingByWords(bytes);
+  if (encoding == nullptr) return {};
+  std::optional<Decoded> decoded = Decode(bytes, encoding);
+  if (!decoded || decoded->used < bytes.size()) {
+    const std::size_t at = decoded ? decoded->used : 0;
+    throw InputError(PrintablePath(name) + ": " +
+                     (utf16 != nullptr ? "UTF-16" : encoding) +
+                     " that breaks off at byte " + std::to_string(at) +
+                     "; save it as CSV in UTF-8");
   }
-  return text;
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (decoded->text.starts_with(kMark)) decoded->text.erase(0, kMark.size());
+  return {.text = std::move(decoded->text),
+          .encoding = utf16 != nullptr ? "" : encoding};
 }
 
 }  // namespace errmap::data

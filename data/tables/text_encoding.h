@@ -1,21 +1,24 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace errmap::data {
 
-/// The text of a file that is UTF-16, by its byte order mark or by the NULs of
-/// its first characters, as UTF-8; "" where it is none. `name` stands for the
-/// file in messages.
+/// The text of a file in another encoding, as UTF-8.
+struct EncodedText {
+  std::string text;      // "": the file is UTF-8, or Latin-1
+  std::string encoding;  // to be told; "" where the file itself says it
+};
+
+/// UTF-16 by its byte order mark or by the NULs of its first characters;
+/// what is no UTF-8 by the encoding in which most words of its first lines are
+/// ones that tables have (those of DOS, of eastern Europe, Cyrillic, Japanese,
+/// Chinese). `name` stands for the file in messages.
 ///
 /// Throws InputError where the file is no text but what people take for a table
-/// (a spreadsheet, an archive, a page), with what to do; or UTF-16 that breaks
-/// off.
-std::string TextOfFile(std::string_view bytes, const std::string& name);
-
-/// Appends a character by its number, at most 10FFFF in hexadecimal.
-void AppendUtf8(std::uint32_t code, std::string* text);
+/// (a spreadsheet, an archive, a page), with what to do; or where the text
+/// breaks off.
+EncodedText TextOfFile(std::string_view bytes, const std::string& name);
 
 }  // namespace errmap::data

@@ -67,6 +67,7 @@ class AxisFinder {
     std::vector<Candidate> candidates = Named();
     if (candidates.empty()) {
       candidates = ByValues();
+      if (candidates.empty()) candidates = ByPlaces();
     } else if (std::ranges::all_of(candidates, [](const Candidate& named) {
                  return named.numbers || named.measured;
                })) {
@@ -156,6 +157,21 @@ class AxisFinder {
       if (candidate.motion.is_commanded ||
           (!may_err && candidate.motion.is_sorted &&
            candidate.levels.come_alike)) {
+        found.push_back(std::move(candidate));
+      }
+    }
+    return found;
+  }
+
+  // Numbers of places, where nothing says where these are.
+  std::vector<Candidate> ByPlaces() const {
+    std::vector<Candidate> found;
+    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+      if (table_.columns[i].is_text() || !IsCalled(Name(i), Word::kPlace)) {
+        continue;
+      }
+      Candidate candidate = Look(i, kRowsLooked);
+      if (candidate.numbers && candidate.motion.is_commanded) {
         found.push_back(std::move(candidate));
       }
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <iconv.h>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -41,6 +42,20 @@ std::string InUtf16(const std::string& text, bool little, bool mark) {
     wide += little ? '\0' : c;
   }
   return wide;
+}
+
+std::string Encoded(std::string text, const char* encoding) {
+  const iconv_t converter = iconv_open(encoding, "UTF-8");
+  std::string encoded(text.size(), '\0');
+  char* in = text.data();
+  char* out = encoded.data();
+  std::size_t left = text.size();
+  std::size_t room = encoded.size();
+  EXPECT_NE(iconv(converter, &in, &left, &out, &room),
+            static_cast<std::size_t>(-1));
+  iconv_close(converter);
+  encoded.resize(encoded.size() - room);
+  return encoded;
 }
 
 Rows WithCell(std::size_t row, std::size_t column, const std::string& text) {
@@ -100,6 +115,132 @@ TEST(MessyFiles, WhatIsUnambiguousIsSimplyRead) {
     EXPECT_EQ(prepared.dataset.inputs()[1].unit.symbol, "degC");
     EXPECT_EQ(prepared.dataset.num_sessions(), kDays);
     EXPECT_THAT(prepared.dropped, IsEmpty());
+  }
+}
+
+// As R writes a table: words in quotes, and a number before each row that the
+// line of names has no name for.
+TEST(MessyFiles, RowsMayBeNumberedWithoutAName) {
+  const Dataset clean = Make(Joined(Measured())).dataset;
+  for (const char* separator : {" ", ",", "\t"}) {
+    const std::string text =
+        Joined(Changed(Measured(),
+                       [](std::size_t row, auto* cells) {
+                         for (std::string& cell : *cells) {
+                           if (row == 0) cell = '"' + cell + '"';
+                         }
+                         if (row == 0) return;
+                         cells->insert(cells->begin(),
+                                       '"' + std::to_string(row) + '"');
+                       }),
+               separator);
+    const PreparedDataset prepared = Make(text);
+    EXPECT_EQ(prepared.dataset.target_values(), clean.target_values());
+    EXPECT_EQ(prepared.dataset.input_values(), clean.input_values());
+  }
+}
+
+TEST(MessyFiles, ARowMayHoldOneReading) {
+  const Rows rows = Measured();
+  const Dataset clean = Make(Joined(rows)).dataset;
+  Rows each = {{"day", "cycle", "time_s", "position_mm", "name", "value"}};
+  Rows units = {
+      {"day", "cycle", "time_s", "position_mm", "name", "unit", "value"}};
+  for (std::size_t row = 1; row < rows.size(); ++row) {
+    for (std::size_t i = 4; i < rows[row].size(); ++i) {
+      each.emplace_back(rows[row].begin(), rows[row].begin() + 4);
+      units.push_back(each.back());
+      each.back().insert(each.back().end(), {rows[0][i], rows[row][i]});
+      const std::size_t at = rows[0][i].find('_');
+      units.back().insert(
+          units.back().end(),
+          {rows[0][i].substr(0, at), rows[0][i].substr(at + 1), rows[row][i]});
+    }
+  }
+  for (const Rows& readings : {each, units}) {
+    const PreparedDataset prepared = Make(Joined(readings));
+    EXPECT_EQ(prepared.dataset.target_values(), clean.target_values());
+    EXPECT_EQ(prepared.dataset.input_values(), clean.input_values());
+    EXPECT_EQ(prepared.dataset.target().unit.symbol, "um");
+  }
+}
+
+TEST(MessyFiles, PositionsMayBeWordsOfAProgram) {
+  const Dataset clean = Make(Joined(Measured())).dataset;
+  for (const char* word : {"X", "G1 X", "N10 G01 X", "X="}) {
+    const PreparedDataset prepared =
+        Make(Joined(Changed(Measured(), [&](std::size_t row, auto* cells) {
+          std::string& cell = (*cells)[3];
+          cell = row == 0 ? "position_mm" : word + cell + ".0";
+        })));
+    EXPECT_EQ(prepared.dataset.input_values(), clean.input_values()) << word;
+  }
+}
+
+// By the words that the first lines then have.
+TEST(MessyFiles, TextMayBeInAnEncodingOfThePlace) {
+  const Dataset clean = Make(Joined(Measured())).dataset;
+  struct Place {
+    const char* encoding;
+    std::vector<std::string> names;
+  };
+  for (const Place& place : std::vector<Place>{{"LATIN1",
+                                                {"Tag",
+                                                 "Zyklus",
+                                                 "Zeit [s]",
+                                                 "Position [mm]",
+                                                 "T1 [°C]",
+                                                 "T2 [°C]",
+                                                 "Abweichung [µm]"}},
+                                               {"CP850",
+                                                {"Tag",
+                                                 "Zyklus",
+                                                 "Zeit [s]",
+                                                 "Position [mm]",
+                                                 "T1 [°C]",
+                                                 "T2 [°C]",
+                                                 "Abweichung [µm]"}},
+                                               {"CP1250",
+                                                {"Dzień",
+                                                 "Cykl",
+                                                 "Czas [s]",
+                                                 "Położenie [mm]",
+                                                 "T1 [°C]",
+                                                 "T2 [°C]",
+                                                 "Błąd [µm]"}},
+                                               {"CP1251",
+                                                {"День",
+                                                 "Цикл",
+                                                 "Время [s]",
+                                                 "Положение [мм]",
+                                                 "Темп. 1 [°C]",
+                                                 "Темп. 2 [°C]",
+                                                 "Погрешность [мкм]"}},
+                                               {"CP932",
+                                                {"day",
+                                                 "サイクル",
+                                                 "時間 [s]",
+                                                 "位置[mm]",
+                                                 "温度1[℃]",
+                                                 "温度2[℃]",
+                                                 "誤差[μm]"}},
+                                               {"GB18030",
+                                                {"day",
+                                                 "循环",
+                                                 "时间 [s]",
+                                                 "位置[mm]",
+                                                 "温度1[℃]",
+                                                 "温度2[℃]",
+                                                 "误差[μm]"}}}) {
+    SCOPED_TRACE(place.encoding);
+    Rows rows = Measured();
+    rows[0] = place.names;
+    const PreparedDataset prepared =
+        Make(Encoded(Joined(rows), place.encoding));
+    EXPECT_EQ(prepared.dataset.target_values(), clean.target_values());
+    EXPECT_EQ(prepared.dataset.input_values(), clean.input_values());
+    EXPECT_EQ(prepared.dataset.target().unit.symbol, "um");
+    EXPECT_EQ(prepared.dataset.target().name, place.names.back());
   }
 }
 

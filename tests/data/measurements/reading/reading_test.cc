@@ -224,6 +224,22 @@ TEST(Reading, TakesWhatIsCommandedForTheAxisWhateverItsName) {
   }
 }
 
+TEST(Reading, TakesNumbersOfPlacesForTheAxisWhereNothingElseIs) {
+  for (const char* name : {"Station", "Point No.", "Messpunkt"}) {
+    const Reading reading =
+        Read(Text("time_s," + std::string(name) + ",t1_degC,error_um",
+                  Log().Rows(),
+                  [](const Log::Row& row) {
+                    std::vector<std::string> cells = TimePositionTempError(row);
+                    cells[1] = Fixed(row.position / 50.0 + 1.0);
+                    return cells;
+                  }));
+    EXPECT_EQ(reading.position.column, name);
+    EXPECT_FALSE(reading.position.sure);
+    EXPECT_EQ(reading.cycles.count, 20);
+  }
+}
+
 TEST(Reading, LeavesOutThePositionThatWasMeasuredBesideIt) {
   const auto text = [](bool at_one_place) {
     return Text("day,nominal [mm],actual [mm],t1_degC,error_um",

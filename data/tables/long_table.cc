@@ -1,0 +1,155 @@
+#include "data/tables/long_table.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "data/column_words.h"
+#include "data/columns.h"
+#include "data/tables/unit_cells.h"
+#include "data/text.h"
+
+namespace errmap::data {
+namespace {
+
+constexpr std::size_t kMostVariables = 64;
+constexpr std::ptrdiff_t kNoReading = -1;  // as TakeRows has it
+
+bool HoldsValues(const CsvColumn& column) {
+  const std::vector<std::string> words = WordsOf(column.name);
+  return !column.is_text() && words.size() == 1 &&
+         IsOneOf(words[0],
+                 "value val wert messwert valeur valor valore waarde varde "
+                 "arvo wartosc hodnota 値 值");
+}
+
+// An error among others: of errors alone each is a component.
+bool NameVariables(const CsvTable& table,
+                   const CsvColumn& column,
+                   LabelsOfRows* found) {
+  if (!column.is_text() || IsCalled(column.name, Word::kComponent)) {
+    return false;
+  }
+  *found = LabelsOf(table, column, AllRows(table.num_rows), kMostVariables);
+  const auto errors = std::ranges::count_if(
+      found->labels,
+      [](const std::string& label) { return ErrorSign(label) != 0; });
+  return found->codes.size() == table.num_rows && errors > 0 &&
+         errors < std::ssize(found->labels);
+}
+
+class Spreader {
+ public:
+  Spreader(const CsvTable& table, std::size_t variable, LabelsOfRows found)
+      : table_(table), variable_(variable), found_(std::move(found)) {}
+
+  // Nothing where rows do not come together.
+  std::optional<CsvTable> Spread(std::size_t value) {
+    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+      if (i == variable_ || i == value) continue;
+      if (!TakeUnits(table_.columns[i])) others_.push_back(i);
+    }
+    if (!FindMoments()) return std::nullopt;
+    CsvTable spread{.file = table_.file,
+                    .columns = {},
+                    .num_rows = firsts_.size(),
+                    .line_runs = {},
+                    .parts = {},
+                    .titles = table_.titles,
+                    .remarks = table_.remarks};
+    for (const std::size_t i : others_) {
+      spread.columns.push_back(TakeRows(table_.columns[i], firsts_));
+    }
+    for (std::size_t k = 0; k < found_.labels.size(); ++k) {
+      CsvColumn column = TakeRows(table_.columns[value], readings_[k]);
+      column.name = FreeName(spread, found_.labels[k]);
+      spread.columns.push_back(std::move(column));
+    }
+    for (std::size_t row = 0; row < firsts_.size(); ++row) {
+      spread.line_runs.emplace_back(
+          row, table_.LineOfRow(static_cast<std::size_t>(firsts_[row])));
+    }
+    return spread;
+  }
+
+ private:
+  // A column that has one unit for each variable.
+  bool TakeUnits(const CsvColumn& column) {
+    if (!column.is_text()) return false;
+    std::vector<std::string> units(found_.labels.size());
+    for (std::size_t row = 0; row < table_.num_rows; ++row) {
+      std::string& unit = units[found_.codes[row]];
+      const std::string text = table_.CellText(column, row);
+      if (!unit.empty() && unit != text) return false;
+      unit = text;
+    }
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < units.size(); ++k) {
+      std::string unit = units[k];
+      if (!ReadUnitCell(&unit)) return false;
+      std::optional<std::string> name = NameWithUnit(found_.labels[k], unit);
+      if (!name) return false;
+      names.push_back(std::move(*name));
+    }
+    if (names == found_.labels) return false;
+    found_.labels = std::move(names);
+    return true;
+  }
+
+  // Rows that share their other cells, each variable once.
+  bool FindMoments() {
+    std::map<std::vector<std::string>, std::size_t> moments;
+    readings_.resize(found_.labels.size());
+    for (std::size_t row = 0; row < table_.num_rows; ++row) {
+      std::vector<std::string> cells;
+      for (const std::size_t i : others_) {
+        cells.push_back(table_.CellText(table_.columns[i], row));
+      }
+      const auto [moment, is_new] =
+          moments.emplace(std::move(cells), firsts_.size());
+      if (is_new) {
+        firsts_.push_back(static_cast<std::ptrdiff_t>(row));
+        for (auto& readings : readings_) readings.push_back(kNoReading);
+      }
+      std::ptrdiff_t& reading = readings_[found_.codes[row]][moment->second];
+      if (reading != kNoReading) return false;
+      reading = static_cast<std::ptrdiff_t>(row);
+    }
+    return 2 * firsts_.size() <= table_.num_rows;
+  }
+
+  const CsvTable& table_;
+  std::size_t variable_;
+  LabelsOfRows found_;
+  std::vector<std::size_t> others_;
+  std::vector<std::ptrdiff_t> firsts_;                 // row of each moment
+  std::vector<std::vector<std::ptrdiff_t>> readings_;  // rows of each variable
+};
+
+}  // namespace
+
+void SpreadReadings(CsvTable* table) {
+  const auto value = std::ranges::find_if(table->columns, HoldsValues);
+  if (value == table->columns.end()) return;
+  const auto at = static_cast<std::size_t>(value - table->columns.begin());
+  for (std::size_t i = 0; i < table->columns.size(); ++i) {
+    LabelsOfRows found;
+    if (!NameVariables(*table, table->columns[i], &found)) continue;
+    std::optional<CsvTable> spread =
+        Spreader(*table, i, std::move(found)).Spread(at);
+    if (!spread) continue;
+    spread->remarks.push_back(
+        PrintablePath(table->file) + ": " + std::to_string(table->num_rows) +
+        " rows of one reading each are read as " +
+        std::to_string(spread->num_rows) + ", with a column for each " +
+        QuotedName(table->columns[i].name));
+    *table = std::move(*spread);
+    return;
+  }
+}
+
+}  // namespace errmap::data
