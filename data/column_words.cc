@@ -31,11 +31,13 @@ constexpr auto kWords = std::to_array<std::string_view>({
     // kNominal
     "nominal nom commanded command cmd setpoint target ziel soll sollwert "
     "sollposition consigne nominale consigna theorique teorica nominaal "
-    "nominalna zadana заданное номинал",
+    "nominalna zadana zadane theoretical theoretisch programmed programmiert "
+    "desired demand demanded bor borvarde gewenst заданное номинал 指令 目標",
     // kMeasured
     "actual act meas measured encoder laser ist istwert istposition "
     "gemessen reelle mesuree mesure misurata misurato medida medido gemeten "
-    "zmierzona измеренное факт",
+    "zmierzona real reel werkelijk skutecna skutecny skutecne rzeczywista "
+    "feedback fbk ar arvarde измеренное факт 実測 实测",
     // kTime
     "time timestamp datetime elapsed utc zeit uhrzeit zeitstempel zeitpunkt "
     "uhr tiempo hora ora heure horodatage orario temps tempo tijd czas "
@@ -182,8 +184,16 @@ bool IsWord(std::string_view said, Word word) {
   });
 }
 
+bool StatesTemperature(std::string_view column) {
+  const Header header = ReadHeader(column);
+  return header.source == UnitSource::kStated
+             ? header.unit.quantity == Quantity::kTemperature
+             : Says(column, Word::kTemperature);
+}
+
 bool IsCalled(std::string_view column, Word word) {
   std::vector<std::string> words = WordsOf(column);
+  if (word != Word::kTemperature && StatesTemperature(column)) return false;
   if (words.size() == 2 &&
       IsOneOf(words[1], "no nr num number nummer id index count n")) {
     words.pop_back();
@@ -209,12 +219,59 @@ bool IsErrorSymbol(std::string_view column) {
          kAxes.find(base[1]) != kAxes.npos && kAxes.find(base[2]) != kAxes.npos;
 }
 
+// The letters before a place, blanks left out, and those from one on.
+std::string_view WordBefore(std::string_view text, std::size_t at) {
+  while (at > 0 && text[at - 1] == ' ') --at;
+  std::size_t begin = at;
+  while (begin > 0 && IsLetter(text[begin - 1])) --begin;
+  return text.substr(begin, at - begin);
+}
+std::string_view WordFrom(std::string_view text, std::size_t at) {
+  while (at < text.size() && text[at] == ' ') ++at;
+  std::size_t end = at;
+  while (end < text.size() && IsLetter(text[end])) ++end;
+  return text.substr(at, end - at);
+}
+
+// The sign of a difference in a name: 1, "actual - nominal" or "I-S"; -1, the
+// other way round or of words unknown here ("encoder - laser"); 0, no
+// difference ("X-error", "run-in").
+int SignOfDifference(std::string_view column) {
+  const std::string text = Plain(ReadHeader(column).base);
+  for (std::size_t at = text.find('-'); at != text.npos;
+       at = text.find('-', at + 1)) {
+    const std::string a(WordBefore(text, at));
+    const std::string b(WordFrom(text, at + 1));
+    if (a.empty() || b.empty() || SayAny({a}, Word::kError) ||
+        SayAny({b}, Word::kError)) {
+      continue;
+    }
+    constexpr std::string_view kAxes = "xyzuvwabc";
+    const bool letters =
+        a.size() == 1 && b.size() == 1 &&
+        !(kAxes.find(a) != kAxes.npos && kAxes.find(b) != kAxes.npos);
+    const bool apart = text[at - 1] == ' ' && text[at + 1] == ' ';
+    const bool in_brackets =
+        text.rfind('(', at) != text.npos && text.find(')', at) != text.npos;
+    if (!letters && !apart && !in_brackets &&
+        !SayAny({a, b}, Word::kMeasured) && !SayAny({a, b}, Word::kNominal)) {
+      continue;
+    }
+    const bool is_plain =
+        letters ? IsOneOf(a, "a i m r") && IsOneOf(b, "n s t c")
+                : SayAny({a}, Word::kMeasured) && SayAny({b}, Word::kNominal);
+    return is_plain ? 1 : -1;
+  }
+  return 0;
+}
+
 }  // namespace
 
 int ErrorSign(std::string_view column) {
   const std::vector<std::string> words = WordsOf(column);
   const std::ptrdiff_t measured = FirstOf(words, Word::kMeasured);
   const std::ptrdiff_t nominal = FirstOf(words, Word::kNominal);
+  const int difference = SignOfDifference(column);
   const bool is_difference = measured >= 0 && nominal >= 0;
   const bool corrects = SayAny(words, Word::kCorrection);
   if (!is_difference && !corrects && !SayAny(words, Word::kError) &&
@@ -222,14 +279,17 @@ int ErrorSign(std::string_view column) {
     return 0;
   }
   const bool opposite =
-      Trimmed(column).starts_with('-') || corrects ||
+      Trimmed(column).starts_with('-') || corrects || difference < 0 ||
+      column.find("(-1)") != column.npos || column.find("*-1") != column.npos ||
       std::ranges::any_of(words,
                           [](const std::string& word) {
                             return IsOneOf(word,
                                            "negative negativ negated minus neg "
-                                           "inverse inverted invertiert");
+                                           "inverse inverted invertiert "
+                                           "reversed reverse opposite flipped "
+                                           "umgekehrt umgekehrtes");
                           }) ||
-      (is_difference && nominal < measured);
+      (difference == 0 && is_difference && nominal < measured);
   return opposite ? -1 : 1;
 }
 

@@ -40,13 +40,18 @@ bool Says(std::string_view column, Word word);
 /// Whether a word (of WordsOf) is such a one, or more of them ("cycles").
 bool IsWord(std::string_view said, Word word);
 
+/// Whether a column is a temperature by its unit, or by its words where it has
+/// none: "No. 1 [degC]", "Temp. Nr. 1".
+bool StatesTemperature(std::string_view column);
+
 /// Whether all of a name is such a word, but for "no", "number" and alike:
-/// "Cycle No." counts cycles, "elapsed_cycles" is something else.
+/// "Cycle No." counts cycles, "elapsed_cycles" is something else. A temperature
+/// is called nothing else.
 bool IsCalled(std::string_view column, Word word);
 
 /// What a name says of the sign of an error: 1, an error ("deviation",
 /// "actual - nominal", "EXX"); -1, its opposite ("correction", "minus error",
-/// "nominal - actual"); 0, of no error.
+/// "nominal - actual", a difference of words unknown here); 0, of no error.
 int ErrorSign(std::string_view column);
 
 /// Whether a column is a position by its name: "position_mm", "x_pos_mm",

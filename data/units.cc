@@ -388,8 +388,11 @@ bool MayMeanUnit(std::string_view word, const Unit& assumed) {
 }  // namespace
 
 bool NamesPosition(std::string_view name) {
-  if (StartsWithIgnoringCase(name, "position")) return true;
   const Header header = ReadHeader(name);
+  if (StartsWithIgnoringCase(name, "position")) {
+    return header.source != UnitSource::kStated ||
+           header.unit.quantity != Quantity::kTemperature;
+  }
   if (header.source != UnitSource::kStated || !IsLengthOrAngle(header.unit)) {
     return false;
   }

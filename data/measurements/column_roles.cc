@@ -395,8 +395,11 @@ class InputChooser {
       if (i == roles_.target || Is(roles_.group, i) || Is(roles_.weight, i) ||
           Is(found_.time_column, i) || Is(found_.date_column, i) ||
           (Is(roles_.direction, i) && !table_.At(i).is_text()) ||
-          Name(i) == found_.sessions.column || KeepsRecord(Name(i)) ||
-          IsFiltered(i)) {
+          Name(i) == found_.sessions.column || IsFiltered(i)) {
+        continue;
+      }
+      if (KeepsRecord(table_.At(i))) {
+        if (!table_.At(i).is_text()) chosen_.records.push_back(i);
         continue;
       }
       const std::string name = NameInRemark(Name(i));
@@ -468,6 +471,7 @@ class InputChooser {
 
 // Whether a word of a name says that it counts: "cycles" of "elapsed_cycles".
 bool HasCounterIn(std::string_view name) {
+  if (StatesTemperature(name)) return false;
   return std::ranges::any_of(WordsOf(name), [](const std::string& word) {
     // "no" and "test" are words of other names, too.
     return word.size() > 2 && word != "test" &&
@@ -497,13 +501,26 @@ bool CountsRows(const CsvColumn& column) {
 
 bool KeepsRecord(std::string_view name) {
   const std::vector<std::string> words = WordsOf(name);
-  const bool is_number_of = words.size() > 1 &&
-                            IsOneOf(words.back(), "no nr number nummer num") &&
-                            !IsCalled(name, Word::kPart);
+  const bool is_number_of =
+      words.size() > 1 && IsOneOf(words.back(), "no nr number nummer num") &&
+      !StatesTemperature(name) && !IsCalled(name, Word::kPart);
   return is_number_of || IsCalled(name, Word::kCounter) ||
          IsCalled(name, Word::kCycle) || IsCalled(name, Word::kSession) ||
          IsCalled(name, Word::kRun) || NamesTime(name) ||
          StartsWithIgnoringCase(name, "truth");
+}
+
+bool KeepsRecord(const CsvColumn& column) {
+  const std::string& name = column.name;
+  if (!KeepsRecord(name)) return false;
+  if (column.is_text() || NamesTime(name) || IsCalled(name, Word::kCycle) ||
+      IsCalled(name, Word::kSession) || IsCalled(name, Word::kRun)) {
+    return true;
+  }
+  // "Pt100-Nr. 1" measures.
+  const auto whole = std::ranges::count_if(
+      column.values, [](double value) { return value == std::floor(value); });
+  return 2 * whole >= std::ssize(column.values);
 }
 
 bool IsSensor(const ColumnInfo& column) {

@@ -33,6 +33,7 @@ struct ChosenInputs {
   std::vector<DroppedColumn> dropped;  // would-be inputs left out, and why
   std::vector<std::string> remarks;    // one line each, for people
   std::vector<std::size_t> words;      // columns that name things, not amounts
+  std::vector<std::size_t> records;    // of numbers that only tell rows apart
 };
 
 /// The inputs that `selection` names, else the defaults of MakeDataset, which
@@ -52,6 +53,8 @@ std::ptrdiff_t TimeColumn(const CsvTable& table);
 /// Whether a column numbers or dates the rows by its name ("Cycle No.",
 /// "Takt", "time_s"), or holds what no controller has.
 bool KeepsRecord(std::string_view name);
+/// The same, but for what has mostly digits behind the point: it measures.
+bool KeepsRecord(const CsvColumn& column);
 
 /// Whether a column goes with the number of the row, whatever it is called:
 /// whole numbers without a unit, each above the one before, or each below.

@@ -42,7 +42,7 @@ class PartFinder {
     for (std::size_t i = 0; i < log_.columns.size(); ++i) {
       const CsvColumn& column = log_.columns[i];
       if (std::ranges::count(clock, static_cast<std::ptrdiff_t>(i)) == 0 &&
-          !KeepsRecord(column.name) && !HoldsTimes(column) &&
+          !KeepsRecord(column) && !HoldsTimes(column) &&
           !CountsRows(TakeRows(column, rows_))) {
         columns_.push_back(i);
       }

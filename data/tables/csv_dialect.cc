@@ -89,7 +89,7 @@ void TakeDecimals(const std::vector<CsvRecord>& records, CsvDialect* dialect) {
 
 // The names lack one for the first column, which numbers the rows.
 bool AreNamesOfAllButOne(const CsvRecord& record, std::size_t width) {
-  return record.cells.size() + 1 == width &&
+  return record.cells.size() > 1 && record.cells.size() + 1 == width &&
          std::ranges::none_of(record.cells, [](const std::string& cell) {
            return IsKnown(cell, true);
          });

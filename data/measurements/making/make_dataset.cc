@@ -136,6 +136,7 @@ class DatasetBuilder {
     inputs_ = std::move(chosen.inputs);
     dropped_ = std::move(chosen.dropped);
     words_ = std::move(chosen.words);
+    records_ = std::move(chosen.records);
     LeaveOutWhatMeasuresNothing();
     remarks_.insert(
         remarks_.end(), chosen.remarks.begin(), chosen.remarks.end());
@@ -277,8 +278,11 @@ class DatasetBuilder {
                    parts_.target.name,
                    parts_.target_values);
     if (selection_.only_to_judge) return;
+    AskForUnit(table_,
+               parts_.target.name,
+               parts_.target_values,
+               !selection_.target.empty());
     if (auto remark = UnlikelySize(parts_.target, parts_.target_values)) {
-      AskForUnit(table_, parts_.target.name, parts_.target_values);
       remarks_.push_back(std::move(*remark));
     }
     const double first = parts_.target_values(0);
@@ -555,6 +559,13 @@ class DatasetBuilder {
       reading.left_out.push_back({.column = column.column, .why = column.why});
       if (reading.position.column == column.column) reading.position = {};
     }
+    for (const std::size_t column : records_) {
+      if (reading.position.column != Name(column)) {
+        reading.left_out.push_back(
+            {.column = Name(column),
+             .why = "tells rows apart and measures nothing"});
+      }
+    }
     for (const ColumnInfo& input : parts_.inputs) {
       if (input.role == Role::kPosition) continue;
       (input.role == Role::kSwitch    ? reading.switches
@@ -604,6 +615,7 @@ class DatasetBuilder {
   std::vector<std::string> remarks_;
   std::vector<ColumnFault> faults_;
   std::vector<std::size_t> words_;  // columns that name things
+  std::vector<std::size_t> records_;
   std::vector<Eigen::Index> repeated_rows_;
   std::vector<std::string> doubts_;
 };

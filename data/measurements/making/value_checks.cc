@@ -1,12 +1,18 @@
 #include "data/measurements/making/value_checks.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "data/argument_name.h"
+#include "data/column_words.h"
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/reading/reading.h"
 #include "data/measurements/rounded.h"
+#include "data/text.h"
 #include "data/units.h"
 
 namespace errmap::data {
@@ -29,22 +35,36 @@ std::optional<std::string> UnlikelySize(const ColumnInfo& target,
 
 void AskForUnit(const CsvTable& table,
                 const std::string& target,
-                const Eigen::VectorXd& values) {
+                const Eigen::VectorXd& values,
+                bool named) {
   constexpr Eigen::Index kFewestRows = 12;
   constexpr double kMost = 1.0;  // mm
-  if (ReadHeader(target).source == UnitSource::kStated ||
-      values.size() < kFewestRows ||
-      values.squaredNorm() < kMost * static_cast<double>(values.size())) {
+  const Header header = ReadHeader(target);
+  const bool in_inches =
+      std::ranges::any_of(table.columns, [](const CsvColumn& column) {
+        return IsOneOf(UnitOfColumn(column.name).symbol, "in degF");
+      });
+  const bool is_large =
+      !header.unit.symbol.empty() &&
+      values.squaredNorm() >= kMost * static_cast<double>(values.size());
+  const bool is_called =
+      !named && header.unit.symbol.empty() && ErrorSign(target) != 0;
+  if (header.source == UnitSource::kStated || values.size() < kFewestRows ||
+      !(is_large || is_called || (in_inches && !named))) {
     return;
+  }
+  std::vector<Reading::Answer> answers;
+  for (const std::string unit : {"um", "mm", "in"}) {
+    if (unit == "in" && !in_inches) continue;
+    answers.push_back(
+        {.option = ArgumentName("target", target + " [" + unit + "]"),
+         .means = "in " + unit});
   }
   throw OpenQuestion(
       PrintablePath(table.file),
       {.topic = "unit",
        .question = "in which unit is " + QuotedName(target) + "?",
-       .answers = {{.option = ArgumentName("target", target + " [um]"),
-                    .means = "in um"},
-                   {.option = ArgumentName("target", target + " [mm]"),
-                    .means = "in mm"}}});
+       .answers = std::move(answers)});
 }
 
 Eigen::VectorXd WeightsOf(const CsvTable& table,

@@ -18,10 +18,12 @@ std::optional<std::string> UnlikelySize(const ColumnInfo& target,
                                         const Eigen::VectorXd& values);
 
 /// Throws OpenQuestion where nobody stated the unit of a target and its values
-/// (RMS above 1) speak against the one assumed.
+/// (RMS above 1) or columns in inches and degF speak against the mm assumed, or
+/// where none is assumed ("Abweichung") and nobody `named` the target.
 void AskForUnit(const CsvTable& table,
                 const std::string& target,
-                const Eigen::VectorXd& values);
+                const Eigen::VectorXd& values,
+                bool named);
 
 /// The weights of these rows, of mean 1, since only their ratios mean something
 /// and equal ones are none. Throws InputError where one is not above 0, or less

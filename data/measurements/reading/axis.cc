@@ -94,7 +94,7 @@ class AxisFinder {
     return i != target_ && !column.is_text() && column.has_name &&
            Name(i) != selection_.weight && Name(i) != selection_.group &&
            Name(i) != selection_.time && Name(i) != selection_.session &&
-           !KeepsRecord(Name(i)) &&
+           !KeepsRecord(column) &&
            std::ranges::find(selection_.exclude, Name(i)) ==
                selection_.exclude.end();
   }

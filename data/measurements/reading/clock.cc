@@ -157,9 +157,10 @@ class ClockFinder : private RowColumns {
 
   // In a unit of time, or called by one ("ms", "t", "MJD").
   static bool IsCalledTime(std::string_view name) {
-    return UnitOfColumn(name).quantity == Quantity::kTime ||
-           StatedUnit(name) != nullptr || EqualsIgnoringCase(name, "t") ||
-           NamedDays(name).has_value();
+    return !StatesTemperature(name) &&
+           (UnitOfColumn(name).quantity == Quantity::kTime ||
+            StatedUnit(name) != nullptr || EqualsIgnoringCase(name, "t") ||
+            NamedDays(name).has_value());
   }
 
   // What goes on with the rows: in a unit of time most often, else with each

@@ -8,7 +8,10 @@
 #include <string_view>
 #include <utility>
 
+#include "data/argument_name.h"
 #include "data/columns.h"
+#include "data/measurements/reading/reading.h"
+#include "data/measurements/rounded.h"
 #include "data/text.h"
 #include "data/units.h"
 
@@ -187,6 +190,52 @@ std::optional<ReadBeside> FindReadBeside(const CsvTable& table) {
     }
   }
   return std::nullopt;
+}
+
+void RequireDifference(const CsvTable& table,
+                       std::size_t target,
+                       const ReadBeside& positions) {
+  constexpr std::size_t kFewestRows = 12;
+  constexpr double kFits = 0.01;  // of the sum of squares may be left
+  constexpr double kAlike = 0.05;
+  const CsvColumn& error = table.columns[target];
+  const std::string difference = table.columns[positions.read].name + "-" +
+                                 table.columns[positions.commanded].name;
+  const auto read = Difference(table, difference, "", UnitOfColumn(error.name));
+  if (!read) return;
+  double products = 0.0;
+  double squares = 0.0;
+  double all = 0.0;
+  std::size_t rows = 0;
+  for (std::size_t row = 0; row < table.num_rows; ++row) {
+    const double by = read->column.values[row];
+    const double value = error.values[row];
+    if (std::isnan(by * value)) continue;
+    products += by * value;
+    squares += by * by;
+    all += value * value;
+    ++rows;
+  }
+  const double factor = products / squares;
+  if (rows < kFewestRows || !(all - factor * products <= kFits * all) ||
+      std::abs(factor - 1.0) < kAlike) {
+    return;
+  }
+  const bool opposite = std::abs(factor + 1.0) < kAlike;
+  const double decades = std::log10(std::abs(factor));
+  if (!opposite && std::abs(decades - std::round(decades)) > kAlike) return;
+  throw OpenQuestion(
+      PrintablePath(table.file),
+      {.topic = opposite ? "target" : "unit",
+       .question = QuotedName(error.name) + " is " +
+                   (opposite ? "the opposite of "
+                             : Rounded(std::pow(10.0, std::round(decades))) +
+                                   " times ") +
+                   QuotedName(difference) + "; which is the error?",
+       .answers = {{.option = ArgumentName("target", difference),
+                    .means = "what was read less what was commanded"},
+                   {.option = ArgumentName("target", error.name),
+                    .means = "the column as it stands"}}});
 }
 
 }  // namespace errmap::data

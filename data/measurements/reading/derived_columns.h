@@ -38,4 +38,11 @@ struct ReadBeside {
 };
 std::optional<ReadBeside> FindReadBeside(const CsvTable& table);
 
+/// Throws OpenQuestion where the target is the difference of these columns, but
+/// with the other sign or in another unit than its name states: nominal -
+/// actual, or um under "[mm]".
+void RequireDifference(const CsvTable& table,
+                       std::size_t target,
+                       const ReadBeside& positions);
+
 }  // namespace errmap::data

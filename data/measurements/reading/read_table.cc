@@ -61,6 +61,15 @@ class TableReader {
       return std::move(read_);
     }
     FindOrder();
+    if (selection_.target.empty() && read_.axis.column >= 0) {
+      for (const std::size_t measured : read_.axis.measured) {
+        RequireDifference(
+            table(),
+            read_.roles.target,
+            {.read = measured,
+             .commanded = static_cast<std::size_t>(read_.axis.column)});
+      }
+    }
     FindDirection();
     if (ordered_) {
       const Motion& motion = Passes();

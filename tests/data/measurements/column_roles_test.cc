@@ -299,5 +299,27 @@ TEST(ColumnRoles, TellCountersFromAges) {
   }
 }
 
+// A unit of temperature, or digits behind the point, beat every other word.
+TEST(ColumnRoles, TakesThermometersWhateverElseTheirNamesSay) {
+  for (const char* name : {"No. 1 [degC]",
+                           "Temp. Nr. 1",
+                           "Pt100-Nr1",
+                           "ID1 [degC]",
+                           "Min [degC]",
+                           "Station 1 degC",
+                           "Run 1 [degC]",
+                           "Cycle temp",
+                           "Position 2 [degC]",
+                           "Soll-Temp [degC]"}) {
+    std::string text = std::string("x_mm,error_um,") + name + "\n";
+    for (int i = 0; i < 40; ++i) {
+      text += std::to_string(i % 8) + "," + std::to_string(i % 3) + "," +
+              CsvNumber(20.05 + 0.1 * i) + "\n";
+    }
+    const PreparedDataset prepared = MakeDataset(ParseCsv(text, "f.csv"), {});
+    EXPECT_THAT(prepared.reading.sensors, ::testing::Contains(name)) << name;
+  }
+}
+
 }  // namespace
 }  // namespace errmap::data

@@ -652,5 +652,59 @@ TEST(MessyFiles, StopAtATimeThatCannotBeRead) {
   EXPECT_NO_THROW(Make(with_times("shift ")));
 }
 
+TEST(MessyFiles, DifferencesOfTheOtherSignAreAskedAbout) {
+  const auto error_of = [](const std::string& name) {
+    return ErrorOf(
+        Joined(Changed(Measured(), [&](std::size_t row, auto* cells) {
+          if (row == 0) cells->back() = name;
+        })));
+  };
+  for (const char* name : {"Error (Soll-Ist) [um]",
+                           "Err. N-A [um]",
+                           "Error T-M [um]",
+                           "Errore (teorico - reale) [um]",
+                           "Error: encoder - laser [um]",
+                           "Error*(-1) [um]",
+                           "Position error sign reversed [um]"}) {
+    EXPECT_THAT(error_of(name), HasSubstr("or the correction")) << name;
+  }
+  for (const char* name : {"Error (actual - nominal) [um]",
+                           "Ist-Soll Fehler [um]",
+                           "X-error [um]",
+                           "Run-in error [um]",
+                           "Error X-Y [um]",
+                           "Error - X axis [um]"}) {
+    EXPECT_EQ(error_of(name), "no error") << name;
+  }
+}
+
+TEST(MessyFiles, TheErrorIsHeldAgainstWhatItIsTheDifferenceOf) {
+  const auto error_of = [](double factor, const std::string& unit) {
+    return ErrorOf(
+        Joined(Changed(Measured(), [&](std::size_t row, auto* cells) {
+          std::string actual = "actual_mm";
+          if (row == 0) {
+            cells->back() = "error_" + unit;
+          } else {
+            const double error = std::stod(cells->back());
+            actual = Fixed(std::stod((*cells)[3]) + 1e-3 * error);
+            cells->back() = Fixed(factor * error);
+          }
+          cells->push_back(actual);
+        })));
+  };
+  EXPECT_EQ(error_of(1.0, "um"), "no error");
+  EXPECT_THAT(error_of(-1.0, "um"), HasSubstr("is the opposite of"));
+  EXPECT_THAT(error_of(1.0, "mm"), HasSubstr("is 1000 times"));
+}
+
+TEST(MessyFiles, AnErrorWithoutAUnitIsAskedAbout) {
+  for (const char* name : {"Abweichung", "EXX", "Deviation"}) {
+    Rows rows = Measured();
+    rows[0].back() = name;
+    EXPECT_THAT(ErrorOf(Joined(rows)), HasSubstr("in which unit is")) << name;
+  }
+}
+
 }  // namespace
 }  // namespace errmap::data
