@@ -39,7 +39,8 @@ constexpr auto kWords = std::to_array<std::string_view>({
     "zmierzona real reel werkelijk skutecna skutecny skutecne rzeczywista "
     "feedback fbk ar arvarde измеренное факт 実測 实测",
     // kTime
-    "time timestamp datetime elapsed utc zeit uhrzeit zeitstempel zeitpunkt "
+    "time timestamp datetime elapsed uptime runtime laufzeit utc zeit uhrzeit "
+    "zeitstempel zeitpunkt "
     "uhr tiempo hora ora heure horodatage orario temps tempo tijd czas "
     "godzina cas tid klockslag klokken kello aika saat zaman jikoku jikan "
     "время 時刻 時間 时间",
@@ -66,7 +67,7 @@ constexpr auto kWords = std::to_array<std::string_view>({
     "number nummer zeile test trial repeat block batch hour hr minute min "
     "second sec stunde sekunde ms msec night nacht nuit notte noche week "
     "woche semaine settimana semana visit campaign kampagne sitzung warmup "
-    "experiment dataset doy",
+    "experiment dataset doy hhmm hhmmss",
     // kPart
     "machine maschine tool werkzeug pallet palette station operator",
     // kComponent

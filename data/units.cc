@@ -37,7 +37,7 @@ constexpr auto kKnownUnits = std::to_array<KnownUnit>({
      0,
      "micron microns micrometer micrometers micrometre micrometres mikrometer "
      "mikron мкм",
-     "u 0.001mm 1/1000mm 1e-6m 10^-6m"},
+     "u 0.001mm 1/1000mm 10^-3mm x10^-3mm 1e-6m 10^-6m"},
     {"mm",
      kLength,
      1e3,
@@ -443,6 +443,31 @@ bool ReadUnitWithin(std::string_view name, Header* header) {
   return true;
 }
 
+// A unit and a factor beside it at the end of a name: "1/1000 mm", "10^-3 mm",
+// "hundredths of mm", "mm x1000"; else "".
+std::string_view ScaledUnit(std::string_view name) {
+  const std::size_t last = name.find_last_of(' ');
+  if (last == name.npos || last == 0) return "";
+  std::size_t from = name.find_last_of(' ', last - 1) + 1;  // 0: the first
+  const std::string_view a = name.substr(from, last - from);
+  const std::string_view b = name.substr(last + 1);
+  const auto is_factor = [](std::string_view word) {
+    return word.find_first_of("0123456789") != word.npos &&
+           (word.find_first_of("/^*") != word.npos || word.starts_with('x'));
+  };
+  Unit unit;
+  if (ReadUnit(a, Place::kBare, &unit) && is_factor(b))
+    return name.substr(from);
+  if (!ReadUnit(b, Place::kBare, &unit)) return "";
+  if (is_factor(a)) return name.substr(from);
+  if (a != "of" || from < 2) return "";
+  from = name.find_last_of(' ', from - 2) + 1;
+  return IsOneOf(LowerCase(name.substr(from, name.find(' ', from) - from)),
+                 "tenths hundredths thousandths")
+             ? name.substr(from)
+             : "";
+}
+
 }  // namespace
 
 Header ReadHeader(std::string_view name) {
@@ -466,6 +491,17 @@ Header ReadHeader(std::string_view name) {
       return header;
     }
     header.unit_text.clear();
+  }
+  if (const std::string_view scaled = ScaledUnit(name); !scaled.empty()) {
+    header.base =
+        WithoutSeparators(name.substr(0, name.size() - scaled.size()));
+    header.unit_text = scaled;
+    std::string joined(scaled);
+    std::erase(joined, ' ');
+    header.source = ReadUnit(joined, Place::kBracketed, &header.unit)
+                        ? UnitSource::kStated
+                        : UnitSource::kUnknown;
+    return header;
   }
   // The longest ending that is a unit: "um/m" before "m".
   for (std::size_t at = name.find_first_of(kSeparators);

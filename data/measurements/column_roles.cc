@@ -423,7 +423,7 @@ class InputChooser {
         if (HoldsTimes(table_.At(i))) continue;
         if (!PartsComponents(table_, table_.At(i))) texts.push_back(Name(i));
         chosen_.words.push_back(i);
-      } else if (CountsRows(table_.At(i))) {
+      } else if (CountsRows(table_.At(i)) && Name(i) != selection_.position) {
         had_candidates_ = true;
         Drop(i, "counts the rows");
       } else if (IsAnotherClock(table_.At(i))) {
@@ -489,14 +489,21 @@ bool CountsRows(const CsvColumn& column) {
       !UnitOfColumn(column.name).symbol.empty()) {
     return false;
   }
-  const double sign = column.values[1] > column.values[0] ? 1.0 : -1.0;
+  const double first = column.values[0];
+  const double sign = column.values[1] > first ? 1.0 : -1.0;
+  bool on = true;
+  bool anew = first == 0.0 || first == 1.0;  // 1, 2, 3, 1, 2, 3
+  double most = first;
   for (std::size_t i = 0; i < n; ++i) {
-    if (column.values[i] != std::floor(column.values[i]) ||
-        (i > 0 && sign * (column.values[i] - column.values[i - 1]) <= 0.0)) {
-      return false;
-    }
+    const double now = column.values[i];
+    if (now != std::floor(now)) return false;
+    most = std::max(most, now);
+    if (i == 0) continue;
+    const double step = now - column.values[i - 1];
+    on = on && sign * step > 0.0;
+    anew = anew && (step == 1.0 || (now == first && step < 0.0));
   }
-  return true;
+  return on || (anew && most >= first + 2.0);
 }
 
 bool KeepsRecord(std::string_view name) {

@@ -57,7 +57,8 @@ bool KeepsRecord(std::string_view name);
 bool KeepsRecord(const CsvColumn& column);
 
 /// Whether a column goes with the number of the row, whatever it is called:
-/// whole numbers without a unit, each above the one before, or each below.
+/// whole numbers without a unit, each above the one before, or each below; or
+/// counts readings at each place: 1, 2, 3, 1, 2, 3.
 bool CountsRows(const CsvColumn& column);
 
 /// Whether an input is read by a sensor: it is no position and, having no unit,

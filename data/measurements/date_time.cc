@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
+#include <string>
+#include <utility>
 
 #include "data/measurements/date_scanner.h"
 #include "data/text.h"
@@ -92,6 +95,20 @@ std::optional<double> DayOfYear(int year, int day) {
   return seconds < *next ? std::optional(seconds) : std::nullopt;
 }
 
+// Of "W22-7" behind the year of "2024-W22-7": Monday is 1, and 4 January is in
+// the first week (ISO 8601).
+std::optional<double> TakeWeek(Scanner* text, int year) {
+  const auto week = text->TakePair(53);
+  if (!week || *week == 0) return std::nullopt;
+  text->Take('-');
+  const auto day = text->TakeNumber(1);
+  const auto january = DaysSeconds(year, 1, 4);
+  if (!day || day->value < 1 || day->value > 7 || !january) return std::nullopt;
+  const double days = *january / kSecondsOfDay;  // from a Thursday
+  const double monday = days - std::fmod(days + 3.0, 7.0);
+  return kSecondsOfDay * (monday + 7.0 * (*week - 1) + day->value - 1);
+}
+
 std::optional<double> TakeDate(Scanner* text,
                                DateOrder order,
                                DateTime* parsed) {
@@ -105,6 +122,9 @@ std::optional<double> TakeDate(Scanner* text,
   }
   const auto separator = text->TakeOneOf("-/._");
   if (!separator) return std::nullopt;
+  if (first->digits == 4 && *separator == '-' && text->Take('W')) {
+    return TakeWeek(text, first->value);
+  }
   // "2024. 3. 4." of Korea, "4. 3. 2024" of Bohemia.
   if (*separator == '.') text->TakeBlanks();
   const auto second = text->TakeNumber(3);
@@ -375,10 +395,45 @@ std::optional<DateTime> ReadWithoutDate(Scanner text, bool points) {
   return WithTime(text, points, parsed);
 }
 
+// "2024/3/4 8:41:39" of "2024\u5e743\u67084\u65e5 8\u664241\u520639\u79d2",
+// its year perhaps of the era Reiwa; else "".
+std::string WithoutCharacters(std::string_view text) {
+  constexpr std::string_view kYear = "\u5e74";
+  constexpr std::string_view kReiwa = "\u4ee4\u548c";
+  constexpr auto kMarks =
+      std::to_array<std::pair<std::string_view, std::string_view>>(
+          {{kYear, "/"},
+           {"\u6708", "/"},
+           {"\u65e5", " "},
+           {"\u6642", ":"},
+           {"\u65f6", ":"},
+           {"\u5206", ":"},
+           {"\u79d2", ""}});
+  const std::size_t year = text.find(kYear);
+  if (year == text.npos) return "";
+  std::string plain(text);
+  if (text.starts_with(kReiwa)) {
+    double number = 0.0;
+    if (!ParseNumber(text.substr(kReiwa.size(), year - kReiwa.size()),
+                     &number)) {
+      return "";
+    }
+    plain.replace(0, year, std::to_string(2018 + static_cast<int>(number)));
+  }
+  for (const auto& [character, mark] : kMarks) {
+    for (std::size_t at = plain.find(character); at != plain.npos;
+         at = plain.find(character)) {
+      plain.replace(at, character.size(), mark);
+    }
+  }
+  return plain;
+}
+
 }  // namespace
 
 std::optional<DateTime> ParseDateTime(std::string_view text, DateOrder order) {
-  std::string_view trimmed = Trimmed(text);
+  const std::string plain = WithoutCharacters(text);
+  std::string_view trimmed = Trimmed(plain.empty() ? text : plain);
   if (trimmed.starts_with('[') && trimmed.ends_with(']')) {
     trimmed = trimmed.substr(1, trimmed.size() - 2);
   }

@@ -169,6 +169,7 @@ data::TableForMap ReadForMap(const FittedModel& fitted,
       fitted.where,
       PositionOf(fitted),
       columns == MapColumns::kInputsAndTarget ? fitted.target.name : "",
+      fitted.history != nullptr ? fitted.history->session : "",
       &read.table);
   data::TableForMap result = data::InMapUnits(std::move(read.table), of_map);
   result.remarks.insert(

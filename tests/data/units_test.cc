@@ -195,6 +195,17 @@ TEST(ReadHeader, DoubtsSeveralUnitsAndThoseWithANumber) {
   EXPECT_EQ(ReadHeader("error_um_per_mm").source, UnitSource::kStated);
 }
 
+TEST(ReadHeader, TakesAFactorBesideTheUnitWithIt) {
+  for (const char* name :
+       {"Error 1/1000 mm", "Abw. 10^-3 mm", "Error x10^-3 mm"}) {
+    EXPECT_EQ(ReadHeader(name).unit.symbol, "um") << name;
+  }
+  for (const char* name : {"Error mm x1000", "Error hundredths of mm"}) {
+    EXPECT_EQ(ReadHeader(name).source, UnitSource::kUnknown) << name;
+  }
+  EXPECT_EQ(ReadHeader("Error 1 mm").base, "Error 1");
+}
+
 TEST(ReadHeader, SaysWhatItOnlyAssumes) {
   EXPECT_EQ(ReadHeader("error").source, UnitSource::kAssumed);
   EXPECT_EQ(ReadHeader("error_x").unit.symbol, "mm");

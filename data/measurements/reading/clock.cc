@@ -13,6 +13,7 @@
 #include "data/measurements/reading/axis.h"
 #include "data/measurements/reading/row_columns.h"
 #include "data/measurements/reading/time_units.h"
+#include "data/measurements/rounded.h"
 #include "data/measurements/sessions.h"
 #include "data/measurements/text_times.h"
 #include "data/text.h"
@@ -276,6 +277,7 @@ class ClockFinder : private RowColumns {
       } else {
         ToSeconds(column.name, named, &values);
       }
+      clock_.hours_alone = clock_.unit == "h" && AreHoursOfDays(values);
       if (!clock_.dated && TellsTheHour(values)) AddDates(&values, &known);
     } else {
       clock_.unit = "date";
@@ -353,6 +355,15 @@ class ClockFinder : private RowColumns {
       if (step > 0.0 && step <= pause) return false;
     }
     return true;
+  }
+
+  // "7.966" h: below 24, from no 0, and back with each day.
+  static bool AreHoursOfDays(const std::vector<double>& values) {
+    constexpr double kFirst = 3600.0;
+    return StepsOf(values).back > 0 &&
+           std::ranges::all_of(values, [](double value) {
+             return value >= kFirst && value < kSecondsOfDay;
+           });
   }
 
   // The days of hours that stand in a column of their own.
@@ -542,8 +553,8 @@ void GoOnOverMidnight(const CsvTable& table,
                       Clock* clock) {
   constexpr double kHour = 3600.0;
   if (!clock->is_found()) return;
-  const double most_off =
-      std::min(kHour / 2.0, 3.0 * MedianStepOf(clock->time));
+  const double step = MedianStepOf(clock->time);
+  const double most_off = std::min(kHour / 2.0, 3.0 * step);
   double added = 0.0;
   double last = clock->time.size() > 0 ? clock->time[0] : 0.0;
   for (Index i = 1; i < clock->time.size(); ++i) {
@@ -553,14 +564,19 @@ void GoOnOverMidnight(const CsvTable& table,
     if (clock->hours_alone && back > 0.0) {
       added += kSecondsOfDay;
     } else if (clock->dated && clock->unit == "date" && back > 0.0 &&
-               std::abs(kHour - back) <= most_off) {
-      added += kHour;
+               back <= kHour + most_off) {
+      const bool is_hour = std::abs(kHour - back) <= most_off;
+      const double lost = is_hour ? kHour : back + step;
+      added += lost;
       clock->remarks.push_back(
           table.Where(
               static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]),
               table.At(clock->column).name) +
-          ": the clock is set back by an hour, as where summer time ends; an "
-          "hour is added from here on");
+          ": the clock is set back by " +
+          (is_hour ? "an hour, as where summer time ends; an hour is"
+                   : Rounded(back / 60.0) + " min; " + Rounded(lost / 60.0) +
+                         " min are") +
+          " added from here on");
     }
     clock->time[i] += added;
   }

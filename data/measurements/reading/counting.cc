@@ -173,7 +173,8 @@ std::vector<Counter> FindCounters(const CsvTable& table,
     const bool is_named = std::ranges::count(selection.inputs, name) > 0 ||
                           name == selection.session;
     if (i == target || is_named || !MayCount(column)) continue;
-    const bool is_called = KeepsRecord(column) || column.is_text();
+    const bool is_called =
+        KeepsRecord(column) || column.is_text() || Says(name, Word::kDay);
     Counted counts =
         ChangesOf(NumbersOf(table, column, rows), motion).Counts(is_called);
     if (counts == Counted::kPasses && !is_called &&

@@ -185,8 +185,9 @@ class DateParts {
   std::vector<std::optional<std::size_t>> columns_;
 };
 
-bool IsCalledTimeOfDay(const CsvColumn& column) {
-  return IsCalled(column.name, Word::kTime) ||
+// By its form, or beside a date by its name.
+bool IsCalledTimeOfDay(const CsvColumn& column, bool has_date) {
+  return (has_date && IsCalled(column.name, Word::kTime)) ||
          std::ranges::count(WordsOf(column.name), "hhmmss") > 0;
 }
 
@@ -222,9 +223,9 @@ DigitDates FindDigitDates(const CsvTable& table) {
       has_date = true;
     }
   }
-  for (std::size_t i = 0; has_date && i < table.columns.size(); ++i) {
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const CsvColumn& column = table.columns[i];
-    if (!column.is_text() && IsCalledTimeOfDay(column) &&
+    if (!column.is_text() && IsCalledTimeOfDay(column, has_date) &&
         AreClocksOfDigits(column)) {
       rewrite(i, ClockOfDigits);
     }

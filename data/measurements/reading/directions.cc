@@ -6,6 +6,7 @@
 #include "data/columns.h"
 #include "data/measurements/reading/axis.h"
 #include "data/measurements/reading/derived_columns.h"
+#include "data/measurements/reading/label_parts.h"
 #include "data/measurements/row_filters.h"
 #include "data/text.h"
 #include "data/units.h"
@@ -88,7 +89,17 @@ CsvColumn DirectionColumn(const CsvTable& table,
 void AddDerivedColumns(const std::vector<ColumnFilter>& filters,
                        const std::string& position,
                        const std::string& target,
+                       const std::string& session,
                        CsvTable* table) {
+  const std::vector<Index> rows = AllRows(table->num_rows);
+  for (std::size_t i = 0; table->Find(session) < 0 && i < table->columns.size();
+       ++i) {
+    const CsvColumn& labels = table->columns[i];
+    if (session != SessionsNamedIn(labels.name)) continue;
+    auto sessions = FindSessionsInLabels(*table, labels, rows, 1);
+    if (!sessions) break;
+    table->columns.push_back(std::move(*sessions));
+  }
   if (std::optional<DerivedTarget> derived =
           FindDerivedTarget(*table, target)) {
     table->columns.push_back(std::move(derived->column));
@@ -99,7 +110,6 @@ void AddDerivedColumns(const std::vector<ColumnFilter>& filters,
                table->Find(kDirectionColumn) < 0;
       });
   if (!needs_direction) return;
-  const std::vector<Index> rows = AllRows(table->num_rows);
   constexpr auto kNoTarget = static_cast<std::size_t>(-1);
   const Axis axis = FindAxis(*table, {.position = position}, kNoTarget, rows);
   if (axis.column < 0 || axis.motion.directions.empty()) return;

@@ -40,11 +40,13 @@ CsvColumn DirectionColumn(const CsvTable& table,
                           const std::vector<Eigen::Index>& rows,
                           const Motion& motion);
 
-/// The columns that `filters` and `target` name and a table lacks, where its
-/// positions can tell them: for files that a map is used on.
+/// The columns that `filters`, `target` and `session` name and a table lacks,
+/// where its positions or labels can tell them: for files that a map is used
+/// on.
 void AddDerivedColumns(const std::vector<ColumnFilter>& filters,
                        const std::string& position,
                        const std::string& target,
+                       const std::string& session,
                        CsvTable* table);
 
 }  // namespace errmap::data

@@ -14,6 +14,7 @@
 #include "data/measurements/reading/describe_reading.h"
 #include "data/measurements/reading/digit_dates.h"
 #include "data/measurements/reading/directions.h"
+#include "data/measurements/reading/label_parts.h"
 #include "data/measurements/reading/merged_cells.h"
 #include "data/measurements/reading/row_order.h"
 #include "data/measurements/row_filters.h"
@@ -83,6 +84,7 @@ class TableReader {
       });
     }
     FindCycles();
+    FindBlocksInLabels();
     if (!selection_.group.empty() && read_.roles.group == kNoColumn) {
       RequireColumn(table(), selection_.group, ArgumentName("group"));
     }
@@ -446,6 +448,26 @@ class TableReader {
       return;
     }
     NumberPassesAs(kCycleColumn);
+  }
+
+  // Labels of cycles that name their session, too.
+  void FindBlocksInLabels() {
+    if (!ordered_ || clock_.is_found() ||
+        FirstThatCounts(Counted::kBlocks) >= 0) {
+      return;
+    }
+    for (std::size_t i = 0; i < table().columns.size(); ++i) {
+      const CsvColumn& column = table().columns[i];
+      if (i == read_.roles.target || !column.has_name ||
+          (!column.is_text() && !KeepsRecord(column.name))) {
+        continue;
+      }
+      auto sessions = FindSessionsInLabels(table(), column, base_rows_);
+      if (!sessions) continue;
+      AddColumn(std::move(*sessions));
+      read_.counters.push_back({table().columns.size() - 1, Counted::kBlocks});
+      return;
+    }
   }
 
   // "1.9", "1.10": as numbers the tenth cycle is the first one.

@@ -67,7 +67,11 @@ const TimeUnit* StatedUnit(std::string_view column) {
   if (words.size() > 1 && IsOneOf(words.back(), "d day tag jour giorno dia")) {
     return FindTimeUnit("days");
   }
-  for (const std::string& text : {words.back(), header.unit_text}) {
+  for (std::string text : {words.back(), header.unit_text}) {
+    // "Betriebsstunden"
+    for (const std::string_view end : {"stunden", "minuten", "sekunden"}) {
+      if (text.ends_with(end)) text = end;
+    }
     for (const auto& [unit, said] : kSpelledOut) {
       if (IsOneOf(text, said)) return FindTimeUnit(unit);
     }
@@ -121,20 +125,24 @@ double SecondsOfDigits(double number) {
 std::optional<Epoch> EpochOf(const Pace& pace, Named called) {
   constexpr double kFrom = 6.3e8;
   constexpr double kTo = 2.84e9;
-  for (const char* name : {"s", "ms", "us", "ns"}) {
+  const auto from_1970 = [&](std::string_view name) -> std::optional<Epoch> {
     const TimeUnit* unit = FindTimeUnit(name);
-    if (pace.least * unit->seconds >= kFrom &&
-        pace.most * unit->seconds <= kTo && pace.MayBeIn(*unit)) {
-      return Epoch{unit, 0.0};
+    const bool fits = pace.least * unit->seconds >= kFrom &&
+                      pace.most * unit->seconds <= kTo && pace.MayBeIn(*unit);
+    return fits ? std::optional(Epoch{unit, 0.0}) : std::nullopt;
+  };
+  for (const char* name : {"s", "ms", "us"}) {
+    if (auto epoch = from_1970(name)) return epoch;
+  }
+  // Windows counts 100 ns from 1601, .NET from the year 1.
+  const TimeUnit* ticks = FindTimeUnit("100ns");
+  for (const double to_1970 : {11644473600.0, 62135596800.0}) {
+    if (pace.least * ticks->seconds - to_1970 >= kFrom &&
+        pace.most * ticks->seconds - to_1970 <= kTo) {
+      return Epoch{ticks, -to_1970};
     }
   }
-  // Windows counts 100 ns from 1601.
-  constexpr double kFileTimeTo1970 = 11644473600.0;
-  const TimeUnit* ticks = FindTimeUnit("100ns");
-  if (pace.least * ticks->seconds - kFileTimeTo1970 >= kFrom &&
-      pace.most * ticks->seconds - kFileTimeTo1970 <= kTo) {
-    return Epoch{ticks, -kFileTimeTo1970};
-  }
+  if (auto epoch = from_1970("ns")) return epoch;
   // Excel counts days from 30 December 1899, MATLAB from year 0.
   const TimeUnit* days = FindTimeUnit("days");
   for (const double days_to_1970 : {kExcelDaysTo1970, 719529.0}) {

@@ -153,6 +153,22 @@ TEST(DateTime, ReadsPackedDatesDaysOfTheYearAndTheTimeFirst) {
   }
 }
 
+TEST(DateTime, ReadsWeeksAndCharactersForTheParts) {
+  const auto seconds = [](std::string_view text) {
+    const auto parsed = ParseDateTime(text);
+    return parsed ? parsed->seconds : -1.0;
+  };
+  EXPECT_EQ(seconds("2024-W22-7"), seconds("2024-06-02"));
+  EXPECT_EQ(seconds("2021-W01-1"), seconds("2021-01-04"));
+  EXPECT_EQ(seconds("2020-W53-5 08:00"), seconds("2021-01-01 08:00"));
+  for (const char* text : {"2024\u5e744\u67083\u65e5 8\u664241\u520639\u79d2",
+                           "2024\u5e7404\u670803\u65e508\u65f641\u520639\u79d2",
+                           "\u4ee4\u548c6\u5e744\u67083\u65e5 8:41:39"}) {
+    EXPECT_EQ(seconds(text), seconds("2024-04-03 08:41:39")) << text;
+  }
+  EXPECT_EQ(seconds("2024-W54-1"), -1.0);
+}
+
 TEST(DateTime, GoesOnBeyondADayButNotAtItsEnd) {
   EXPECT_EQ(Seconds("24:00"), 86400.0);
   for (const char* text : {"24:00", "24:00:00", "23:59:59"}) {

@@ -247,9 +247,31 @@ TEST(Clock, GoesOnWhereSummerTimeEndsAndSaysSo) {
                                  "clock is set back by an hour")));
   for (const int minutes : {4, 20, 45}) {
     const PreparedDataset set = read(minutes);
-    EXPECT_EQ(set.reading.sessions.count, 2) << minutes;
+    EXPECT_EQ(set.reading.sessions.count, 1) << minutes;
+    EXPECT_THAT(set.remarks,
+                Contains(HasSubstr(
+                    "set back by " + std::to_string(minutes - 1) + " min; " +
+                    std::to_string(minutes) + " min are added")));
     EXPECT_THAT(set.remarks, Not(Contains(HasSubstr("summer time"))));
   }
+}
+
+TEST(Clock, KnowsTicksFromTheYearOneHoursInCompoundsAndPackedHours) {
+  const Reading ticks = MadeOf(Days("Ticks", [](int i, double) {
+                          return CsvNumber(6.384e17 + 6e8 * i);
+                        })).reading;
+  EXPECT_EQ(ticks.time.unit, "100ns");
+  EXPECT_EQ(ticks.time.step_s, 60.0);
+  const Reading hours = MadeOf(Days("Betriebsstunden", [](int i, double) {
+                          return CsvNumber(12000.0 + i / 60.0);
+                        })).reading;
+  EXPECT_EQ(hours.time.unit, "h");
+  const Reading packed =
+      MadeOf(Days("hhmmss", [](int i, double) {
+        return TwoDigits(8 + i / 60) + TwoDigits(i % 60) + "07";
+      })).reading;
+  EXPECT_EQ(packed.time.column, "hhmmss");
+  EXPECT_EQ(packed.time.step_s, 60.0);
 }
 
 TEST(Clock, TakesMidnightAt24ForTheEndOfADay) {

@@ -252,5 +252,40 @@ TEST(Counting, JoinsYearMonthAndDay) {
   EXPECT_THAT(reading.sensors, ElementsAre("t1_degC"));
 }
 
+// Labels of cycles name their day beside a number that begins anew.
+TEST(Counting, FindsSessionsInTheLabelsOfCycles) {
+  struct Form {
+    const char* name;
+    Cell cell;
+  };
+  const auto day = [](const Place& place) { return Number(place.day + 1); };
+  const auto cycle = [](const Place& place) { return Number(place.cycle + 1); };
+  for (const Form& form : std::vector<Form>{
+           {"Cycle",
+            [&](const Place& p) { return "D" + day(p) + "C" + cycle(p); }},
+           {"Run", [&](const Place& p) { return day(p) + "/" + cycle(p); }},
+           {"Run", [&](const Place& p) { return day(p) + "0" + cycle(p); }},
+           {"File",
+            [&](const Place& p) {
+              return "X_2024030" + day(p) + "_0" + cycle(p) + ".rtl";
+            }},
+           {"Lauf", [&](const Place& p) {
+              return cycle(p) + ". Lauf / Tag " + day(p);
+            }}}) {
+    const Reading reading = MadeWith(form.name, form.cell).reading;
+    EXPECT_EQ(reading.sessions.count, kDays) << form.cell(Place{});
+    EXPECT_EQ(reading.sessions.column, "session of " + std::string(form.name));
+    EXPECT_FALSE(reading.sessions.sure);
+    EXPECT_EQ(reading.cycles.count, kDays * kCycles);
+  }
+}
+
+TEST(Counting, TakesReadingsAtEachPlaceForNoSensor) {
+  const Reading reading = MadeWith("Reading", [](const Place& place) {
+                            return Number(place.row % 3 + 1);
+                          }).reading;
+  EXPECT_THAT(reading.sensors, Not(Contains("Reading")));
+}
+
 }  // namespace
 }  // namespace errmap::data
