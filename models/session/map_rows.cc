@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "data/input_error.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/measured_files.h"
@@ -15,7 +14,6 @@
 #include "data/measurements/reading/read_table.h"
 #include "data/measurements/row_filters.h"
 #include "data/measurements/sessions.h"
-#include "data/text.h"
 #include "stats/indices.h"
 
 namespace errmap::models {
@@ -83,10 +81,12 @@ data::DatasetSelection SelectionOfRows(const FittedModel& fitted,
   return selection;
 }
 
-// Puts the rows in order of time; what was found of them.
+// Puts the rows in order of time where a clock tells it; what was found of
+// them.
 data::ReadTable ReadRows(const FittedModel& fitted,
                          const MapLogArguments& arguments,
-                         data::CsvTable* table) {
+                         data::CsvTable* table,
+                         std::vector<std::string>* remarks) {
   data::DatasetSelection selection = SelectionOfRows(fitted, *table, arguments);
   selection.target = fitted.target.name;
   if (table->Find(PositionOf(fitted)) >= 0) {
@@ -98,13 +98,14 @@ data::ReadTable ReadRows(const FittedModel& fitted,
     selection.time = history->time;
   }
   data::ReadTable read = data::ReadRowsForMap(*table, selection);
-  if (read.reading.order == "none" && history != nullptr &&
-      history->needs_sessions()) {
-    throw data::InputError(
-        data::PrintablePath(table->file) +
-        ": the rows do not stand in the order in which they were measured, and "
-        "the map's memory needs it; give them as measured, or add a column of "
-        "times");
+  if (read.reading.order == "none") {
+    // A slow pass stands so, too.
+    read.reading.order = "file";
+    if (history != nullptr && history->needs_sessions()) {
+      remarks->push_back(
+          "warning: the rows stand in order of position; the map's memory "
+          "needs them as measured, or a column of times");
+    }
   }
   if (!read.order.empty()) *table = data::InOrder(*table, read.order);
   for (const TrainedInput& input : fitted.inputs) {
@@ -164,7 +165,8 @@ data::TableForMap ReadForMap(const FittedModel& fitted,
   if (by_file && read.table.Find(data::kFileColumn) < 0) {
     data::AddFileColumn(data::FileLabel(read.table.file), &read.table);
   }
-  data::ReadTable rows = ReadRows(fitted, arguments, &read.table);
+  data::ReadTable rows =
+      ReadRows(fitted, arguments, &read.table, &read.remarks);
   data::AddDerivedColumns(
       fitted.where,
       PositionOf(fitted),

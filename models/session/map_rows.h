@@ -34,8 +34,7 @@ enum class MapColumns { kInputs, kInputsAndTarget };
 /// Reads files (data::ReadTables) in the names and units of the map
 /// (data::InMapUnits). Where the map knows its sessions by the file, one file
 /// is one session. Rows in another order are put in that of time, as those that
-/// a map is fitted to are; throws data::InputError where nothing tells it and
-/// the map has a memory.
+/// a map is fitted to are.
 data::TableForMap ReadForMap(const FittedModel& fitted,
                              const std::vector<std::string>& files,
                              MapColumns columns,

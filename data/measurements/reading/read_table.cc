@@ -95,6 +95,7 @@ class TableReader {
   }
 
   ReadTable ReadForMap() {
+    looks_for_axis_ = !selection_.position.empty();
     TakeAsMeant();
     const std::ptrdiff_t target = table().Find(selection_.target);
     read_.roles.target =
@@ -202,6 +203,7 @@ class TableReader {
 
   void FindClockAndAxis() {
     clock_ = FindClock(table(), selection_, base_rows_);
+    if (!looks_for_axis_) return;
     read_.axis = FindAxis(table(), selection_, read_.roles.target, base_rows_);
   }
 
@@ -603,6 +605,7 @@ class TableReader {
   Clock clock_;  // of those
   Nights nights_;
   bool ordered_ = true;
+  bool looks_for_axis_ = true;
   ReadTable read_;
 };
 
