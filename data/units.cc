@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
+#include <map>
 #include <numbers>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "data/text.h"
@@ -175,17 +178,6 @@ std::string Normalised(std::string_view text) {
   return unit;
 }
 
-// Whether `text` is among the names; in any case, or exactly.
-bool IsNamed(std::string_view names, std::string_view text, bool any_case) {
-  while (!names.empty()) {
-    const std::size_t space = std::min(names.find(' '), names.size());
-    const std::string_view name = names.substr(0, space);
-    if (any_case ? EqualsIgnoringCase(name, text) : name == text) return true;
-    names.remove_prefix(std::min(space + 1, names.size()));
-  }
-  return false;
-}
-
 enum class Place { kBare, kBracketed };
 
 // The case that a bare symbol stands in matters where it is short and the
@@ -196,23 +188,42 @@ bool AnyCaseServes(const KnownUnit& unit, Place place) {
          unit.quantity == Quantity::kLength;
 }
 
-const KnownUnit* FindUnit(std::string_view normalised, Place place) {
-  if (normalised.empty()) return nullptr;
-  // "Nm" before "nm": as written first, then in any case.
-  for (const bool any_case : {false, true}) {
-    for (const KnownUnit& unit : kKnownUnits) {
-      const bool symbol_counts =
-          place == Place::kBracketed || !unit.symbol_is_a_word;
-      if ((symbol_counts && (!any_case || AnyCaseServes(unit, place)) &&
-           IsNamed(unit.symbol, normalised, any_case)) ||
-          IsNamed(unit.names, normalised, any_case) ||
-          (place == Place::kBracketed &&
-           IsNamed(unit.in_brackets, normalised, any_case))) {
-        return &unit;
+// Known units by all that they are called, of several the first: a header is
+// read many times, and most names are no unit.
+using UnitsByName = std::map<std::string, const KnownUnit*, std::less<>>;
+
+UnitsByName NamedUnits(Place place, bool any_case) {
+  UnitsByName units;
+  for (const KnownUnit& unit : kKnownUnits) {
+    const auto add = [&](std::string_view names) {
+      for (const std::string_view name : SplitWords(names)) {
+        units.emplace(any_case ? LowerCase(name) : std::string(name), &unit);
       }
+    };
+    const bool symbol_counts =
+        place == Place::kBracketed || !unit.symbol_is_a_word;
+    if (symbol_counts && (!any_case || AnyCaseServes(unit, place))) {
+      add(unit.symbol);
     }
+    add(unit.names);
+    if (place == Place::kBracketed) add(unit.in_brackets);
   }
-  return nullptr;
+  return units;
+}
+
+const KnownUnit* FindUnit(std::string_view normalised, Place place) {
+  static const std::array<UnitsByName, 4> kUnits = {
+      NamedUnits(Place::kBare, false),
+      NamedUnits(Place::kBare, true),
+      NamedUnits(Place::kBracketed, false),
+      NamedUnits(Place::kBracketed, true)};
+  if (normalised.empty()) return nullptr;
+  const std::size_t first = place == Place::kBare ? 0 : 2;
+  // "Nm" before "nm": as written first, then in any case.
+  auto unit = kUnits[first].find(normalised);
+  if (unit != kUnits[first].end()) return unit->second;
+  unit = kUnits[first + 1].find(LowerCase(normalised));
+  return unit != kUnits[first + 1].end() ? unit->second : nullptr;
 }
 
 Unit MakeUnit(const KnownUnit& known) {
