@@ -10,6 +10,7 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_match.h"
 #include "data/measurements/joined_tables.h"
+#include "data/measurements/row_filters.h"
 #include "data/text.h"
 #include "models/trained_range.h"
 #include "stats/indices.h"
@@ -154,6 +155,39 @@ void LeaveOutSpikes(const FittedModel& fitted,
   }
 }
 
+// When the map was fitted, the rows that it is not made for were no part of its
+// log. A memory that counts rows must see the others only: what stands between
+// two of these lies on the line between them, which its filters take for
+// nothing new.
+void PassOverRowsNotMadeFor(const FittedModel& fitted,
+                            const data::CsvTable& table,
+                            const data::FoundSessions& found,
+                            Index first_row,
+                            Eigen::MatrixXd* readings) {
+  const std::vector<bool> made_for = RowsMadeFor(fitted, table);
+  const auto session_of = [&](Index row) {
+    return found.sessions.codes[static_cast<std::size_t>(row)];
+  };
+  Index last = -1;  // row that the map is made for, or an earlier one
+  for (Index row = 0; row < readings->rows(); ++row) {
+    if (row >= first_row &&
+        !made_for[static_cast<std::size_t>(row - first_row)]) {
+      continue;
+    }
+    const bool goes_on = last >= 0 && session_of(last) == session_of(row);
+    const double step =
+        goes_on ? found.time[row] - found.time[last] : stats::kNaN;
+    for (Index between = row - 1; between > last; --between) {
+      if (session_of(between) != session_of(row)) break;
+      const double part =
+          goes_on ? (found.time[row] - found.time[between]) / step : 0.0;
+      readings->row(between) = (1.0 - part) * readings->row(row) +
+                               part * readings->row(goes_on ? last : row);
+    }
+    last = row;
+  }
+}
+
 // A table of rows before others.
 struct Earlier {
   data::CsvTable table;
@@ -186,6 +220,24 @@ Earlier ReadEarlier(const FittedModel& fitted, const std::string& file) {
 }
 
 }  // namespace
+
+std::vector<data::ColumnFilter> FiltersFor(const FittedModel& fitted,
+                                           const data::CsvTable& table) {
+  std::vector<data::ColumnFilter> filters;
+  for (const data::ColumnFilter& filter : fitted.where) {
+    if (table.Find(filter.column) >= 0) filters.push_back(filter);
+  }
+  return filters;
+}
+
+std::vector<bool> RowsMadeFor(const FittedModel& fitted,
+                              const data::CsvTable& table) {
+  std::vector<bool> made_for(table.num_rows, true);
+  for (const data::ColumnFilter& filter : FiltersFor(fitted, table)) {
+    data::KeepPassing(table, filter, &made_for);
+  }
+  return made_for;
+}
 
 data::FoundSessions FindSessionsFor(const History& history,
                                     const data::CsvTable& table,
@@ -267,6 +319,10 @@ MapLog MakeMapLog(const FittedModel& fitted,
                  map.first_row,
                  &log->input_values,
                  &map.warnings);
+  if (history.time_unit == "rows" && !fitted.where.empty()) {
+    PassOverRowsNotMadeFor(
+        fitted, table, found, map.first_row, &log->input_values);
+  }
   log->first_rows = data::FirstRows(
       found.sessions, log->input_values(Eigen::all, history.remembered()));
   log->sessions = std::move(found.sessions);

@@ -28,6 +28,14 @@ data::FoundSessions FindSessionsFor(const History& history,
                                     const data::CsvTable& table,
                                     const MapLogArguments& arguments);
 
+/// Of the rows that the map is made for, what this table can tell.
+std::vector<data::ColumnFilter> FiltersFor(const FittedModel& fitted,
+                                           const data::CsvTable& table);
+
+/// Whether the map is made for each row of the table, as far as that can tell.
+std::vector<bool> RowsMadeFor(const FittedModel& fitted,
+                              const data::CsvTable& table);
+
 /// Rows for the filters of a map: those of a file, after any earlier rows.
 struct MapLog {
   std::shared_ptr<const data::SessionLog> log;  // null: the map has no memory

@@ -118,24 +118,6 @@ data::ReadTable ReadRows(const FittedModel& fitted,
 
 }  // namespace
 
-std::vector<data::ColumnFilter> FiltersFor(const FittedModel& fitted,
-                                           const data::CsvTable& table) {
-  std::vector<data::ColumnFilter> filters;
-  for (const data::ColumnFilter& filter : fitted.where) {
-    if (table.Find(filter.column) >= 0) filters.push_back(filter);
-  }
-  return filters;
-}
-
-std::vector<bool> RowsMadeFor(const FittedModel& fitted,
-                              const data::CsvTable& table) {
-  std::vector<bool> made_for(table.num_rows, true);
-  for (const data::ColumnFilter& filter : FiltersFor(fitted, table)) {
-    data::KeepPassing(table, filter, &made_for);
-  }
-  return made_for;
-}
-
 std::string MadeForText(const FittedModel& fitted,
                         const data::CsvTable& table,
                         const std::vector<bool>& made_for) {

@@ -15,14 +15,6 @@
 
 namespace errmap::models {
 
-/// Of the rows that the map is made for, what this table can tell.
-std::vector<data::ColumnFilter> FiltersFor(const FittedModel& fitted,
-                                           const data::CsvTable& table);
-
-/// Whether the map is made for each row of the table, as far as that can tell.
-std::vector<bool> RowsMadeFor(const FittedModel& fitted,
-                              const data::CsvTable& table);
-
 /// "850 of 1700 rows have direction +, for which the map is made"; "" where it
 /// is made for all of `made_for`.
 std::string MadeForText(const FittedModel& fitted,

@@ -42,7 +42,8 @@ ReadTable ReadRoles(const CsvTable& table, const DatasetSelection& selection);
 
 /// Of rows for a map in use, whose columns the map knows: their order, axis,
 /// clock, cycles and sessions. The selection may name target, position (else
-/// there is none), time and session. Throws InputError where a column that it names will not do.
+/// there is none), time and session. Throws InputError where a column that it
+/// names will not do.
 ReadTable ReadRowsForMap(const CsvTable& table,
                          const DatasetSelection& selection);
 

@@ -135,6 +135,43 @@ TEST_F(CliMemory, PutsRowsInOrderOfTime) {
   }
 }
 
+// Without a clock a memory counts rows: those of the other way, which the map
+// was not fitted to, too. Its own rows are predicted as they were fitted.
+TEST_F(CliMemory, CountsTheRowsThatTheMapIsMadeFor) {
+  constexpr int kPositions = 12;
+  std::string text = "day,cycle,x_mm,t1_degC,error_um\n";
+  for (int row = 0; row < 3 * 5 * 2 * kPositions; ++row) {
+    const int day = row / (10 * kPositions);
+    const int cycle = row / (2 * kPositions);
+    const bool up = row / kPositions % 2 == 0;
+    const int at = up ? row % kPositions : kPositions - 1 - row % kPositions;
+    const double t1 = 20.0 + 0.7 * (cycle % 5) + 0.3 * day +
+                      0.3 * std::sin(1.3 * row) + (up ? 0.0 : 0.5);
+    const double error =
+        0.2 * at * (t1 - 20.0) + (up ? 0.0 : 3.0) + 0.1 * std::sin(7.7 * row);
+    text += std::to_string(day + 1) + "," + std::to_string(cycle + 1) + "," +
+            std::to_string(50 * at) + "," + data::CsvNumber(t1) + "," +
+            data::CsvNumber(error) + "\n";
+  }
+  Write("ways.csv", text);
+  const Json fitted = RunJson({"fit",
+                               "ways.csv",
+                               "--model",
+                               "poly:ridge:view=history",
+                               "--direction",
+                               "up",
+                               "-o",
+                               "up.json",
+                               "--format",
+                               "json"});
+  const Json judged =
+      RunJson({"evaluate", "up.json", "ways.csv", "--format", "json"});
+  EXPECT_EQ(judged["summary"]["n"], 3 * 5 * kPositions);
+  EXPECT_NEAR(judged["summary"]["rmse"].get<double>(),
+              fitted["train"]["rmse"].get<double>(),
+              1e-9);
+}
+
 TEST_F(CliMemory, RunsThroughEarlierRowsFirst) {
   WriteMap("map.json", Days(3));
   Write("all.csv", Days(3));
