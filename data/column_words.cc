@@ -17,7 +17,7 @@ constexpr auto kWords = std::to_array<std::string_view>({
     "ecart deviazione errore scarto scostamento desvio desviacion erro "
     "afwijking fout odchylka blad chyba avvikelse fel afvigelse avvik fejl "
     "feil virhe poikkeama hata sapma gosa ошибка погрешность отклонение откл "
-    "誤差 误差 偏差",
+    "誤差 误差 偏差 오차 편차",
     // kCorrection
     "correction compensation corrective correctif corr comp korr komp "
     "korrektur kompensation correccion compensacion correzione "
@@ -27,7 +27,7 @@ constexpr auto kWords = std::to_array<std::string_view>({
     // kPosition
     "position pos posn coordinate coord posicion posizione posicao quota "
     "weg stellung koordinate positie pozycja polozenie poloha pozice lage "
-    "asema konum ichi travel verfahrweg положение позиция координата 位置",
+    "asema konum ichi travel verfahrweg положение позиция координата 位置 위치",
     // kNominal
     "nominal nom commanded command cmd setpoint target ziel soll sollwert "
     "sollposition consigne nominale consigna theorique teorica nominaal "
@@ -43,18 +43,20 @@ constexpr auto kWords = std::to_array<std::string_view>({
     "zeitstempel zeitpunkt "
     "uhr tiempo hora ora heure horodatage orario temps tempo tijd czas "
     "godzina cas tid klockslag klokken kello aika saat zaman jikoku jikan "
-    "время 時刻 時間 时间",
+    "время 時刻 時間 时间 시간 시각",
     // kDate
-    "date datum fecha datetime datenum data dato tarih hizuke дата 日付 日期",
+    "date datum fecha datetime datenum data dato tarih hizuke дата 日付 日期 "
+    "날짜",
     // kTemperature
     "temperature temp temperatur temperatura temperatuur teplota lampotila "
-    "sicaklik ondo температура темп 温度",
+    "sicaklik ondo температура темп 温度 온도",
     // kDirection
     "direction dir bidir approach motion richtung anfahrrichtung direccion "
     "direzione direcao sens sentido senso richting kierunek riktning "
-    "retning smer suunta yon направление 方向",
+    "retning smer suunta yon направление 方向 방향",
     // kCycle
-    "cycle zyklus takt ciclo cyclus cykl cykel cyklus цикл 循环 サイクル",
+    "cycle zyklus takt ciclo cyclus cykl cykel cyklus цикл 循环 サイクル "
+    "사이클",
     // kSession
     "session day shift series weekday tag messtag schicht serie messreihe "
     "wochentag jour seance giorno dia sesion sessione dag dzien день смена",

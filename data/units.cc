@@ -169,6 +169,8 @@ std::string Normalised(std::string_view text) {
              "\u00b0"
              "F",
              &unit);
+  ReplaceAll("\u339b", "um", &unit);  // one character each
+  ReplaceAll("\u339c", "mm", &unit);
   ReplaceAll("\u00d7", "x", &unit);
   if (unit.starts_with("x ") || unit.starts_with("x0")) unit.erase(0, 1);
   ReplaceAll("\u00b2", "2", &unit);

@@ -155,10 +155,7 @@ class RoleChooser {
   // What is called an error; in other words than that only in a unit of errors,
   // or alone.
   std::size_t DefaultTarget() const {
-    std::vector<std::size_t> candidates = Candidates([](std::string_view name) {
-      return StartsWithIgnoringCase(name, "error");
-    });
-    if (candidates.empty()) candidates = CalledErrors();
+    std::vector<std::size_t> candidates = CalledErrors();
     // A correction beside an error is not meant.
     const auto is_opposite = [&](std::size_t i) {
       return ErrorSign(Name(i)) < 0;
@@ -187,12 +184,15 @@ class RoleChooser {
           const Header header = ReadHeader(name);
           const int sign = ErrorSign(name);
           const bool has_size = IsLengthOrAngle(header.unit);
+          if (StartsWithIgnoringCase(name, "error")) return true;
           return !table_.At(table_.Find(name)).is_text() && sign != 0 &&
                  (has_size || (sign > 0 && header.unit.symbol.empty()));
         });
+    // "Error code" beside "Deviation (um)" is none.
     std::vector<std::size_t> with_unit = candidates;
     std::erase_if(with_unit, [&](std::size_t i) {
-      return UnitOfColumn(Name(i)).symbol.empty();
+      const Header header = ReadHeader(Name(i));
+      return header.source != UnitSource::kStated || header.unit.symbol.empty();
     });
     return with_unit.empty() ? candidates : with_unit;
   }
@@ -386,6 +386,19 @@ class InputChooser {
     return steps.on > kHardly * steps.back;
   }
 
+  // Hours, kilometres, energy: what never falls over sessions is no sensor.
+  bool CountsOn(const CsvColumn& column) const {
+    constexpr std::size_t kFewestRows = 24;
+    const std::size_t n = column.values.size();
+    if (found_.sessions.labels.size() < 2 || n < kFewestRows ||
+        !column.exceptions.empty() ||
+        UnitOfColumn(column.name).quantity == Quantity::kTemperature) {
+      return false;
+    }
+    const Steps steps = StepsOf(column.values);
+    return steps.back == 0 && 4 * steps.on > n;
+  }
+
   void ChooseDefaultInputs() {
     const std::unordered_set<std::string> excluded = ExcludedNames();
     const MeasuredBeside measured(Name(roles_.target));
@@ -419,8 +432,8 @@ class InputChooser {
         chosen_.remarks.push_back("input " + name +
                                   " has no number in any row and is left out");
       } else if (table_.At(i).is_text()) {
-        RefuseNumbersAsText(table_, table_.At(i));
         if (HoldsTimes(table_.At(i))) continue;
+        RefuseNumbersAsText(table_, table_.At(i));
         if (!PartsComponents(table_, table_.At(i))) texts.push_back(Name(i));
         chosen_.words.push_back(i);
       } else if (CountsRows(table_.At(i)) && Name(i) != selection_.position) {
@@ -429,6 +442,9 @@ class InputChooser {
       } else if (IsAnotherClock(table_.At(i))) {
         had_candidates_ = true;
         Drop(i, "is another clock");
+      } else if (CountsOn(table_.At(i)) && Name(i) != selection_.position) {
+        had_candidates_ = true;
+        Drop(i, "never falls from one session to another, as a counter");
       } else if (IsCalled(Name(i), Word::kPart) &&
                  Name(i) != selection_.position) {
         had_candidates_ = true;

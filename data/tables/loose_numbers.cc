@@ -74,6 +74,14 @@ Loose ReadLooseNumber(std::string_view cell,
     return ReadNumberForm(number, decimal_comma, form) ? Loose::kRemark
                                                        : Loose::kNone;
   }
+  // "-1.49D-03", as Fortran writes it.
+  if (const std::size_t at = cell.find_first_of("dD");
+      at != cell.npos && at > 0 && at + 2 < cell.size() &&
+      (cell[at + 1] == '-' || cell[at + 1] == '+')) {
+    std::string with_e(cell);
+    with_e[at] = 'e';
+    if (ReadNumberForm(with_e, decimal_comma, form)) return Loose::kExponent;
+  }
   Loose kind = Loose::kDash;
   std::string sign;
   for (const std::string_view dash :
@@ -125,7 +133,8 @@ std::vector<std::string> LooseNumbers::Remarks() const {
        " with a dash for the minus",
        " less marks between thousands",
        " less a remark behind",
-       " with the minus that stands behind, which changes the sign"});
+       " with the minus that stands behind, which changes the sign",
+       " with D for the exponent"});
   static_assert(kHow.size() == std::tuple_size_v<decltype(seen_)>);
   std::vector<std::string> remarks;
   for (std::size_t i = 1; i < kHow.size(); ++i) {
@@ -148,6 +157,14 @@ struct UnitCells {
   std::string axis;  // "X" of a program's "X-215.9" or "N10 G1 X-215.9"
   std::vector<std::optional<NumberForm>> numbers;  // (texts) none: missing
 };
+
+// A cell with the ASCII sign for its minus.
+std::string WithPlainMinus(const std::string& cell) {
+  for (const std::string_view dash : {"\xE2\x88\x92", "\xE2\x80\x93"}) {
+    if (cell.starts_with(dash)) return "-" + cell.substr(dash.size());
+  }
+  return cell;
+}
 
 // Takes the words of a program before a number off a cell; the axis, or "".
 std::string TakeAxis(std::string_view* cell) {
@@ -172,7 +189,8 @@ std::optional<UnitCells> ReadUnitCells(const CsvColumn& column,
   for (const std::string& text : column.texts) {
     cells.numbers.emplace_back();
     if (IsMissingNumber(text)) continue;
-    std::string_view cell = text;
+    const std::string plain = WithPlainMinus(text);
+    std::string_view cell = plain;
     const std::string axis = TakeAxis(&cell);
     const std::size_t size =
         std::min(cell.find_first_not_of("+-.,0123456789"), cell.size());

@@ -12,14 +12,14 @@
 namespace errmap::data {
 
 /// What makes a cell no number for programs; the rarest counts.
-enum class Loose { kNone, kDash, kMarks, kRemark, kMinusBehind };
+enum class Loose { kNone, kDash, kMarks, kRemark, kMinusBehind, kExponent };
 
 /// A number as people write it, which no program reads: thousands parted by
 /// blanks, apostrophes or the other decimal mark ("25 000.5", "25'000",
 /// "1.234.567,8"), a minus that is a dash or stands behind, a remark ("1.5 #
-/// door"). `other_mark`: one group of thousands is enough ("25,000" where
-/// points are decimal). Where a mark could be decimal it is none of these
-/// (kNone), and no value is given.
+/// door"), Fortran's exponent ("1.5D-03"). `other_mark`: one group of thousands
+/// is enough ("25,000" where points are decimal). Where a mark could be decimal
+/// it is none of these (kNone), and no value is given.
 Loose ReadLooseNumber(std::string_view cell,
                       bool decimal_comma,
                       bool other_mark,
@@ -38,7 +38,7 @@ class LooseNumbers {
     std::size_t count = 0;
     std::size_t first_line = 0;
   };
-  std::array<Seen, 5> seen_;  // of each Loose
+  std::array<Seen, 6> seen_;  // of each Loose
 };
 
 /// Columns whose cells all are a number with one unit ("1.877 µm") become

@@ -111,8 +111,14 @@ const char* EncodingByWords(std::string_view bytes) {
   if (AsUtf8(head) == head) return nullptr;
   const char* best = nullptr;
   int most = CountKnownWords(head);
-  for (const char* encoding :
-       {"CP850", "CP1250", "CP1251", "CP932", "EUC-JP", "GB18030", "BIG5"}) {
+  for (const char* encoding : {"CP850",
+                               "CP1250",
+                               "CP1251",
+                               "CP932",
+                               "EUC-JP",
+                               "GB18030",
+                               "BIG5",
+                               "CP949"}) {
     const std::optional<Decoded> decoded = Decode(head, encoding);
     if (!decoded || decoded->used < head.size()) continue;
     const int words = CountKnownWords(decoded->text);

@@ -14,7 +14,7 @@ struct EncodedText {
 /// UTF-16 by its byte order mark or by the NULs of its first characters;
 /// what is no UTF-8 by the encoding in which most words of its first lines are
 /// ones that tables have (those of DOS, of eastern Europe, Cyrillic, Japanese,
-/// Chinese). `name` stands for the file in messages.
+/// Chinese, Korean). `name` stands for the file in messages.
 ///
 /// Throws InputError where the file is no text but what people take for a table
 /// (a spreadsheet, an archive, a page), with what to do; or where the text

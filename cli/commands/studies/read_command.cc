@@ -14,10 +14,12 @@
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
+#include "data/csv.h"
 #include "data/files/atomic_file.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/reading/read_table.h"
 #include "data/text.h"
+#include "data/units.h"
 #include "models/study/record/record_json.h"
 
 namespace errmap::cli {
@@ -29,31 +31,47 @@ struct ReadArguments {
   std::string format = "table";
 };
 
-// The rows that are used, in the order in which they were read, with the
-// columns that were found in the others: session and time_s.
+// The rows that are used, in the order in which they were read, to be read
+// again as they were: with the columns that were found in the others, session
+// and time_s in the place of a clock that is no date, and the negative of a
+// correction by the name of an error.
 std::string CleanCsv(const data::CsvTable& table, const data::ReadTable& read) {
   const data::FoundSessions& found = read.found;
   const bool add_session = found.sessions.column.empty() &&
                            found.sessions.labels.size() > 1 &&
                            table.Find("session") < 0;
-  const bool add_time = found.time_column >= 0 && table.Find("time_s") < 0;
+  const bool add_time = found.time_column >= 0 && table.Find("time_s") < 0 &&
+                        !(found.dated && read.reading.time.unit == "date");
+  const auto name_of = [&](std::size_t i) -> std::string {
+    const std::string& name = table.columns[i].name;
+    if (i != read.roles.target || !name.starts_with('-')) return name;
+    return "error [" + data::UnitOfColumn(name).symbol + "]";
+  };
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    if (add_time && (at == found.time_column || at == found.date_column)) {
+      continue;
+    }
+    kept.push_back(i);
+  }
   std::string text;
-  for (const data::CsvColumn& column : table.columns) {
-    text += (text.empty() ? "" : ",") + data::CsvField(column.name);
+  for (const std::size_t i : kept) {
+    text += (text.empty() ? "" : ",") + data::CsvField(name_of(i));
   }
   text += add_session ? ",session" : "";
   text += add_time ? ",time_s\n" : "\n";
   for (std::size_t i = 0; i < read.log_rows.size(); ++i) {
     const auto row = static_cast<std::size_t>(read.log_rows[i]);
     std::string line;
-    for (const data::CsvColumn& column : table.columns) {
-      line += data::CsvField(table.CellText(column, row)) + ",";
+    for (const std::size_t column : kept) {
+      line += data::CsvField(table.CellText(table.columns[column], row)) + ",";
     }
     line.pop_back();
     if (add_session) {
       line +=
-          "," + found.sessions
-                    .labels[static_cast<std::size_t>(found.sessions.codes[i])];
+          "," + data::CsvField(found.sessions.labels[static_cast<std::size_t>(
+                    found.sessions.codes[i])]);
     }
     if (add_time) {
       line += "," + data::CsvNumber(found.time[static_cast<Eigen::Index>(i)]);

@@ -49,6 +49,16 @@ void AskForUnit(const CsvTable& table,
       values.squaredNorm() >= kMost * static_cast<double>(values.size());
   const bool is_called =
       !named && header.unit.symbol.empty() && ErrorSign(target) != 0;
+  if (header.unit.quantity == Quantity::kTime && !named) {
+    throw OpenQuestion(
+        PrintablePath(table.file),
+        {.topic = "unit",
+         .question = "is " + QuotedName(target) + " in seconds of arc?",
+         .answers = {{.option = ArgumentName("target", target + " [arcsec]"),
+                      .means = "yes"},
+                     {.option = ArgumentName("target", target),
+                      .means = "no, it is a time"}}});
+  }
   if (header.source == UnitSource::kStated || values.size() < kFewestRows ||
       !(is_large || is_called || (in_inches && !named))) {
     return;

@@ -254,7 +254,11 @@ class AxisFinder {
   // Columns whose whole numbers go with the positions, one each.
   void FindNumbers() {
     const std::vector<Index>& codes = axis_.levels.codes;
-    if (!axis_.motion.is_commanded || codes.size() != rows_.size()) return;
+    const std::size_t places = axis_.levels.centers.size();
+    if (codes.size() != rows_.size() || places < 3 ||
+        2 * places > rows_.size()) {
+      return;  // in whatever order they come
+    }
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       if (std::cmp_equal(i, axis_.column) ||
           ReadHeader(Name(i)).source == UnitSource::kStated || !IsFree(i)) {

@@ -30,7 +30,8 @@ constexpr auto kSpelledOut =
         {{"s",
           "sec secs second seconds sek sekunde sekunden seconde secondes "
           "secondi segundo segundos sekunder"},
-         {"us", "us"},
+         {"ms", "millis msec msecs millisekunden milliseconds"},
+         {"us", "us micros"},
          {"ns", "ns"},
          {"min",
           "min mins minute minutes minuten minuti minuto minutos minuter"},
@@ -148,8 +149,12 @@ std::optional<Epoch> EpochOf(const Pace& pace, Named called) {
   for (const double days_to_1970 : {kExcelDaysTo1970, 719529.0}) {
     const double from = (pace.least - days_to_1970) * kSecondsOfDay;
     const double to = (pace.most - days_to_1970) * kSecondsOfDay;
+    // No other numbers have the fractions of a day beside seven figures.
+    const bool is_datenum = days_to_1970 > kExcelDaysTo1970 &&
+                            pace.least != std::floor(pace.least) &&
+                            pace.MayBeIn(*days) && pace.step < 1.0;
     const bool fits =
-        called == Named::kDate ||
+        called == Named::kDate || is_datenum ||
         (called == Named::kTime && pace.MayBeIn(*days) && pace.step < 1.0);
     if (fits && from >= kFrom && to <= kTo) {
       return Epoch{days, -days_to_1970 * kSecondsOfDay};

@@ -706,5 +706,48 @@ TEST(MessyFiles, AnErrorWithoutAUnitIsAskedAbout) {
   }
 }
 
+TEST(MessyFiles, NumbersMayBeWrittenAsByFortranOrATypesetter) {
+  const Dataset clean = Make(Joined(Measured())).dataset;
+  const auto values = [](const char* unit, const char* minus, const char* e) {
+    return Make(Joined(Changed(Measured(),
+                               [&](std::size_t row, auto* cells) {
+                                 if (row == 0) return;
+                                 std::string& cell = cells->back();
+                                 if (cell.starts_with('-')) {
+                                   cell = minus + cell.substr(1);
+                                 }
+                                 cell += std::string(e) + unit;
+                               })))
+        .dataset.target_values();
+  };
+  EXPECT_EQ(values("", "-", "D+00"), clean.target_values());
+  EXPECT_EQ(values(" um", "\u2212", ""), clean.target_values());
+}
+
+TEST(MessyFiles, WhatNeverFallsOrNumbersPlacesIsNoSensor) {
+  const PreparedDataset prepared =
+      Make(Joined(Changed(Measured(), [](std::size_t row, auto* cells) {
+        const bool names = row == 0;
+        cells->push_back(
+            names ? "Op. hours"
+                  : Fixed(8000.0 + 0.003 * static_cast<double>(row)));
+        cells->push_back(
+            names ? "StdOrder"
+                  : std::to_string(std::stoi((*cells)[3]) / 100 + 1));
+      })));
+  EXPECT_THAT(prepared.reading.sensors, ElementsAre("t1_degC", "t2_degC"));
+}
+
+TEST(MessyFiles, AnErrorHasAUnitAndACodeHasNone) {
+  Rows rows = Measured();
+  rows[0].back() = "Deviation (um)";
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    rows[row].push_back(row == 0 ? "Error code" : row % 40 == 0 ? "12" : "0");
+  }
+  EXPECT_EQ(Make(Joined(rows)).dataset.target().name, "Deviation (um)");
+  rows[0].back() = "Raw error (um)";
+  EXPECT_THAT(ErrorOf(Joined(rows)), HasSubstr("several columns"));
+}
+
 }  // namespace
 }  // namespace errmap::data

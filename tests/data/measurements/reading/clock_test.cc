@@ -274,6 +274,17 @@ TEST(Clock, KnowsTicksFromTheYearOneHoursInCompoundsAndPackedHours) {
   EXPECT_EQ(packed.time.step_s, 60.0);
 }
 
+TEST(Clock, AddsTwelveHoursBehindNoonWhereTheHoursHaveHalves) {
+  const PreparedDataset prepared = MadeOf(Days("time", [](int i, double) {
+    const int minutes = 10 * 60 + 30 + 2 * i;
+    const int hour = (minutes / 60 - 1) % 12 + 1;
+    return "2026-10-25 " + TwoDigits(hour) + ":" + TwoDigits(minutes % 60);
+  }));
+  EXPECT_EQ(prepared.reading.sessions.count, 1);
+  EXPECT_EQ(prepared.reading.time.step_s, 120.0);
+  EXPECT_THAT(prepared.remarks, Contains(HasSubstr("hours from 1 to 12")));
+}
+
 TEST(Clock, TakesMidnightAt24ForTheEndOfADay) {
   const auto read = [](bool at_24) {
     return MadeOf(Days("time",
