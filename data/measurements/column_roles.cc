@@ -24,6 +24,9 @@
 namespace errmap::data {
 namespace {
 
+// What simulators write beside an error, and no controller has.
+constexpr std::string_view kTruth = "truth";
+
 // A column that nobody named: the index that spreadsheets and data frames
 // write beside their rows, under an empty name or (once read and written again)
 // as "Unnamed: 0".
@@ -530,14 +533,15 @@ bool KeepsRecord(std::string_view name) {
   return is_number_of || IsCalled(name, Word::kCounter) ||
          IsCalled(name, Word::kCycle) || IsCalled(name, Word::kSession) ||
          IsCalled(name, Word::kRun) || NamesTime(name) ||
-         StartsWithIgnoringCase(name, "truth");
+         StartsWithIgnoringCase(name, kTruth);
 }
 
 bool KeepsRecord(const CsvColumn& column) {
   const std::string& name = column.name;
   if (!KeepsRecord(name)) return false;
   if (column.is_text() || NamesTime(name) || IsCalled(name, Word::kCycle) ||
-      IsCalled(name, Word::kSession) || IsCalled(name, Word::kRun)) {
+      IsCalled(name, Word::kSession) || IsCalled(name, Word::kRun) ||
+      StartsWithIgnoringCase(name, kTruth)) {
     return true;
   }
   // "Pt100-Nr. 1" measures.

@@ -155,7 +155,28 @@ class SessionFinder : private RowColumns {
     // A column of dates tells the days where the time does not.
     if (found_.time_column >= 0 && !clock_.hours_alone) return;
     const std::optional<std::size_t> date = DateColumn();
-    if (date && TakeSessions(*date, false)) found_.by = "dates";
+    if (date && !CyclesCountOver(table_.columns[*date]) &&
+        TakeSessions(*date, false)) {
+      found_.by = "dates";
+    }
+  }
+
+  // Whether cycles that count anew do so less often than the date changes: they
+  // go on over midnight.
+  bool CyclesCountOver(const CsvColumn& date) const {
+    for (const std::ptrdiff_t column : cycles_) {
+      if (column < 0 || !CountsAnew(table_.At(column))) continue;
+      const CsvColumn& cycle = table_.At(column);
+      const double way = FirstStep(cycle);
+      std::size_t begins = 1;
+      std::size_t days = 1;
+      for (std::size_t i = 1; i < rows_.size(); ++i) {
+        begins += way * StepOf(cycle, i) < 0.0 ? 1 : 0;
+        days += date.TextAt(DataRow(i)) != date.TextAt(DataRow(i - 1)) ? 1 : 0;
+      }
+      return begins > 1 && begins < days;
+    }
+    return false;
   }
 
   // The only column of dates without hours.

@@ -287,5 +287,15 @@ TEST(Counting, TakesReadingsAtEachPlaceForNoSensor) {
   EXPECT_THAT(reading.sensors, Not(Contains("Reading")));
 }
 
+TEST(Counting, OutranksADateThatChangesAtMidnight) {
+  const PreparedDataset prepared =
+      MadeWith("Date,Zyklus", [](const Place& place) {
+        return "2024-03-0" + Number(place.day + (place.cycle > 1 ? 5 : 4)) +
+               "," + Number(place.cycle + 1);
+      });
+  EXPECT_EQ(prepared.reading.sessions.by, "counter");
+  EXPECT_EQ(prepared.reading.sessions.count, kDays);
+}
+
 }  // namespace
 }  // namespace errmap::data
