@@ -375,15 +375,12 @@ class InputChooser {
         (one ? " and is" : " and are") + " left out" + behind);
   }
 
-  // In a unit of time, and hardly ever back: rows may be many in its step.
+  // In a unit of time, and mostly not back: rows may be many in its step, and
+  // it may begin anew with each pass.
   bool IsAnotherClock(const CsvColumn& column) const {
-    if (found_.time_column < 0 ||
-        UnitOfColumn(column.name).quantity != Quantity::kTime) {
-      return false;
-    }
+    if (UnitOfColumn(column.name).quantity != Quantity::kTime) return false;
     const Steps steps = StepsOf(column.values);
-    constexpr std::size_t kHardly = 5;
-    return steps.on > kHardly * steps.back;
+    return steps.on > 2 * steps.back;
   }
 
   void ChooseDefaultInputs() {
