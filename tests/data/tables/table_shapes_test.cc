@@ -298,6 +298,62 @@ TEST(TableShape, ReadsOnBelowTheSameNamesAndBlankLines) {
                           HasSubstr("names stand between the rows again")));
 }
 
+// ---- Names in other places.
+
+TEST(TableShape, FindsNamesAboveUnitsAndAnotherRow) {
+  const CsvTable table = ParseCsv(
+      "position,t1,error\nmm,degC,um\nSmp,Avg,Smp\n" + Rows(), "f.csv");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("position [mm]", "t1 [degC]", "error [um]"));
+  ExpectRows(table);
+}
+
+TEST(TableShape, FindsNamesAndUnitsAboveChannels) {
+  const CsvTable table = ParseCsv(
+      "Meas Ch,0001,0002\nTag,X pos,bed,X error\nUnit,mm,C,um\n"
+      "Time,CH1,CH2,CH3\n08:00:01,0,20.5,1.5\n08:00:02,50,20.6,2.5\n"
+      "08:00:03,100,20.7,3.5\n",
+      "f.csv");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("Time", "X pos [mm]", "bed [C]", "X error [um]"));
+  EXPECT_THAT(NamesIn(ParseCsv("CH1,position,DC\nCH2,bed,TC\nCH3,error,DC\n"
+                               "CH1,CH2,CH3\nmm,degC,um\n" +
+                                   Rows(),
+                               "f.csv")),
+              ElementsAre("position [mm]", "bed [degC]", "error [um]"));
+}
+
+TEST(TableShape, PassesOverSignsOfPrograms) {
+  const CsvTable framed = ParseCsv("%\n" + kNames + "\n" + Rows() + "%\n", "f");
+  EXPECT_THAT(NamesIn(framed),
+              ElementsAre("position_mm", "t1_degC", "error_um"));
+  ExpectRows(framed);
+  std::string text = Rows();
+  std::ranges::replace(text, ',', ' ');
+  ExpectRows(ParseCsv("% columns: position_mm t1_degC error_um\n" + text, "f"));
+  text = Rows();
+  std::ranges::replace(text, ',', ';');
+  const CsvTable program =
+      ParseCsv("%_N_X_MPF\n;position_mm;t1_degC;error_um\n" + text, "f");
+  EXPECT_THAT(NamesIn(program),
+              ElementsAre("position_mm", "t1_degC", "error_um"));
+  ExpectRows(program);
+}
+
+TEST(TableShape, FindsNamesBetweenBlanksBelowABlockOfWords) {
+  std::string text = Rows();
+  std::ranges::replace(text, ',', ' ');
+  const CsvTable table =
+      ParseCsv("Laser 5 linear measurement\nMachine: Lathe 2  Axis: Z\n\n" +
+                   std::string("position(mm)  t1(C)  error(um)\n"
+                               "------------------------\n") +
+                   text,
+               "f.txt");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("position(mm)", "t1(C)", "error(um)"));
+  ExpectRows(table);
+}
+
 // ---- Numbers.
 
 TEST(TableShape, ReadsOneColumnOfDecimalCommas) {
