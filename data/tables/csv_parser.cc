@@ -28,6 +28,7 @@
 #include "data/tables/spreadsheet.h"
 #include "data/tables/text_encoding.h"
 #include "data/tables/thousands.h"
+#include "data/tables/turned_table.h"
 #include "data/tables/unit_cells.h"
 #include "data/text.h"
 #include "data/text_index.h"
@@ -590,6 +591,7 @@ CsvTable ParseCsv(std::string_view text, const std::string& name, OddRows odd) {
   if (rewritten) text = *rewritten;
   const char delimiter = sheet ? '\t' : CsvCells::kNoDelimiter;
   CsvTable table = Parser(text, name, delimiter, odd).Parse();
+  TurnTable(&table);
   FoldPositions(&table);
   SpreadReadings(&table);
   if (!converted.encoding.empty()) {

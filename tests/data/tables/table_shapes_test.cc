@@ -354,6 +354,17 @@ TEST(TableShape, FindsNamesBetweenBlanksBelowABlockOfWords) {
   ExpectRows(table);
 }
 
+TEST(TableShape, TurnsARowForEachVariable) {
+  const CsvTable table = ParseCsv(
+      "Time,08:00:00,08:00:05,08:00:10,08:00:15\nX [mm],0,50,100,150\n"
+      "Error [um],1.5,2.5,3.5,4.5\nT1 [degC],20,21,22,23\n",
+      "f.csv");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("Time", "X [mm]", "Error [um]", "T1 [degC]"));
+  EXPECT_EQ(table.CellText(table.columns[0], 3), "08:00:15");
+  EXPECT_THAT(table.columns[2].values, ElementsAre(1.5, 2.5, 3.5, 4.5));
+}
+
 // ---- Numbers.
 
 TEST(TableShape, ReadsOneColumnOfDecimalCommas) {
@@ -435,6 +446,37 @@ TEST(FoldedPositions, AreSeveralQuantitiesOrNoneByTheirPositions) {
   EXPECT_THAT(ParseCsv("a@1,a@2,b@1\n1,2,3\n", "f.csv").columns, SizeIs(3));
   EXPECT_THAT(ParseCsv("t01_degC,t02_degC,t03_degC\n1,2,3\n", "f").columns,
               SizeIs(3));
+}
+
+TEST(FoldedPositions, MayStandInParenthesesOrBehindAnAxis) {
+  for (const std::string names :
+       {"err_um(0),err_um(50),err_um(100)", "X0 [um],X50 [um],X100 [um]"}) {
+    const CsvTable table = ParseCsv("T1," + names + "\n20,1,2,3\n", "f.csv");
+    EXPECT_THAT(table.At(table.Find("position_mm")).values,
+                ElementsAre(0, 50, 100));
+    EXPECT_THAT(table.columns[2].values, ElementsAre(1, 2, 3));
+  }
+}
+
+TEST(FoldedPositions, AreThoseOfErrors) {
+  EXPECT_THAT(
+      ParseCsv("X [mm],Error [um],T@100mm [degC],T@200mm [degC],T@300mm "
+               "[degC]\n1,2,20,21,22\n",
+               "f.csv")
+          .columns,
+      SizeIs(5));
+}
+
+TEST(FoldedPositions, GoBlockByBlockInRunsAndWays) {
+  const CsvTable table = ParseCsv(
+      "cycle,X [mm],Error up [um],Error down [um]\n1,0,1,6\n1,50,2,5\n"
+      "1,100,3,4\n2,0,7,12\n2,50,8,11\n2,100,9,10\n",
+      "f.csv");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("cycle", "X [mm]", "direction", "error [um]"));
+  EXPECT_THAT(table.columns[3].values,
+              ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12));
+  EXPECT_EQ(table.CellText(table.columns[2], 3), "down");
 }
 
 TEST(ParseCsv, RefusesMoreColumnsThanMemoryShouldBeKeptFor) {
