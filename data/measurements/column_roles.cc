@@ -18,6 +18,7 @@
 #include "data/measurements/reading/time_units.h"
 #include "data/measurements/sessions.h"
 #include "data/measurements/text_times.h"
+#include "data/tables/title_notes.h"
 #include "data/text.h"
 #include "data/units.h"
 
@@ -178,6 +179,9 @@ class RoleChooser {
       AskForSign(target);
     }
     if (is_opposite(target)) AskForSign(target);
+    if (const std::string* note = NoteOfOppositeSign(table_)) {
+      AskForSign(target, QuotedText(*note) + " stands above the table; ");
+    }
     return target;
   }
 
@@ -237,12 +241,13 @@ class RoleChooser {
   }
 
   // What corrects an error has its size, and its other sign or not.
-  [[noreturn]] void AskForSign(std::size_t target) const {
+  [[noreturn]] void AskForSign(std::size_t target,
+                               const std::string& why = "") const {
     const std::string& name = Name(target);
     throw OpenQuestion(
         PrintablePath(table_.file),
         {.topic = "target",
-         .question = "is " + QuotedName(name) +
+         .question = why + "is " + QuotedName(name) +
                      " the error, or the correction that is added against it?",
          .answers = {{.option = ArgumentName("target", "-" + name),
                       .means = "a correction: the error is its negative"},

@@ -298,6 +298,74 @@ TEST(TableShape, ReadsOnBelowTheSameNamesAndBlankLines) {
                           HasSubstr("names stand between the rows again")));
 }
 
+// ---- Lines that part the rows.
+
+// A table of four rows below each of these lines.
+std::string Blocks(const std::vector<std::string>& titles,
+                   const std::string& names) {
+  std::string text = names.empty() ? kNames + "\n" : "";
+  for (const std::string& title : titles) {
+    text += title + "\n" + names;
+    for (int i = 0; i < 4; ++i) {
+      text += std::to_string(50 * i) + ",20.5,-1.25\n";
+    }
+  }
+  return text;
+}
+
+TEST(TableShape, MakesAColumnOfLinesThatPartTheRows) {
+  struct Case {
+    std::vector<std::string> titles;
+    std::string names;
+    std::string column;
+    std::vector<std::string> cells;  // of each block
+  };
+  const std::string again = kNames + "\n";
+  for (const Case& of : std::vector<Case>{
+           {{"# day 1", "# day 2"}, "", "day", {"day 1", "day 2"}},
+           {{"# day 1, 2024-07-14", "# day 2, 2024-07-16"},
+            "",
+            "date",
+            {"2024-07-14", "2024-07-16"}},
+           {{"Date: 2024-04-15", "Date: 2024-04-16"},
+            again,
+            "date",
+            {"2024-04-15", "2024-04-16"}},
+           {{"Day 1 Cycle 1", "Day 1 Cycle 2", "Day 2 Cycle 1"},
+            again,
+            "session",
+            {"Day 1", "Day 1", "Day 2"}},
+           {{"Tag 1,,", "Tag 2,,"}, again, "day", {"Tag 1", "Tag 2"}},
+           {{"Date,06.07.2024", "Session 2"},
+            "cycle," + kNames + ",n\n",
+            "run",
+            {"Date,06.07.2024", "Session 2"}},
+       }) {
+    std::string text = Blocks(of.titles, of.names);
+    if (of.column == "run") {
+      for (std::size_t at = 0; (at = text.find("20.5", at)) != text.npos;) {
+        text.insert(at, "1,");
+        text.insert(text.find('\n', at), ",4");
+        at += 8;
+      }
+    }
+    const CsvTable table = ParseCsv(text, "f.csv");
+    const std::ptrdiff_t column = table.Find(of.column);
+    ASSERT_GE(column, 0) << of.titles[0];
+    ASSERT_EQ(table.num_rows, 4 * of.cells.size());
+    for (std::size_t row = 0; row < table.num_rows; ++row) {
+      EXPECT_EQ(table.CellText(table.At(column), row), of.cells[row / 4]);
+    }
+  }
+  // What is no session and no date, or comes once.
+  for (const std::vector<std::string>& titles :
+       std::vector<std::vector<std::string>>{{"# zero 1", "# zero 2"},
+                                             {"# day 1", "# oil changed"},
+                                             {"# day 1"}}) {
+    EXPECT_THAT(ParseCsv(Blocks(titles, ""), "f.csv").columns, SizeIs(3));
+  }
+}
+
 // ---- Names in other places.
 
 TEST(TableShape, FindsNamesAboveUnitsAndAnotherRow) {
@@ -363,6 +431,21 @@ TEST(TableShape, TurnsARowForEachVariable) {
               ElementsAre("Time", "X [mm]", "Error [um]", "T1 [degC]"));
   EXPECT_EQ(table.CellText(table.columns[0], 3), "08:00:15");
   EXPECT_THAT(table.columns[2].values, ElementsAre(1.5, 2.5, 3.5, 4.5));
+}
+
+TEST(TableShape, TakesTheUnitOfALineAbove) {
+  for (const std::string note : {"Units: um\n",
+                                 "# Alle Ma\u00dfe in \u00b5m\n",
+                                 "All deviations in micrometres\n"}) {
+    const CsvTable table =
+        ParseCsv(note + "X,T1,Deviation\n" + Rows(), "f.csv");
+    EXPECT_THAT(table.columns[2].name, ::testing::StartsWith("Deviation ["))
+        << note;
+    EXPECT_EQ(table.columns[0].name, "X");
+  }
+  EXPECT_EQ(ParseCsv("Stroke: 500 mm\nX,T1,Deviation\n" + Rows(), "f.csv")
+                .Find("Deviation"),
+            2);
 }
 
 // ---- Numbers.
