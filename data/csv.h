@@ -65,7 +65,7 @@ struct CsvTable {
   /// Of several files: (first row, file as given), ascending; else empty.
   std::vector<std::pair<std::size_t, std::string>> parts;
 
-  /// Lines that stand above the table: a program's name, a date, the axis.
+  /// Lines and comments above the table: a program's name, a date, the axis.
   std::vector<std::string> titles;
   /// What was not plain in the file and how it was read, one line each, to be
   /// told to whoever uses the table.
@@ -88,15 +88,15 @@ enum class OddRows { kRefuse, kOffer, kLeaveOut };
 /// twice the file's memory; never looks at the locale.
 ///
 /// Read with a remark: lines above the table (`titles`), no line of names
-/// (column_1, ...), names in a comment or in two rows, a name that comes twice
-/// (x, x_2), columns that no row reaches, blank lines and names again between
-/// rows, points that part thousands ("1.050" where others are whole numbers of
-/// three digits), a last line cut off in mid number, which is left out; a
-/// column for each position ("e@-215.9mm_um", "X=25 mm") or for each run ("Run
-/// 1 up [um]") becomes a row for each reading, and rows of one reading each
-/// (time, variable, value) a row for all; numbers as people write them
-/// (tables/loose_numbers.h), lines of words among the rows, cells in single
-/// quotes, columns set apart by blanks (tables/rewritten_text.h).
+/// (column_1, ...), names in a comment, in two rows or above channels, a name
+/// that comes twice (x, x_2), columns that no row reaches, blank lines, names
+/// again and lines of words between rows, which become a column where they part
+/// days or runs; points that part thousands (three digits behind each), a last
+/// line cut off in mid number, which is left out; a column for each position
+/// ("e@-215.9mm_um", "X=25 mm"), run ("Run 1 up [um]") or way ("Error up [um]")
+/// becomes a row for each reading, and rows of one reading or of one variable
+/// each become such rows, too; numbers as people write them (loose_numbers.h),
+/// single quotes, columns set apart by blanks (tables/rewritten_text.h).
 /// An unnamed column is called column_N (`has_name` is false).
 ///
 /// Throws InputError: unreadable file, empty file, header alone, a number where

@@ -18,6 +18,7 @@
 #include "data/measurements/reading/time_units.h"
 #include "data/measurements/sessions.h"
 #include "data/measurements/text_times.h"
+#include "data/tables/title_notes.h"
 #include "data/text.h"
 #include "data/units.h"
 
@@ -178,6 +179,9 @@ class RoleChooser {
       AskForSign(target);
     }
     if (is_opposite(target)) AskForSign(target);
+    if (const std::string* note = NoteOfOppositeSign(table_)) {
+      AskForSign(target, QuotedText(*note) + " stands above the table; ");
+    }
     return target;
   }
 
@@ -240,12 +244,13 @@ class RoleChooser {
   }
 
   // What corrects an error has its size, and its other sign or not.
-  [[noreturn]] void AskForSign(std::size_t target) const {
+  [[noreturn]] void AskForSign(std::size_t target,
+                               const std::string& why = "") const {
     const std::string& name = Name(target);
     throw OpenQuestion(
         PrintablePath(table_.file),
         {.topic = "target",
-         .question = "is " + QuotedName(name) +
+         .question = why + "is " + QuotedName(name) +
                      " the error, or the correction that is added against it?",
          .answers = {{.option = ArgumentName("target", "-" + name),
                       .means = "a correction: the error is its negative"},
@@ -378,15 +383,12 @@ class InputChooser {
         (one ? " and is" : " and are") + " left out" + behind);
   }
 
-  // In a unit of time, and hardly ever back: rows may be many in its step.
+  // In a unit of time, and mostly not back: rows may be many in its step, and
+  // it may begin anew with each pass.
   bool IsAnotherClock(const CsvColumn& column) const {
-    if (found_.time_column < 0 ||
-        UnitOfColumn(column.name).quantity != Quantity::kTime) {
-      return false;
-    }
+    if (UnitOfColumn(column.name).quantity != Quantity::kTime) return false;
     const Steps steps = StepsOf(column.values);
-    constexpr std::size_t kHardly = 5;
-    return steps.on > kHardly * steps.back;
+    return steps.on > 2 * steps.back;
   }
 
   // Hours, kilometres, energy: what never falls over sessions is no sensor.

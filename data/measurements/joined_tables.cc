@@ -39,6 +39,8 @@ void AppendRows(const CsvTable& later, CsvTable* table) {
   table->parts.emplace_back(table->num_rows, later.file);
   table->remarks.insert(
       table->remarks.end(), later.remarks.begin(), later.remarks.end());
+  table->titles.insert(
+      table->titles.end(), later.titles.begin(), later.titles.end());
   table->num_rows += later.num_rows;
 }
 
@@ -252,15 +254,24 @@ class Joiner {
     return true;
   }
 
-  std::vector<std::string> Labels() const {
-    std::vector<std::string> labels;
-    for (const CsvTable& table : tables_) {
-      labels.push_back(FileLabel(table.file));
+  // Files that are counted within a day are of one session.
+  std::vector<std::string> Labels() {
+    std::vector<std::string> files;
+    for (const CsvTable& table : tables_) files.push_back(table.file);
+    const bool of_one = std::ranges::all_of(
+        sessions_,
+        [](const Grouping& sessions) { return sessions.labels.size() == 1; });
+    std::vector<std::string> labels = SessionsOfFiles(files);
+    const std::set<std::string> distinct(labels.begin(), labels.end());
+    if (of_one && distinct.size() > 1 && distinct.size() < labels.size()) {
+      Note("the files are read as " + std::to_string(distinct.size()) +
+           " sessions, by what their names are besides the last number: " +
+           ListOfNames({distinct.begin(), distinct.end()}));
+      return labels;
     }
+    std::ranges::transform(files, labels.begin(), FileLabel);
     if (std::set(labels.begin(), labels.end()).size() < labels.size()) {
-      for (std::size_t i = 0; i < labels.size(); ++i) {
-        labels[i] = PrintablePath(FileOf(i));
-      }
+      std::ranges::transform(files, labels.begin(), PrintablePath);
     }
     return labels;
   }

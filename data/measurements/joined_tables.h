@@ -24,8 +24,9 @@ struct JoinedTable {
 /// Sessions are those of the column that FindSessions finds in each file; where
 /// it finds none, a file is one, whatever the leaps of its time. Where two
 /// files give the same name to theirs, the names get the file's label
-/// (FileLabel); where no column has them, a column kFileColumn does. Where it
-/// is that column that `selection` names, each file is one session.
+/// (FileLabel); where no column has them, a column kFileColumn does, by which
+/// files that are counted in a day are one (SessionsOfFiles). Where it is that
+/// column that `selection` names, nothing else parts a file.
 ///
 /// Throws InputError where units contradict, or where a column `error*` or one
 /// that `selection` names is not in all; and as FindSessions does.

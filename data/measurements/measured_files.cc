@@ -14,6 +14,7 @@
 #include "data/files_in_memory.h"
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
+#include "data/tables/counted_labels.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -258,6 +259,22 @@ MeasuredFiles FindFiles(const std::vector<std::string>& given,
 std::string FileLabel(const std::string& path) {
   const std::string name = NameWithoutEndings(path);
   return DateIn(name).value_or(name);
+}
+
+std::vector<std::string> SessionsOfFiles(
+    const std::vector<std::string>& paths) {
+  std::vector<std::string> names;
+  std::vector<std::string> labels;
+  bool by_date = true;
+  for (const std::string& path : paths) {
+    names.push_back(NameWithoutEndings(path));
+    labels.push_back(FileLabel(path));
+    by_date = by_date && DateIn(names.back()) &&
+              LessNumbers(names.back()) == LessNumbers(names.front());
+  }
+  if (by_date) return labels;
+  const std::vector<std::string> prefixes = PrefixesOfCounted(names);
+  return prefixes.empty() ? labels : prefixes;
 }
 
 std::string NamesOfFiles(const std::vector<std::string>& paths) {

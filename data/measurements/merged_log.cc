@@ -9,9 +9,11 @@
 
 #include "data/argument_name.h"
 #include "data/columns.h"
+#include "data/measurements/clock_zone.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/log_channels.h"
 #include "data/measurements/reading/clock.h"
+#include "data/measurements/reading/reading.h"
 #include "data/measurements/sessions.h"
 #include "data/measurements/text_times.h"
 #include "data/text.h"
@@ -167,6 +169,50 @@ std::string TextOf(const Joined& joined, std::size_t num_rows) {
               : "; " + std::to_string(joined.num_without) + " rows have none");
 }
 
+// One clock names its zone, and the other does not. What fits are whole hours
+// at which each row has a reading.
+[[noreturn]] void AskForOffset(const CsvTable& log,
+                               const Times& log_times,
+                               bool log_is_zoned,
+                               const CsvTable& table,
+                               const Times& times) {
+  constexpr int kMostHours = 14;
+  constexpr std::size_t kMostAnswers = 4;
+  const Readings readings(AllRows(log.num_rows), log_times.time, 0.0);
+  const auto has_readings = [&](double ahead) {
+    return std::ranges::all_of(times.time, [&](double at) {
+      bool is_later = false;
+      return readings.RowAt(at + ahead, &is_later) >= 0;
+    });
+  };
+  Reading::Question question{
+      .topic = "time",
+      .question = "the times of " +
+                  PrintablePath(log_is_zoned ? log.file : table.file) +
+                  " have a time zone, those of " +
+                  PrintablePath(log_is_zoned ? table.file : log.file) +
+                  " have none; by how much is the clock of " +
+                  PrintablePath(log.file) + " ahead?",
+      .answers = {}};
+  const auto answer = [&](int hours) {
+    const std::string text = hours == 0 ? "0" : std::to_string(hours) + "h";
+    question.answers.push_back(
+        {.option = ArgumentName("clock_offset", text),
+         .means = hours == 0 ? "both clocks show the same time"
+                             : "it shows " + std::to_string(std::abs(hours)) +
+                                   " h " + (hours < 0 ? "less" : "more")});
+  };
+  std::size_t fits = 0;
+  for (int i = 0; i <= 2 * kMostHours; ++i) {
+    const int hours = (i % 2 == 0 ? -1 : 1) * ((i + 1) / 2);
+    if (!has_readings(3600.0 * hours)) continue;
+    if (++fits <= kMostAnswers) answer(hours);
+  }
+  if (fits > kMostAnswers) question.question += " Other hours fit, too.";
+  if (question.answers.empty()) answer(0);
+  throw OpenQuestion(PrintablePath(log.file), std::move(question));
+}
+
 }  // namespace
 
 void MergeLog(const CsvTable& log,
@@ -183,7 +229,14 @@ void MergeLog(const CsvTable& log,
                       PrintablePath(table->file) +
                       "; give both the same clock");
   }
-  const double ahead = OffsetOf(selection.clock_offset);
+  double ahead = OffsetOf(selection.clock_offset);
+  const auto zone = SecondsAheadOfUtc(*table, times.columns);
+  const auto log_zone = SecondsAheadOfUtc(log, log_times.columns);
+  if (zone && log_zone) {
+    ahead += *log_zone - *zone;
+  } else if ((zone || log_zone) && selection.clock_offset.empty()) {
+    AskForOffset(log, log_times, log_zone.has_value(), *table, times);
+  }
   const bool mixes_marks = MixesMarks(log);
   Joined joined;
   for (const LogPart& part :

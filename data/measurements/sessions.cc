@@ -59,32 +59,51 @@ class SessionFinder : private RowColumns {
     found_.date_column = clock_.date_column;
     found_.dated = clock_.dated;
     found_.time_unit = clock_.is_found() ? "s" : "rows";
-    if (!selection_.time.empty() || !BeginsAnewInPasses()) return;
+    if (!selection_.time.empty() || !clock_.is_found()) return;
+    const bool in_files = BeginsAnewIn(FilesOfSessions());
+    if (!in_files && !BeginsAnewIn(passes_)) return;
     PassOver(false,
-             QuotedName(TimeColumn().name) +
-                 " begins anew with each pass along the axis, so it tells no "
-                 "pauses between them",
+             QuotedName(TimeColumn().name) + " begins anew with each " +
+                 (in_files ? "file, so it tells no time"
+                           : "pass along the axis, so it tells no pauses") +
+                 " between them",
              "",
              &found_.remarks);
     UseRowNumbers();
   }
 
-  // Whether the time goes back where nearly each pass begins, and nowhere else.
-  bool BeginsAnewInPasses() const {
-    constexpr Index kFewestPasses = 3;
-    if (!clock_.is_found() || passes_.empty() ||
-        passes_.back() + 1 < kFewestPasses) {
-      return false;
+  // The file of each row, where a session is of several; else nothing.
+  std::vector<Index> FilesOfSessions() const {
+    const std::ptrdiff_t file = table_.Find(kFileColumn);
+    if (file < 0 || table_.At(file).texts.size() >= table_.parts.size()) {
+      return {};
     }
+    std::vector<Index> files;
+    std::size_t part = 0;
+    for (const Index row : rows_) {
+      while (part + 1 < table_.parts.size() &&
+             std::cmp_less_equal(table_.parts[part + 1].first, row)) {
+        ++part;
+      }
+      files.push_back(static_cast<Index>(part));
+    }
+    return files;
+  }
+
+  // Whether the time goes back where nearly each pass or file begins, and
+  // nowhere else.
+  bool BeginsAnewIn(const std::vector<Index>& passes) const {
+    constexpr Index kFewestPasses = 3;
+    if (passes.empty() || passes.back() + 1 < kFewestPasses) return false;
     Index back = 0;
-    for (std::size_t i = 1; i < passes_.size(); ++i) {
+    for (std::size_t i = 1; i < passes.size(); ++i) {
       const auto at = static_cast<Index>(i);
       if (!(found_.time[at] < found_.time[at - 1])) continue;
-      if (passes_[i] == passes_[i - 1]) return false;
+      if (passes[i] == passes[i - 1]) return false;
       ++back;
     }
     constexpr Index kNearlyAll = 90;  // percent
-    return 100 * back >= kNearlyAll * passes_.back();
+    return 100 * back >= kNearlyAll * passes.back();
   }
 
   void UseRowNumbers() {
@@ -189,7 +208,7 @@ class SessionFinder : private RowColumns {
   // Whether one clock runs through all of several files, so that its pauses
   // tell the sessions and not how the rows were saved.
   bool ClockGoesOnOverFiles() const {
-    if (!clock_.is_found()) return false;
+    if (found_.time_column < 0) return false;
     std::set<Index> firsts;
     for (const auto& part : table_.parts) {
       firsts.insert(static_cast<Index>(part.first));

@@ -87,16 +87,20 @@ void TakeDecimals(const std::vector<CsvRecord>& records, CsvDialect* dialect) {
   }
 }
 
+bool AreWords(const CsvRecord& record) {
+  return std::ranges::none_of(record.cells, [](const std::string& cell) {
+    return IsKnown(cell, true);
+  });
+}
+
 // The names lack one for the first column, which numbers the rows.
 bool AreNamesOfAllButOne(const CsvRecord& record, std::size_t width) {
   return record.cells.size() > 1 && record.cells.size() + 1 == width &&
-         std::ranges::none_of(record.cells, [](const std::string& cell) {
-           return IsKnown(cell, true);
-         });
+         AreWords(record);
 }
 
 // Blanks part cells where they do so in most rows, of known cells, and a row of
-// names or of numbers that begins the file has as many.
+// names or of numbers that begins the file, or names further down, has as many.
 bool ArePartedByBlanks(const std::vector<CsvRecord>& records) {
   const std::size_t width = UsualWidth(records, 0);
   const auto [score, agrees, cells] = ScoreOf(records, ' ');
@@ -109,7 +113,10 @@ bool ArePartedByBlanks(const std::vector<CsvRecord>& records) {
                                [&](const CsvRecord& record) {
                                  return record.cells.size() == width &&
                                         !IsKnown(record.cells.front(), true);
-                               })));
+                               })) ||
+          std::ranges::any_of(records, [&](const CsvRecord& record) {
+            return record.cells.size() == width && AreWords(record);
+          }));
 }
 
 // A column of numbers with decimal commas under a name without one.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "data/column_words.h"
 #include "data/tables/loose_numbers.h"
 #include "data/tables/missing_cells.h"
 #include "data/tables/unit_cells.h"
@@ -45,7 +46,7 @@ class LayoutFinder {
     const std::size_t first = FirstDataRow();
     const std::size_t names = first == kNone ? 0 : NamesAbove(first);
     if (names != kNone) {
-      TakeNames(names);
+      TakeNames(names, first);
     } else {
       TakeNoNames(first);
     }
@@ -119,11 +120,20 @@ class LayoutFinder {
       const CellCounts counts = CountsOf(cells);
       const bool is_whole =
           cells.size() + 1 >= usual_ || 2 * counts.numbers >= num_numeric_;
-      if (is_whole && counts.numbers > counts.words && !AreNumberNames(i)) {
+      if (is_whole && counts.numbers > counts.words && !AreNumberNames(i) &&
+          !IsShortAboveWords(i)) {
         return i;
       }
     }
     return kNone;
+  }
+
+  // "Channel,1,2,3" in a block above the table.
+  bool IsShortAboveWords(std::size_t row) const {
+    if (records_[row].cells.size() >= usual_ || row + 1 >= records_.size())
+      return false;
+    const CellCounts below = CountsOf(records_[row + 1].cells);
+    return below.words > below.numbers;
   }
 
   // "cycle, t1_degC, 0, 50, 100": names some of which are numbers that go one
@@ -181,6 +191,10 @@ class LayoutFinder {
       if (!MayBeNames(records_[i].cells)) continue;
       const bool is_below_names = i > 0 && MayBeNames(records_[i - 1].cells);
       if (is_below_names && AreUnitCells(records_[i].cells)) continue;
+      if (is_below_names && i > 1 && AreUnitsOfNumbers(i - 1) &&
+          !CallATime(records_[i].cells) && MayBeNames(records_[i - 2].cells)) {
+        return i - 2;
+      }
       return i;
     }
     // One line of another length, or with numbers in it, is meant for names
@@ -189,14 +203,103 @@ class LayoutFinder {
     return kNone;
   }
 
-  void TakeNames(std::size_t row) {
+  // Whether a row has units for most columns of numbers.
+  bool AreUnitsOfNumbers(std::size_t row) const {
+    const std::vector<std::string>& cells = records_[row].cells;
+    std::size_t units = 0;
+    for (std::size_t i = 0; i < cells.size() && i < usual_; ++i) {
+      std::string unit = AsUtf8(cells[i]);
+      units += is_numeric_[i] && ReadUnitCell(&unit) && !unit.empty() ? 1 : 0;
+    }
+    return units >= 2 && 4 * units >= 3 * num_numeric_;
+  }
+
+  static bool CallATime(const std::vector<std::string>& cells) {
+    return std::ranges::any_of(cells, [](const std::string& cell) {
+      return IsCalled(cell, Word::kTime) || IsCalled(cell, Word::kDate);
+    });
+  }
+
+  // Names, units, and a third row above the numbers.
+  void TakeUnitsBelow(std::size_t row) {
+    const std::vector<std::string>& units = records_[row + 1].cells;
+    for (std::size_t i = 0; i < std::min(units.size(), usual_); ++i) {
+      std::string unit = AsUtf8(units[i]);
+      std::string& name = layout_.names[i];
+      if (!is_numeric_[i] || !ReadUnitCell(&unit) || unit.empty()) continue;
+      name = NameWithUnit(AsUtf8(name), unit).value_or(name);
+    }
+    layout_.data = After(row + 2);
+    Say("line " + std::to_string(records_[row + 2].start.line) +
+        ", below names and units, is passed over");
+  }
+
+  void TakeNames(std::size_t row, std::size_t first) {
     layout_.names = records_[row].cells;
     layout_.header_line = records_[row].start.line;
     layout_.data = After(row);
-    std::string& first = layout_.names.front();
-    if (first.starts_with("$$")) first.erase(0, 2);
+    if (first != kNone && first == row + 3 && layout_.names.size() >= usual_ &&
+        AreUnitsOfNumbers(row + 1) && MayBeNames(records_[row + 2].cells)) {
+      TakeUnitsBelow(row);
+    }
+    std::string& name = layout_.names.front();
+    if (name.starts_with("$$")) name.erase(0, 2);
+    TakeNamesOfBlock(row, &layout_.names);
     const std::size_t titles = TakeUpperNames(row) ? row - 1 : row;
     TakeTitles(titles);
+  }
+
+  // Whether the names say no error, and what might stand for them one.
+  static bool TellAnError(const std::vector<std::string>& names,
+                          const std::vector<std::string>& meant) {
+    const auto is_error = [](const std::string& name) {
+      return ErrorSign(AsUtf8(name)) != 0;
+    };
+    return std::ranges::none_of(names, is_error) &&
+           std::ranges::any_of(meant, is_error);
+  }
+
+  // Units right above the names, and other names above these: "Tag", "Unit".
+  bool TakeUnitsAbove(std::size_t row) {
+    if (!AreUnitsOfNumbers(row - 1) || AreUnitsOfNumbers(row)) return false;
+    const std::vector<std::string>& units = records_[row - 1].cells;
+    std::vector<std::string> meant = layout_.names;
+    if (row > 1 && records_[row - 2].cells.size() == usual_) {
+      for (std::size_t i = 0; i < usual_; ++i) {
+        const std::string& name = records_[row - 2].cells[i];
+        if (is_numeric_[i] && !name.empty()) meant[i] = name;
+      }
+    }
+    const bool has_others = TellAnError(layout_.names, meant);
+    if (has_others) layout_.names = std::move(meant);
+    for (std::size_t i = 0; i < usual_; ++i) {
+      std::string unit = AsUtf8(units[i]);
+      if (!is_numeric_[i] || !ReadUnitCell(&unit) || unit.empty()) continue;
+      std::string& name = layout_.names[i];
+      name = NameWithUnit(AsUtf8(name), unit).value_or(name);
+    }
+    Say("line " + std::to_string(records_[row - 1].start.line) +
+        " has the units of the columns" +
+        (has_others ? ", and the line above their names" : ""));
+    return true;
+  }
+
+  // "CH1,bed,TEMP" above the table says what the column CH1 is.
+  void TakeNamesOfBlock(std::size_t row, std::vector<std::string>* names) {
+    std::vector<std::string> meant = *names;
+    for (std::string& name : meant) {
+      for (std::size_t i = 0; i < row && !name.empty(); ++i) {
+        const std::vector<std::string>& cells = records_[i].cells;
+        if (cells.size() > 1 && cells[0] == name && !cells[1].empty() &&
+            !BeginsWithNumber(cells[1])) {
+          name = cells[1];
+          break;
+        }
+      }
+    }
+    if (!TellAnError(*names, meant)) return;
+    Say("lines above the table name its columns");
+    *names = std::move(meant);
   }
 
   // A second row of names right above tells apart what the lower one does not.
@@ -205,7 +308,9 @@ class LayoutFinder {
         layout_.names.size() != usual_) {
       return false;
     }
-    const std::vector<std::string>& upper = records_[row - 1].cells;
+    if (TakeUnitsAbove(row)) return true;
+    std::vector<std::string> upper = records_[row - 1].cells;
+    TakeNamesOfBlock(row - 1, &upper);
     const auto num_words = std::ranges::count_if(
         upper, [](const std::string& cell) { return !cell.empty(); });
     if (num_words < 2 || CountsOf(upper).numbers > 0) return false;
@@ -270,15 +375,16 @@ class LayoutFinder {
       }
       if (!text.starts_with('#')) continue;
       // "#" alone is the name of a column that counts.
-      const bool is_name = text.size() > 1 && text[1] == dialect_.delimiter;
-      if (!is_name) {
-        text.remove_prefix(
-            std::min(text.find_first_not_of("# \t"), text.size()));
-      }
+      std::string_view words = text;
+      words.remove_prefix(
+          std::min(words.find_first_not_of("# \t"), words.size()));
       // "columns: time;X", "units: s;mm".
-      if (const std::size_t label = text.find(": "); label < text.find(' ')) {
-        text.remove_prefix(label + 2);
-      }
+      const std::size_t label = words.find(": ");
+      const bool has_label = label < words.find(' ');
+      const bool is_name =
+          !has_label && text.size() > 1 && text[1] == dialect_.delimiter;
+      if (!is_name) text = words;
+      if (has_label) text.remove_prefix(label + 2);
       std::vector<std::string> cells = CellsOf(text);
       // "# day cycle", where blanks part the columns: the sign is no name.
       if (is_name && dialect_.delimiter == ' ' && cells.size() == usual_ + 1) {
@@ -361,6 +467,17 @@ class LayoutFinder {
       return;
     }
     if (usual == names.size()) return;
+    // Below other lines that begin with the sign of remarks: ";time;X".
+    if (usual + 1 == names.size() && names.front().empty() &&
+        std::ranges::count(names, "") == 1 && dialect_.delimiter == ';' &&
+        std::any_of(records_.cbegin(), At(first - 1), [](const auto& record) {
+          return record.cells.front().empty() ||
+                 record.cells.front().starts_with('%');
+        })) {
+      names.erase(names.begin());
+      layout_.num_names = layout_.width = usual;
+      return;
+    }
     const bool all_alike =
         records_.size() - first > 1 &&
         std::all_of(At(first), records_.cend(), [&](const CsvRecord& record) {

@@ -13,6 +13,7 @@
 #include "data/files/atomic_file.h"
 #include "data/files/sheet_path.h"
 #include "data/formula_text.h"
+#include "data/tables/block_titles.h"
 #include "data/tables/column_names.h"
 #include "data/tables/csv_cells.h"
 #include "data/tables/csv_dialect.h"
@@ -28,6 +29,8 @@
 #include "data/tables/spreadsheet.h"
 #include "data/tables/text_encoding.h"
 #include "data/tables/thousands.h"
+#include "data/tables/title_notes.h"
+#include "data/tables/turned_table.h"
 #include "data/tables/unit_cells.h"
 #include "data/text.h"
 #include "data/text_index.h"
@@ -85,7 +88,7 @@ class Parser {
     for (const std::string& line : loose_.Remarks()) Say(line);
     LeaveEmptyColumns();
     TakeUnitsOfCells(dialect_.decimal_comma, &table_);
-    table_.titles = std::move(layout_.titles);
+    TakeTitles();
     return std::move(table_);
   }
 
@@ -190,7 +193,17 @@ class Parser {
     named.again.resize(std::min(num, kMostShown));
     Say("columns of one name: the later " +
         std::string(num == 1 ? "is" : "are") + " read as " +
-        JoinWords(named.again, ", ") + (num > kMostShown ? ", ..." : ""));
+        JoinWords(named.again, ", ") + (num > kMostShown ? ", ..." : "") +
+        (IsSideBySide() ? "; of tables side by side put one below the other"
+                        : ""));
+  }
+
+  // A column without a name parts names that come again.
+  bool IsSideBySide() const {
+    const std::vector<std::string>& names = layout_.names;
+    const auto gap = std::ranges::find(names, "");
+    return gap != names.end() && gap + 1 != names.end() &&
+           gap[1] == names.front();
   }
 
   // Numbers for names are positions, where FoldPositions takes them for such.
@@ -263,6 +276,39 @@ class Parser {
     cells_.SkipLine();
   }
 
+  // Lines above the table and among its rows.
+  void TakeTitles() {
+    std::vector<std::string>& titles = table_.titles;
+    titles = std::move(layout_.titles);
+    std::size_t nearest = titles.size();
+    cells_.GoTo({text_.data(), 1});
+    while (cells_.position().cursor < layout_.data.cursor) {
+      if (cells_.front() == '#') {
+        titles.insert(titles.begin(), TakeComment());
+        const bool is_next =
+            cells_.line() == layout_.header_line || layout_.header_line == 0;
+        nearest = is_next || nearest == 0 ? 1 : nearest + 1;
+      } else {
+        cells_.SkipLine();
+      }
+    }
+    TakeUnitOfNotes(&table_);
+    if (nearest > 0) {
+      title_lines_.insert(title_lines_.begin(),
+                          {.row = 0, .text = titles[nearest - 1]});
+    }
+    PartByTitles(title_lines_, odd_rows_.num_names(), &table_);
+  }
+
+  // The words of a comment's line, which is passed over.
+  std::string TakeComment() {
+    std::string_view line = cells_.rest();
+    line = line.substr(0, line.find_first_of("\n\r"));
+    line.remove_prefix(std::min(line.find_first_not_of("# \t"), line.size()));
+    cells_.SkipLine();
+    return AsUtf8(Trimmed(line));
+  }
+
   // Columns at the end without a name or a cell.
   void LeaveEmptyColumns() {
     auto& columns = table_.columns;
@@ -306,7 +352,7 @@ class Parser {
     std::size_t blank_line = 0;
     while (!cells_.at_end()) {
       if (cells_.front() == '#') {
-        cells_.SkipLine();
+        title_lines_.push_back({.row = table_.num_rows, .text = TakeComment()});
       } else if (cells_.AtBlankLine()) {
         if (blank_line == 0) blank_line = cells_.line();
         cells_.SkipLine();
@@ -345,10 +391,18 @@ class Parser {
       cells_.Next();
       more = cells_.PassEnd();
     }
-    const bool is_remark = found == 1 && layout_.width > 2 &&
-                           num_numbers_ == 0 && IsRemark(table_);
+    const bool is_remark =
+        layout_.width > 2 && num_numbers_ == 0 && IsRemark(table_) &&
+        (found == 1 ||
+         (HoldsRemarkAlone(table_, column_) &&
+          NamesSession(table_.CellText(table_.columns[0], table_.num_rows))));
     if (is_remark || (found == 2 && AreTotals(table_))) {
-      odd_rows_.AddWords(table_.CellText(table_.columns[0], table_.num_rows));
+      std::string words = table_.CellText(table_.columns[0], table_.num_rows);
+      odd_rows_.AddWords(words);
+      if (found == 2) {
+        words += " " + table_.CellText(table_.columns[1], table_.num_rows);
+      }
+      title_lines_.push_back({.row = table_.num_rows, .text = words});
       UndoRow();
     } else if (!HasItsCells(found)) {
       if (after_blank) ThrowAnotherTable(line, found);
@@ -463,6 +517,7 @@ class Parser {
     table_.line_runs.clear();
     table_.num_rows = 0;
     odd_rows_ = {};
+    title_lines_.clear();
     loose_ = {};
     short_rows_.clear();
   }
@@ -560,6 +615,7 @@ class Parser {
   bool any_undone_ = false;  // rows
 
   LooseNumbers loose_;
+  std::vector<TitleLine> title_lines_;  // among the rows
 
   // Rows that are not in the table.
   OddRowList odd_rows_;
@@ -590,6 +646,7 @@ CsvTable ParseCsv(std::string_view text, const std::string& name, OddRows odd) {
   if (rewritten) text = *rewritten;
   const char delimiter = sheet ? '\t' : CsvCells::kNoDelimiter;
   CsvTable table = Parser(text, name, delimiter, odd).Parse();
+  TurnTable(&table);
   FoldPositions(&table);
   SpreadReadings(&table);
   if (!converted.encoding.empty()) {

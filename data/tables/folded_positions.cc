@@ -29,6 +29,7 @@ struct Fold {
   std::map<std::string, std::vector<std::size_t>> quantities;  // (slots)
   std::size_t slots = 0;
   bool slot_by_slot = false;    // all rows of one, then those of the next
+  std::size_t block = 0;        // rows after which the positions begin anew
   std::vector<bool> backwards;  // (slots) the rows of one from the last up
   std::string what;             // "a column for each of 9 positions"
   std::vector<std::string> made = {};  // columns that sheets make of these
@@ -71,7 +72,11 @@ std::optional<Fold> FindPositions(const CsvTable& table) {
   const std::set<double> distinct(positions.begin(), positions.end());
   const bool are_alike = std::ranges::all_of(
       places, [&](const auto& of) { return of.second == positions; });
-  if (!are_alike || distinct.size() != positions.size() ||
+  const bool any_errors = std::ranges::any_of(places, [](const auto& of) {
+    const Header header = ReadHeader(of.first);
+    return header.unit.symbol.empty() || IsLengthOrAngle(header.unit);
+  });
+  if (!any_errors || !are_alike || distinct.size() != positions.size() ||
       positions.size() < kFewestPositions ||
       (!are_marked && ErrorBeside(table, fold) != nullptr) ||
       (unit->empty() &&
@@ -89,10 +94,12 @@ std::optional<Fold> FindPositions(const CsvTable& table) {
   return fold;
 }
 
-// -1 where all cells of a column fall down the rows, 1 where they rise, else 0.
-int WayOfRows(const CsvColumn& column) {
-  if (!column.exceptions.empty() || column.values.size() < 2) return 0;
-  const std::vector<double> values = column.values;
+// -1 where all cells of a column fall down these rows, 1 where they rise, else
+// 0.
+int WayOfRows(const CsvColumn& column, std::size_t num_rows) {
+  if (!column.exceptions.empty() || num_rows < 2) return 0;
+  std::vector<double> values = column.values;
+  values.resize(num_rows);
   const auto breaks = [&](auto not_so) {
     return std::ranges::adjacent_find(values, not_so) != values.end();
   };
@@ -103,18 +110,46 @@ int WayOfRows(const CsvColumn& column) {
 // Whether the rows list the positions from the highest down: those of the first
 // column that is called a position, else of the first that goes one way.
 bool PositionsDescend(const CsvTable& table,
-                      const std::vector<std::size_t>& columns) {
+                      const std::vector<std::size_t>& columns,
+                      std::size_t num_rows) {
   for (const bool called : {true, false}) {
     for (const std::size_t i : columns) {
       const CsvColumn& column = table.columns[i];
       if (called && !IsCalledPosition(column.name)) continue;
-      if (const int way = WayOfRows(column); way != 0) return way < 0;
+      const int way = WayOfRows(column, num_rows);
+      if (way != 0) return way < 0;
     }
   }
   return false;
 }
 
-std::optional<Fold> FindRuns(const CsvTable& table) {
+bool MeasuresError(const std::string& name) {
+  return ErrorSign(name) != 0 || IsUnitOfErrors(UnitOfColumn(name));
+}
+
+// After how many rows the positions come again, all of them and as often as
+// there are rows: tables one below the other. All rows where they do not.
+std::size_t RowsOfBlock(const CsvTable& table,
+                        const std::vector<std::size_t>& columns) {
+  constexpr std::size_t kFewest = 3;
+  for (const std::size_t i : columns) {
+    const CsvColumn& column = table.columns[i];
+    if (!IsCalledPosition(column.name) || !column.exceptions.empty()) continue;
+    const std::vector<double> values = column.values;
+    for (std::size_t n = kFewest; 2 * n <= values.size(); ++n) {
+      if (values.size() % n == 0 && WayOfRows(column, n) != 0 &&
+          std::equal(values.begin() + static_cast<std::ptrdiff_t>(n),
+                     values.end(),
+                     values.begin())) {
+        return n;
+      }
+    }
+  }
+  return table.num_rows;
+}
+
+// Of runs that have numbers, or else of one column for each way.
+std::optional<Fold> FindRuns(const CsvTable& table, bool are_numbered) {
   Fold fold;
   fold.slot_by_slot = true;
   std::set<std::pair<int, std::string>> runs;
@@ -122,7 +157,9 @@ std::optional<Fold> FindRuns(const CsvTable& table) {
   std::vector<std::ptrdiff_t> ways;  // 0: up, 1: down, 2: nothing said
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const std::optional<RunName> name = ReadRunName(table.columns[i].name);
-    if (!name || table.columns[i].is_text()) {
+    if (!name || (name->run > 0) != are_numbered ||
+        table.columns[i].is_text() ||
+        !(are_numbered || MeasuresError(table.columns[i].name))) {
       fold.kept.push_back(i);
       continue;
     }
@@ -134,7 +171,9 @@ std::optional<Fold> FindRuns(const CsvTable& table) {
                                              : 1);
   }
   const auto unsaid = std::ranges::count(ways, 2);
-  if (fold.quantities.size() != 1 || runs.size() < 3 || fold.kept.empty() ||
+  const std::size_t fewest = are_numbered ? 3 : 2;
+  if (fold.quantities.size() != 1 || runs.size() < fewest ||
+      fold.kept.empty() ||
       (unsaid > 0 && std::cmp_not_equal(unsaid, runs.size()))) {
     return std::nullopt;
   }
@@ -146,15 +185,19 @@ std::optional<Fold> FindRuns(const CsvTable& table) {
   }
   fold.slots = runs.size();
   // Each run goes from where the one before it ended.
-  const bool descend = PositionsDescend(table, fold.kept);
+  fold.block = RowsOfBlock(table, fold.kept);
+  const bool descend = PositionsDescend(table, fold.kept, fold.block);
   for (const std::ptrdiff_t way : ways) {
     fold.backwards.push_back(way != 2 && (way == 1) != descend);
   }
-  fold.labels.push_back(NumberColumn("cycle", std::move(numbers)));
+  if (are_numbered) {
+    fold.labels.push_back(NumberColumn("cycle", std::move(numbers)));
+  }
   if (unsaid == 0) {
     fold.labels.push_back(WordColumn("direction", ways, {"up", "down"}));
   }
-  fold.what = "a column for each of " + std::to_string(fold.slots) + " runs";
+  fold.what = "a column for each of " + std::to_string(fold.slots) +
+              (are_numbered ? " runs" : " ways");
   return fold;
 }
 
@@ -186,11 +229,14 @@ struct Places {
 
 Places PlacesOf(const Fold& fold, std::size_t num_rows) {
   Places places;
+  // Rows of one slot together, then those of the next.
+  const std::size_t block = fold.slot_by_slot ? fold.block : 1;
   for (std::size_t i = 0; i < num_rows * fold.slots; ++i) {
-    const std::size_t slot = fold.slot_by_slot ? i / num_rows : i % fold.slots;
-    const std::size_t row = fold.slot_by_slot ? i % num_rows : i / fold.slots;
+    const std::size_t first = i / (block * fold.slots) * block;
+    const std::size_t slot = i / block % fold.slots;
+    const std::size_t row = i % block;
     places.rows.push_back(static_cast<std::ptrdiff_t>(
-        fold.backwards[slot] ? num_rows - 1 - row : row));
+        first + (fold.backwards[slot] ? block - 1 - row : row)));
     places.slots.push_back(static_cast<std::ptrdiff_t>(slot));
   }
   return places;
@@ -248,7 +294,8 @@ bool AreSpacedPositions(const std::vector<double>& numbers) {
 
 void FoldPositions(CsvTable* table) {
   std::optional<Fold> fold = FindPositions(*table);
-  if (!fold) fold = FindRuns(*table);
+  if (!fold) fold = FindRuns(*table, true);
+  if (!fold) fold = FindRuns(*table, false);
   if (!fold) return MentionNumbered(table);
   LeaveOutFigures(*table, &*fold);
   const Places places = PlacesOf(*fold, table->num_rows);

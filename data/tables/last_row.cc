@@ -28,6 +28,15 @@ bool IsRemark(const CsvTable& table) {
          !IsMissingNumber(text) && text.find(' ') != text.npos;
 }
 
+bool HoldsRemarkAlone(const CsvTable& table, std::size_t cells) {
+  const CsvColumn& first = table.columns[0];
+  if (table.num_rows == 0 || !HoldsNumbers(table, first)) return false;
+  for (std::size_t i = 1; i < cells; ++i) {
+    if (!TextIn(table, i).empty()) return false;
+  }
+  return true;
+}
+
 bool AreTotals(const CsvTable& table) {
   constexpr std::size_t kFewestOfRow = 4;
   const CsvColumn& first = table.columns[0];

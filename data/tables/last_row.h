@@ -13,6 +13,9 @@ namespace errmap::data {
 
 /// Whether its only cell is a remark: words, and no time.
 bool IsRemark(const CsvTable& table);
+/// Of a row of words of so many cells: whether all but the first are empty, and
+/// numbers stood there so far.
+bool HoldsRemarkAlone(const CsvTable& table, std::size_t cells);
 /// Whether its two cells are totals below the rows ("Mean,2.31"): a name where
 /// numbers stood so far, and a value, in far fewer cells than a row has.
 bool AreTotals(const CsvTable& table);

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,12 +20,28 @@ namespace {
 constexpr std::size_t kMostVariables = 64;
 constexpr std::ptrdiff_t kNoReading = -1;  // as TakeRows has it
 
-bool HoldsValues(const CsvColumn& column) {
-  const std::vector<std::string> words = WordsOf(column.name);
-  return !column.is_text() && words.size() == 1 &&
-         IsOneOf(words[0],
+bool IsValue(std::string_view word) {
+  return IsOneOf(word,
                  "value val wert messwert valeur valor valore waarde varde "
                  "arvo wartosc hodnota 値 值");
+}
+
+// Of the columns of numbers the first that is called so ("value"), else the
+// only one that says so ("VarValue") or has a number for a name; -1: none.
+std::ptrdiff_t ColumnOfValues(const CsvTable& table) {
+  std::vector<std::ptrdiff_t> found;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const CsvColumn& column = table.columns[i];
+    const std::vector<std::string> words = WordsOf(column.name);
+    if (column.is_text() || words.empty() || words.size() > 2) continue;
+    if (words.size() == 1 && IsValue(words[0])) {
+      return static_cast<std::ptrdiff_t>(i);
+    }
+    if (IsValue(words.back()) || words[0] == "column") {
+      found.push_back(static_cast<std::ptrdiff_t>(i));
+    }
+  }
+  return found.size() == 1 ? found[0] : -1;
 }
 
 // An error among others: of errors alone each is a component.
@@ -45,7 +62,10 @@ bool NameVariables(const CsvTable& table,
 class Spreader {
  public:
   Spreader(const CsvTable& table, std::size_t variable, LabelsOfRows found)
-      : table_(table), variable_(variable), found_(std::move(found)) {}
+      : table_(table), variable_(variable), found_(std::move(found)) {
+    counts_.resize(found_.labels.size());
+    for (const std::size_t code : found_.codes) ++counts_[code];
+  }
 
   // Nothing where rows do not come together.
   std::optional<CsvTable> Spread(std::size_t value) {
@@ -65,6 +85,7 @@ class Spreader {
       spread.columns.push_back(TakeRows(table_.columns[i], firsts_));
     }
     for (std::size_t k = 0; k < found_.labels.size(); ++k) {
+      if (IsStray(k)) continue;
       CsvColumn column = TakeRows(table_.columns[value], readings_[k]);
       column.name = FreeName(spread, found_.labels[k]);
       spread.columns.push_back(std::move(column));
@@ -77,6 +98,13 @@ class Spreader {
   }
 
  private:
+  // One row of a variable among many: a program's mark of its end.
+  bool IsStray(std::size_t variable) const {
+    constexpr std::size_t kMany = 8;
+    return counts_[variable] == 1 &&
+           table_.num_rows > kMany * found_.labels.size();
+  }
+
   // A column that has one unit for each variable.
   bool TakeUnits(const CsvColumn& column) {
     if (!column.is_text()) return false;
@@ -105,6 +133,7 @@ class Spreader {
     std::map<std::vector<std::string>, std::size_t> moments;
     readings_.resize(found_.labels.size());
     for (std::size_t row = 0; row < table_.num_rows; ++row) {
+      if (IsStray(found_.codes[row])) continue;
       std::vector<std::string> cells;
       for (const std::size_t i : others_) {
         cells.push_back(table_.CellText(table_.columns[i], row));
@@ -125,6 +154,7 @@ class Spreader {
   const CsvTable& table_;
   std::size_t variable_;
   LabelsOfRows found_;
+  std::vector<std::size_t> counts_;  // rows of each variable
   std::vector<std::size_t> others_;
   std::vector<std::ptrdiff_t> firsts_;                 // row of each moment
   std::vector<std::vector<std::ptrdiff_t>> readings_;  // rows of each variable
@@ -133,9 +163,9 @@ class Spreader {
 }  // namespace
 
 void SpreadReadings(CsvTable* table) {
-  const auto value = std::ranges::find_if(table->columns, HoldsValues);
-  if (value == table->columns.end()) return;
-  const auto at = static_cast<std::size_t>(value - table->columns.begin());
+  const std::ptrdiff_t value = ColumnOfValues(*table);
+  if (value < 0) return;
+  const auto at = static_cast<std::size_t>(value);
   for (std::size_t i = 0; i < table->columns.size(); ++i) {
     LabelsOfRows found;
     if (!NameVariables(*table, table->columns[i], &found)) continue;

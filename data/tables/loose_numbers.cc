@@ -88,6 +88,7 @@ Loose ReadLooseNumber(std::string_view cell,
        {"\xE2\x88\x92", "\xE2\x80\x93", "-", "+"}) {
     if (!cell.starts_with(dash)) continue;
     cell.remove_prefix(dash.size());
+    cell = Trimmed(cell);  // "-   1.26"
     sign = dash == "+" ? "" : "-";
     break;
   }

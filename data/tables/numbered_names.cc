@@ -42,7 +42,7 @@ std::string_view WithoutPlaceWord(std::string_view before) {
 // error; thermometers have their places in their names, too. Letters directly
 // before a number name one of several: "A1 deg" is the first angle.
 std::optional<std::string_view> BeforePlace(std::string_view before) {
-  if (before.empty()) return before;
+  if (before.empty() || IsOneOf(before, "x y z")) return before.substr(0, 0);
   if (std::string_view("=: _").find(before.back()) == before.npos) {
     return std::nullopt;
   }
@@ -95,10 +95,11 @@ bool TakePlace(std::string_view* rest, PlacedName* placed) {
   return true;
 }
 
-// "x 1" is one of several; "50" and "50 [um]" may be positions.
+// "x 1" is one of several; "50", "50 [um]" and "x50 [um]" may be positions.
 bool MayBeBare(std::size_t before, std::string_view rest) {
   const Header header = ReadHeader("x" + std::string(rest));
-  return before == 0 && (rest.empty() || IsLengthOrAngle(header.unit));
+  return (before == 0 && (rest.empty() || IsLengthOrAngle(header.unit))) ||
+         (before == 1 && IsUnitOfErrors(header.unit));
 }
 
 // "up" and "down" of a sign that ends a name but for its unit: "Pass 1 - [um]".
@@ -132,7 +133,14 @@ std::string_view TakePart(std::string_view* rest) {
 }  // namespace
 
 std::optional<PlacedName> ReadPlacedName(std::string_view name) {
-  const std::string text = WithPoints(name);
+  std::string text = WithPoints(name);
+  // "err_um(50)"
+  const std::size_t open = text.find('(');
+  if (text.ends_with(')') && open + 1 < text.size() &&
+      text.find_first_of("+-0123456789") == open + 1) {
+    text.pop_back();
+    text[open] = '_';
+  }
   name = text;
   std::size_t at = name.find('@');
   std::optional<std::string_view> before;
@@ -190,7 +198,9 @@ std::optional<RunName> ReadRunName(std::string_view name) {
       return std::nullopt;
     }
   }
-  if (!is_run || said.run <= 0) return std::nullopt;
+  if (!is_run || (said.run <= 0 && said.direction.empty())) {
+    return std::nullopt;
+  }
   said.quantity = "error";
   if (!header.unit_text.empty()) said.quantity += " [" + header.unit_text + "]";
   return said;

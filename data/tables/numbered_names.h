@@ -7,7 +7,8 @@
 namespace errmap::data {
 
 /// What the name of a column of readings at one position says, such as
-/// "e@-215.9mm_um", "X=25 mm", "Error at 50 mm (um)", "e_50mm_um".
+/// "e@-215.9mm_um", "X=25 mm", "Error at 50 mm (um)", "e_50mm_um",
+/// "err_um(50)", "X50 [um]".
 struct PlacedName {
   std::string quantity;  // "error_um"
   std::string unit;      // of the position; "" of "err_50" and "50"
@@ -17,7 +18,7 @@ struct PlacedName {
 std::optional<PlacedName> ReadPlacedName(std::string_view name);
 
 /// What the name of a column of one run says, such as "Run 3 up [um]",
-/// "Lauf 1 rückwärts", "2↓ (µm)".
+/// "Lauf 1 rückwärts", "2↓ (µm)"; the run is 0 in "Error up [um]".
 struct RunName {
   std::string quantity = {};  // "error [um]"
   int run = 0;

@@ -21,6 +21,7 @@ class OddRowList {
   bool empty() const { return runs_.empty(); }
   void AddBlank() { ++blank_; }
   void AddNames() { ++names_; }
+  std::size_t num_names() const { return names_; }
   /// A line of words in one cell.
   void AddWords(const std::string& text) { words_.push_back(text); }
 

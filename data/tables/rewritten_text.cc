@@ -94,10 +94,29 @@ std::string WithTabs(std::string_view text) {
   return parted;
 }
 
+// A sign of programs and of MATLAB, alone or before a remark.
+bool BeginsWithPercent(std::string_view line) {
+  return line.starts_with('%') &&
+         (line.size() == 1 || line[1] == ' ' || IsLineEnd(line[1]));
+}
+
+// Comments as they are known.
+std::string WithHashes(std::string_view text) {
+  std::string hashed(text);
+  for (std::size_t at = 0; at < hashed.size();
+       at = std::min(hashed.find_first_of("\n\r", at), hashed.size() - 1) + 1) {
+    if (BeginsWithPercent(std::string_view(hashed).substr(at))) {
+      hashed[at] = '#';
+    }
+  }
+  return hashed;
+}
+
 }  // namespace
 
 std::optional<std::string> RewrittenText(std::string_view text) {
   if (auto table = LabviewText(text)) return table;
+  if (BeginsWithPercent(text)) return WithHashes(text);
   const std::vector<std::string_view> lines = FirstLines(text);
   if (lines.size() > 1 && std::ranges::all_of(lines, IsInSingleQuotes)) {
     std::string quoted(text);

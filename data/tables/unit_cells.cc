@@ -60,7 +60,7 @@ bool AreRules(const std::vector<std::string>& cells) {
   const auto rules = [](const std::string& cell) {
     return cell.find_first_not_of("-:=+") == cell.npos;
   };
-  return cells.size() > 1 && std::ranges::all_of(cells, rules) &&
+  return !cells.empty() && std::ranges::all_of(cells, rules) &&
          std::ranges::any_of(
              cells, [](const std::string& cell) { return cell.size() > 2; });
 }

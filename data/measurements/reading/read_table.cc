@@ -216,7 +216,8 @@ class TableReader {
     // Dates go back hardly ever; hours, and what begins anew, each day.
     const bool often =
         4 * back > n || (clock_.dated && back >= 3 && 50 * back > n);
-    const bool disorder = clock_.is_found() && (often || (sorted && back > 0));
+    const bool disorder = clock_.is_found() &&
+                          (often || (sorted && back > 0) || FilesInterleave());
     const bool mixed = !clock_.is_found() && CyclesAreMixed();
     if (disorder && SortByTime()) {
       read_.reading.order = "time";
@@ -235,6 +236,28 @@ class TableReader {
       std::ranges::copy(base_rows_, clock_.time.begin());
     }
     nights_ = NightsOf(clock_, Passes(), selection_);
+  }
+
+  // Whether a file begins before another ends, by dates: one for each way.
+  bool FilesInterleave() const {
+    if (!clock_.dated || given_.parts.size() < 2) return false;
+    std::vector<std::pair<double, double>> spans;
+    std::size_t part = 0;
+    for (std::size_t i = 0; i < base_rows_.size(); ++i) {
+      const double at = clock_.time[static_cast<Index>(i)];
+      while (part < given_.parts.size() &&
+             std::cmp_less_equal(given_.parts[part].first, base_rows_[i])) {
+        spans.emplace_back(at, at);
+        ++part;
+      }
+      auto& [begin, end] = spans.back();
+      begin = std::min(begin, at);
+      end = std::max(end, at);
+    }
+    std::ranges::sort(spans);
+    return std::ranges::adjacent_find(spans, [](const auto& a, const auto& b) {
+             return b.first < a.second;
+           }) != spans.end();
   }
 
   bool CyclesAreMixed() const {

@@ -26,7 +26,9 @@ std::string SessionsText(const Reading& reading) {
   } else if (sessions.by == "counter") {
     text += " (" + NameInRemark(sessions.counter) + " begins anew)";
   } else if (sessions.by == "file") {
-    text += " (one a file)";
+    text += sessions.count == std::ssize(reading.files)
+                ? " (one a file)"
+                : " (by the names of the files)";
   } else if (sessions.column) {
     text += " (by " + NameInRemark(*sessions.column) + ")";
   }

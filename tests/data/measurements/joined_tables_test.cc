@@ -96,6 +96,69 @@ TEST(JoinTables, TakesAFileForOneSessionWhateverTheLeapsOfItsTime) {
   EXPECT_THAT(prepared.dataset.log()->sessions.labels, ElementsAre("a", "b"));
 }
 
+TEST(JoinTables, MakesOneSessionOfFilesThatAreCountedInADay) {
+  const auto files = [](const std::vector<std::string>& names,
+                        const std::string& head,
+                        const std::string& time) {
+    std::vector<std::pair<std::string, std::string>> texts;
+    for (const std::string& name : names) {
+      std::string text = head + "x_mm,error_um\n";
+      for (int i = 0; i < 4; ++i) {
+        text += (time.empty() ? "" : std::to_string(i) + time) +
+                std::to_string(50 * i) + "," +
+                std::to_string(i + static_cast<int>(texts.size())) + "\n";
+      }
+      texts.emplace_back(name + ".csv", text);
+    }
+    return texts;
+  };
+  for (const std::vector<std::string>& names :
+       std::vector<std::vector<std::string>>{
+           {"day1_run1", "day1_run2", "day2_run1", "day2_run2"},
+           {"X_20240307_01", "X_20240307_02", "X_20240308_01", "X_20240308_02"},
+           {"X_2024-06-17_07-58-30",
+            "X_2024-06-17_08-06-50",
+            "X_2024-06-18_08-50-53",
+            "X_2024-06-18_09-15-53"}}) {
+    for (const char* const time : {"", ","}) {
+      const JoinedTable joined =
+          Join(files(names, *time == 0 ? "" : "t [s],", time));
+      EXPECT_THAT(joined.remarks, ElementsAre(HasSubstr("2 sessions")));
+      const PreparedDataset prepared = MakeDataset(joined.table, {});
+      EXPECT_EQ(prepared.dataset.num_sessions(), 2) << names[0];
+      EXPECT_EQ(prepared.dataset.num_inputs(), 1);
+    }
+  }
+  // Numbers that go on, or other words, are files of their own.
+  for (const std::vector<std::string>& names :
+       std::vector<std::vector<std::string>>{
+           {"day1_run1", "day1_run2", "day2_run3", "day2_run4"},
+           {"x_up1", "x_up2", "x_down1", "x_down2"}}) {
+    EXPECT_EQ(MakeDataset(Join(files(names, "", "")).table, {})
+                  .dataset.num_sessions(),
+              4);
+  }
+}
+
+TEST(JoinTables, PutsFilesWhoseDatesInterleaveInOrderOfTime) {
+  std::string up = "time,x_mm,error_um\n";
+  std::string down = up;
+  for (int day = 0; day < 2; ++day) {
+    for (int i = 0; i < 24; ++i) {
+      const bool is_up = i / 4 % 2 == 0;
+      const int place = is_up ? i % 4 : 3 - i % 4;
+      (is_up ? up : down) += "2024-05-1" + std::to_string(5 + day) +
+                             " 08:" + std::to_string(10 + i) + ":00," +
+                             std::to_string(50 * place) + "," +
+                             std::to_string(i % 7) + "\n";
+    }
+  }
+  const PreparedDataset prepared =
+      MakeDataset(Join({{"x_down.csv", down}, {"x_up.csv", up}}).table, {});
+  EXPECT_EQ(prepared.dataset.num_sessions(), 2);
+  EXPECT_EQ(prepared.reading.order, "time");
+}
+
 TEST(JoinTables, LeavesOutAFileThatWasSavedTwice) {
   const std::string day = "time_s,x_mm,error_um\n0,1,1\n1,2,2\n2,3,3\n";
   const JoinedTable joined = Join({{"a.csv", day}, {"b.csv", day}});

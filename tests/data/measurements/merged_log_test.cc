@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -10,6 +11,7 @@
 
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
+#include "data/measurements/reading/reading.h"
 
 namespace errmap::data {
 namespace {
@@ -175,6 +177,60 @@ TEST(MergeLog, SaysWhyATimeIsNone) {
       },
       ThrowsMessage<InputError>(HasSubstr("'2024-W10 8h05' is no time; write "
                                           "it as 2024-03-01T12:00:05")));
+}
+
+// Times of errors.csv under this name, two hours before those of the log.
+PreparedDataset MadeInZones(const std::string& name,
+                            const std::string& behind,
+                            const std::string& log_name,
+                            const std::string& log_behind,
+                            const std::string& offset = "") {
+  const auto text = [](const std::string& head,
+                       const std::string& end,
+                       int hour,
+                       const std::string& value) {
+    std::string lines = head;
+    for (int i = 0; i < 4; ++i) {
+      lines += "2024-06-03 " + std::string(hour < 10 ? "0" : "") +
+               std::to_string(hour) + ":00:" + std::to_string(10 + 10 * i) +
+               end + ";" + value + std::to_string(i) + "\n";
+    }
+    return lines;
+  };
+  CsvTable table =
+      ParseCsv(text(name + ";error_um\n", behind, 10, ""), "errors.csv");
+  MergeLog(
+      ParseCsv(text(log_name + ";t_degC\n", log_behind, 8, "2"), "log.csv"),
+      {.clock_offset = offset},
+      &table);
+  return MakeDataset(table, {});
+}
+
+TEST(MergeLog, TakesAccountOfTimeZones) {
+  for (const auto& [name, log_name] :
+       std::vector<std::pair<std::string, std::string>>{
+           {"Time (CEST)", "Time (UTC)"},
+           {"Date Time, GMT+02:00", "Date Time, GMT+00:00"}}) {
+    EXPECT_THAT(
+        MadeInZones(name, "", log_name, "").dataset.input_values().col(0),
+        ElementsAre(20, 21, 22, 23));
+  }
+  EXPECT_THAT(
+      MadeInZones("time", "+02:00", "time", "Z").dataset.input_values().col(0),
+      ElementsAre(20, 21, 22, 23));
+}
+
+TEST(MergeLog, AsksWhereOneOfTheClocksHasAZone) {
+  for (const auto& [log_name, behind] :
+       std::vector<std::pair<std::string, std::string>>{{"time", "Z"},
+                                                        {"Time (UTC)", ""}}) {
+    EXPECT_THAT([&] { MadeInZones("time", "", log_name, behind); },
+                ThrowsMessage<OpenQuestion>(HasSubstr("clock_offset = -2h")));
+    EXPECT_THAT(MadeInZones("time", "", log_name, behind, "-2h")
+                    .dataset.input_values()
+                    .col(0),
+                ElementsAre(20, 21, 22, 23));
+  }
 }
 
 }  // namespace

@@ -298,6 +298,156 @@ TEST(TableShape, ReadsOnBelowTheSameNamesAndBlankLines) {
                           HasSubstr("names stand between the rows again")));
 }
 
+// ---- Lines that part the rows.
+
+// A table of four rows below each of these lines.
+std::string Blocks(const std::vector<std::string>& titles,
+                   const std::string& names) {
+  std::string text = names.empty() ? kNames + "\n" : "";
+  for (const std::string& title : titles) {
+    text += title + "\n" + names;
+    for (int i = 0; i < 4; ++i) {
+      text += std::to_string(50 * i) + ",20.5,-1.25\n";
+    }
+  }
+  return text;
+}
+
+TEST(TableShape, MakesAColumnOfLinesThatPartTheRows) {
+  struct Case {
+    std::vector<std::string> titles;
+    std::string names;
+    std::string column;
+    std::vector<std::string> cells;  // of each block
+  };
+  const std::string again = kNames + "\n";
+  for (const Case& of : std::vector<Case>{
+           {{"# day 1", "# day 2"}, "", "day", {"day 1", "day 2"}},
+           {{"# day 1, 2024-07-14", "# day 2, 2024-07-16"},
+            "",
+            "date",
+            {"2024-07-14", "2024-07-16"}},
+           {{"Date: 2024-04-15", "Date: 2024-04-16"},
+            again,
+            "date",
+            {"2024-04-15", "2024-04-16"}},
+           {{"Day 1 Cycle 1", "Day 1 Cycle 2", "Day 2 Cycle 1"},
+            again,
+            "session",
+            {"Day 1", "Day 1", "Day 2"}},
+           {{"Tag 1,,", "Tag 2,,"}, again, "day", {"Tag 1", "Tag 2"}},
+           {{"Date,06.07.2024", "Session 2"},
+            "cycle," + kNames + ",n\n",
+            "run",
+            {"Date,06.07.2024", "Session 2"}},
+       }) {
+    std::string text = Blocks(of.titles, of.names);
+    if (of.column == "run") {
+      for (std::size_t at = 0; (at = text.find("20.5", at)) != text.npos;) {
+        text.insert(at, "1,");
+        text.insert(text.find('\n', at), ",4");
+        at += 8;
+      }
+    }
+    const CsvTable table = ParseCsv(text, "f.csv");
+    const std::ptrdiff_t column = table.Find(of.column);
+    ASSERT_GE(column, 0) << of.titles[0];
+    ASSERT_EQ(table.num_rows, 4 * of.cells.size());
+    for (std::size_t row = 0; row < table.num_rows; ++row) {
+      EXPECT_EQ(table.CellText(table.At(column), row), of.cells[row / 4]);
+    }
+  }
+  // What is no session and no date, or comes once.
+  for (const std::vector<std::string>& titles :
+       std::vector<std::vector<std::string>>{{"# zero 1", "# zero 2"},
+                                             {"# day 1", "# oil changed"},
+                                             {"# day 1"}}) {
+    EXPECT_THAT(ParseCsv(Blocks(titles, ""), "f.csv").columns, SizeIs(3));
+  }
+}
+
+// ---- Names in other places.
+
+TEST(TableShape, FindsNamesAboveUnitsAndAnotherRow) {
+  const CsvTable table = ParseCsv(
+      "position,t1,error\nmm,degC,um\nSmp,Avg,Smp\n" + Rows(), "f.csv");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("position [mm]", "t1 [degC]", "error [um]"));
+  ExpectRows(table);
+}
+
+TEST(TableShape, FindsNamesAndUnitsAboveChannels) {
+  const CsvTable table = ParseCsv(
+      "Meas Ch,0001,0002\nTag,X pos,bed,X error\nUnit,mm,C,um\n"
+      "Time,CH1,CH2,CH3\n08:00:01,0,20.5,1.5\n08:00:02,50,20.6,2.5\n"
+      "08:00:03,100,20.7,3.5\n",
+      "f.csv");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("Time", "X pos [mm]", "bed [C]", "X error [um]"));
+  EXPECT_THAT(NamesIn(ParseCsv("CH1,position,DC\nCH2,bed,TC\nCH3,error,DC\n"
+                               "CH1,CH2,CH3\nmm,degC,um\n" +
+                                   Rows(),
+                               "f.csv")),
+              ElementsAre("position [mm]", "bed [degC]", "error [um]"));
+}
+
+TEST(TableShape, PassesOverSignsOfPrograms) {
+  const CsvTable framed = ParseCsv("%\n" + kNames + "\n" + Rows() + "%\n", "f");
+  EXPECT_THAT(NamesIn(framed),
+              ElementsAre("position_mm", "t1_degC", "error_um"));
+  ExpectRows(framed);
+  std::string text = Rows();
+  std::ranges::replace(text, ',', ' ');
+  ExpectRows(ParseCsv("% columns: position_mm t1_degC error_um\n" + text, "f"));
+  text = Rows();
+  std::ranges::replace(text, ',', ';');
+  const CsvTable program =
+      ParseCsv("%_N_X_MPF\n;position_mm;t1_degC;error_um\n" + text, "f");
+  EXPECT_THAT(NamesIn(program),
+              ElementsAre("position_mm", "t1_degC", "error_um"));
+  ExpectRows(program);
+}
+
+TEST(TableShape, FindsNamesBetweenBlanksBelowABlockOfWords) {
+  std::string text = Rows();
+  std::ranges::replace(text, ',', ' ');
+  const CsvTable table =
+      ParseCsv("Laser 5 linear measurement\nMachine: Lathe 2  Axis: Z\n\n" +
+                   std::string("position(mm)  t1(C)  error(um)\n"
+                               "------------------------\n") +
+                   text,
+               "f.txt");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("position(mm)", "t1(C)", "error(um)"));
+  ExpectRows(table);
+}
+
+TEST(TableShape, TurnsARowForEachVariable) {
+  const CsvTable table = ParseCsv(
+      "Time,08:00:00,08:00:05,08:00:10,08:00:15\nX [mm],0,50,100,150\n"
+      "Error [um],1.5,2.5,3.5,4.5\nT1 [degC],20,21,22,23\n",
+      "f.csv");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("Time", "X [mm]", "Error [um]", "T1 [degC]"));
+  EXPECT_EQ(table.CellText(table.columns[0], 3), "08:00:15");
+  EXPECT_THAT(table.columns[2].values, ElementsAre(1.5, 2.5, 3.5, 4.5));
+}
+
+TEST(TableShape, TakesTheUnitOfALineAbove) {
+  for (const std::string note : {"Units: um\n",
+                                 "# Alle Ma\u00dfe in \u00b5m\n",
+                                 "All deviations in micrometres\n"}) {
+    const CsvTable table =
+        ParseCsv(note + "X,T1,Deviation\n" + Rows(), "f.csv");
+    EXPECT_THAT(table.columns[2].name, ::testing::StartsWith("Deviation ["))
+        << note;
+    EXPECT_EQ(table.columns[0].name, "X");
+  }
+  EXPECT_EQ(ParseCsv("Stroke: 500 mm\nX,T1,Deviation\n" + Rows(), "f.csv")
+                .Find("Deviation"),
+            2);
+}
+
 // ---- Numbers.
 
 TEST(TableShape, ReadsOneColumnOfDecimalCommas) {
@@ -379,6 +529,37 @@ TEST(FoldedPositions, AreSeveralQuantitiesOrNoneByTheirPositions) {
   EXPECT_THAT(ParseCsv("a@1,a@2,b@1\n1,2,3\n", "f.csv").columns, SizeIs(3));
   EXPECT_THAT(ParseCsv("t01_degC,t02_degC,t03_degC\n1,2,3\n", "f").columns,
               SizeIs(3));
+}
+
+TEST(FoldedPositions, MayStandInParenthesesOrBehindAnAxis) {
+  for (const std::string names :
+       {"err_um(0),err_um(50),err_um(100)", "X0 [um],X50 [um],X100 [um]"}) {
+    const CsvTable table = ParseCsv("T1," + names + "\n20,1,2,3\n", "f.csv");
+    EXPECT_THAT(table.At(table.Find("position_mm")).values,
+                ElementsAre(0, 50, 100));
+    EXPECT_THAT(table.columns[2].values, ElementsAre(1, 2, 3));
+  }
+}
+
+TEST(FoldedPositions, AreThoseOfErrors) {
+  EXPECT_THAT(
+      ParseCsv("X [mm],Error [um],T@100mm [degC],T@200mm [degC],T@300mm "
+               "[degC]\n1,2,20,21,22\n",
+               "f.csv")
+          .columns,
+      SizeIs(5));
+}
+
+TEST(FoldedPositions, GoBlockByBlockInRunsAndWays) {
+  const CsvTable table = ParseCsv(
+      "cycle,X [mm],Error up [um],Error down [um]\n1,0,1,6\n1,50,2,5\n"
+      "1,100,3,4\n2,0,7,12\n2,50,8,11\n2,100,9,10\n",
+      "f.csv");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("cycle", "X [mm]", "direction", "error [um]"));
+  EXPECT_THAT(table.columns[3].values,
+              ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12));
+  EXPECT_EQ(table.CellText(table.columns[2], 3), "down");
 }
 
 TEST(ParseCsv, RefusesMoreColumnsThanMemoryShouldBeKeptFor) {

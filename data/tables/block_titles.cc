@@ -1,0 +1,140 @@
+#include "data/tables/block_titles.h"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <string_view>
+
+#include "data/column_words.h"
+#include "data/columns.h"
+#include "data/tables/counted_labels.h"
+#include "data/text.h"
+
+namespace errmap::data {
+namespace {
+
+constexpr std::string_view kDigitsOfDates = "0123456789";
+
+// "2024-07-14" of "day 1, 2024-07-14": three numbers between the same marks;
+// "" where there is none.
+std::string DateIn(std::string_view text) {
+  for (std::size_t at = text.find_first_of(kDigitsOfDates); at != text.npos;) {
+    const std::size_t end =
+        std::min(text.find_first_not_of("0123456789-./", at), text.size());
+    const std::string_view token = text.substr(at, end - at);
+    for (const char mark : {'-', '.', '/'}) {
+      const std::size_t first = token.find(mark);
+      const std::size_t last = token.rfind(mark);
+      if (std::ranges::count(token, mark) == 2 && first > 0 &&
+          last > first + 1 && last + 1 < token.size() && token.size() >= 6 &&
+          token.find_first_not_of(std::string(kDigitsOfDates) + mark) ==
+              token.npos) {
+        return std::string(token);
+      }
+    }
+    at = text.find_first_of(kDigitsOfDates, end);
+  }
+  return "";
+}
+
+// The line above each block, the nearest; nothing where the first has none.
+std::vector<TitleLine> TitlesOfBlocks(const std::vector<TitleLine>& lines,
+                                      std::size_t num_rows) {
+  std::vector<TitleLine> blocks;
+  for (const TitleLine& line : lines) {
+    if (line.row >= num_rows) continue;
+    if (!blocks.empty() && blocks.back().row == line.row) blocks.pop_back();
+    blocks.push_back(line);
+  }
+  if (blocks.size() < 2 || blocks.front().row != 0) blocks.clear();
+  return blocks;
+}
+
+bool TellBlocks(const std::vector<std::string>& labels,
+                std::size_t names_again) {
+  return std::set(labels.begin(), labels.end()).size() == labels.size() &&
+         std::ranges::all_of(labels, [&](const std::string& label) {
+           return NamesSession(label) &&
+                  (names_again + 1 == labels.size() ||
+                   LessNumbers(label) == LessNumbers(labels[0]));
+         });
+}
+
+// Changes the labels to what tells sessions, and returns what they are.
+std::string NameLabels(std::vector<std::string>* labels) {
+  if (auto days = PrefixesOfCounted(*labels); !days.empty()) {
+    *labels = std::move(days);
+    return "session";
+  }
+  std::vector<std::string> dates;
+  std::ranges::transform(*labels, std::back_inserter(dates), DateIn);
+  const std::set<std::string> distinct(dates.begin(), dates.end());
+  if (!distinct.contains("") && distinct.size() == labels->size()) {
+    *labels = std::move(dates);
+    return "date";
+  }
+  const auto all_say = [&](Word word) {
+    return std::ranges::all_of(
+        *labels, [&](const std::string& label) { return Says(label, word); });
+  };
+  return all_say(Word::kDay)       ? "day"
+         : all_say(Word::kSession) ? "session"
+         : all_say(Word::kCycle)   ? "cycle"
+                                   : "run";
+}
+
+bool HasColumnOf(const CsvTable& table, const std::string& name) {
+  return std::ranges::any_of(table.columns, [&](const CsvColumn& column) {
+    return column.name == name || IsCalled(column.name, Word::kSession) ||
+           IsCalled(column.name, name == "cycle" ? Word::kCycle : Word::kRun);
+  });
+}
+
+}  // namespace
+
+bool NamesSession(const std::string& text) {
+  return !DateIn(text).empty() || Says(text, Word::kSession) ||
+         Says(text, Word::kRun) || Says(text, Word::kCycle);
+}
+
+void PartByTitles(const std::vector<TitleLine>& lines,
+                  std::size_t names_again,
+                  CsvTable* table) {
+  const auto say = [&](const std::string& what) {
+    table->remarks.push_back(PrintablePath(table->file) + ": " + what);
+  };
+  const std::vector<TitleLine> blocks = TitlesOfBlocks(lines, table->num_rows);
+  std::vector<std::string> labels;
+  for (const TitleLine& block : blocks) labels.push_back(block.text);
+  std::string name;
+  const bool tell = !blocks.empty() && TellBlocks(labels, names_again);
+  if (tell) name = NameLabels(&labels);
+  if (!tell || HasColumnOf(*table, name)) {
+    const auto told = std::ranges::find_if(lines, [](const TitleLine& line) {
+      return line.row > 0 &&
+             (Says(line.text, Word::kSession) || !DateIn(line.text).empty());
+    });
+    if (told != lines.end() && !tell) {
+      say("lines among the rows part no sessions: " + QuotedText(told->text) +
+          "; a column 'day' or 'session' does");
+    }
+    return;
+  }
+  std::vector<std::ptrdiff_t> codes;
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const auto word = std::ranges::find(words, labels[i]);
+    const auto code = word - words.begin();
+    if (word == words.end()) words.push_back(labels[i]);
+    const std::size_t end =
+        i + 1 < blocks.size() ? blocks[i + 1].row : table->num_rows;
+    codes.resize(end, code);
+  }
+  say(std::to_string(blocks.size()) +
+      " lines that part the rows are read as a column " + QuotedName(name) +
+      ": " + QuotedText(blocks[0].text) + ", " + QuotedText(blocks[1].text) +
+      (blocks.size() > 2 ? ", ..." : ""));
+  table->columns.push_back(WordColumn(name, codes, std::move(words)));
+}
+
+}  // namespace errmap::data
