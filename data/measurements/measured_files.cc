@@ -273,7 +273,7 @@ std::vector<std::string> SessionsOfFiles(
               LessNumbers(names.back()) == LessNumbers(names.front());
   }
   if (by_date) return labels;
-  const std::vector<std::string> prefixes = PrefixesOfCounted(names);
+  const std::vector<std::string> prefixes = SessionsOfCounted(names);
   return prefixes.empty() ? labels : prefixes;
 }
 

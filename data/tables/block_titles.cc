@@ -62,7 +62,7 @@ bool TellBlocks(const std::vector<std::string>& labels,
 
 // Changes the labels to what tells sessions, and returns what they are.
 std::string NameLabels(std::vector<std::string>* labels) {
-  if (auto days = PrefixesOfCounted(*labels); !days.empty()) {
+  if (auto days = SessionsOfCounted(*labels); !days.empty()) {
     *labels = std::move(days);
     return "session";
   }

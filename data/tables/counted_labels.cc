@@ -1,41 +1,69 @@
 #include "data/tables/counted_labels.h"
 
-#include <algorithm>
-#include <charconv>
+#include <optional>
 #include <set>
+#include <utility>
+
+#include "data/text.h"
 
 namespace errmap::data {
 namespace {
 
 constexpr std::string_view kNumerals = "0123456789";
-constexpr std::string_view kBetweenParts = " \t_-.,;:#/()";
 
-// "day1" and 12 of "day1_run12".
-struct Counted {
-  std::string prefix;  // "": it ends in no number, or nothing counts before it
-  int number = 0;
+struct Label {
+  std::string session;  // the label without its number
+  double number = 0.0;
 };
 
-Counted ReadCounted(std::string_view label) {
-  constexpr std::size_t kMostDigits = 4;  // of what counts
-  const auto trim = [&label] {
-    const std::size_t last = label.find_last_not_of(kBetweenParts);
-    label = label.substr(0, last == label.npos ? 0 : last + 1);
-  };
-  trim();
-  const std::size_t last = label.find_last_not_of(kNumerals);
-  if (last == label.npos || label.size() - last - 1 > kMostDigits) return {};
-  Counted counted;
-  std::from_chars(
-      label.data() + last + 1, label.data() + label.size(), counted.number);
-  const bool has_number = last + 1 < label.size();
-  label = label.substr(0, last + 1);
-  // What is counted ("run") says nothing of the prefix.
-  const std::size_t digit = label.find_last_of(kNumerals);
-  if (!has_number || digit == label.npos) return {};
-  label = label.substr(0, digit + 1);
-  counted.prefix = label;
-  return counted;
+// A label with one of its numbers, counted from the end, taken out; of a number
+// of three digits or more the last two may count.
+std::optional<Label> Split(const std::string& text,
+                           std::size_t from_end,
+                           bool last_two) {
+  std::size_t end = text.size();
+  std::size_t begin = end;
+  for (std::size_t i = 0; i <= from_end; ++i) {
+    end = text.find_last_of(kNumerals, begin == 0 ? text.npos : begin - 1);
+    if (begin == 0 || end == text.npos) return std::nullopt;
+    begin = text.find_last_not_of(kNumerals, end);
+    begin = begin == text.npos ? 0 : begin + 1;
+  }
+  if (last_two) {
+    if (end - begin < 2) return std::nullopt;
+    begin = end - 1;
+  }
+  Label label{.session = text.substr(0, begin) + text.substr(end + 1)};
+  return ParseNumber(text.substr(begin, end + 1 - begin), &label.number)
+             ? std::optional(std::move(label))
+             : std::nullopt;
+}
+
+// Whether each session has numbers that count on, from the same one.
+bool CountAnew(const std::vector<Label>& labels, std::size_t least) {
+  std::set<std::string> seen;
+  std::size_t length = 0;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const bool goes_on = i > 0 && labels[i].session == labels[i - 1].session;
+    if (goes_on ? labels[i].number <= labels[i - 1].number
+                : labels[i].number != labels[0].number || length == 1 ||
+                      !seen.insert(labels[i].session).second) {
+      return false;
+    }
+    length = goes_on ? length + 1 : 1;
+  }
+  return seen.size() >= least && length > 1;
+}
+
+// "D1" of "D1C": what is counted says nothing of the session.
+std::string NameOf(const std::string& session) {
+  constexpr std::string_view kSeparators = " \t-_./,;:()#";
+  const std::size_t digit = session.find_last_of(kNumerals);
+  const std::size_t last =
+      digit != session.npos ? digit : session.find_last_not_of(kSeparators);
+  if (last == session.npos) return session;
+  const std::size_t first = session.find_first_not_of(kSeparators);
+  return session.substr(first, last + 1 - first);
 }
 
 }  // namespace
@@ -47,27 +75,22 @@ std::string LessNumbers(std::string_view label) {
   return rest;
 }
 
-std::vector<std::string> PrefixesOfCounted(
-    const std::vector<std::string>& labels) {
-  std::vector<std::string> prefixes;
-  std::set<std::string> begun;
-  int first = 0;
-  int last = 0;
-  for (const std::string& label : labels) {
-    const Counted counted = ReadCounted(label);
-    if (counted.prefix.empty()) return {};
-    if (prefixes.empty()) first = counted.number;
-    const bool is_new = prefixes.empty() || counted.prefix != prefixes.back();
-    if (LessNumbers(label) != LessNumbers(labels[0]) ||
-        (is_new && !begun.insert(counted.prefix).second) ||
-        (is_new ? counted.number != first : counted.number <= last)) {
-      return {};
+std::vector<std::string> SessionsOfCounted(
+    const std::vector<std::string>& labels, std::size_t least) {
+  for (const auto& [from_end, last_two] :
+       {std::pair(0U, false), {1U, false}, {2U, false}, {0U, true}}) {
+    std::vector<Label> split;
+    for (const std::string& text : labels) {
+      auto label = Split(text, from_end, last_two);
+      if (!label) break;
+      split.push_back(std::move(*label));
     }
-    last = counted.number;
-    prefixes.push_back(counted.prefix);
+    if (split.size() != labels.size() || !CountAnew(split, least)) continue;
+    std::vector<std::string> sessions;
+    for (const Label& label : split) sessions.push_back(NameOf(label.session));
+    return sessions;
   }
-  if (begun.size() < 2 || begun.size() == labels.size()) return {};
-  return prefixes;
+  return {};
 }
 
 }  // namespace errmap::data
