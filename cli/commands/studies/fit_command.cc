@@ -101,7 +101,7 @@ Json FitJson(const models::FittedModel& fitted,
     json["starts"] = models::ToJson(models::MakeRecord(fitted.starts));
   }
   if (fitted.regression) {
-    json["regression"] = models::ToJson(models::MakeRecord(*fitted.regression));
+    json["regression"] = models::ToJson(*fitted.regression);
   }
   if (arguments.correlations) {
     json["correlations"] = models::ToJson(models::Correlate(dataset));
@@ -170,7 +170,8 @@ std::string FitText(const models::FittedModel& fitted,
   text += report::StartsText(fitted.starts, error);
   if (arguments.correlations) text += report::CorrelationText(dataset, room);
   if (fitted.regression && is_short) {
-    text += report::RegressionText(*fitted.regression, fitted.target, room);
+    text += report::RegressionText(
+        *fitted.regression, dataset.weights().size() != 0, fitted.target, room);
   }
   if (fitted.interval) {
     say(report::IntervalLine(models::MakeRecord(*fitted.interval), error));

@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "models/record.h"
 #include "models/study/judgement/choice.h"
 #include "models/study/judgement/confidence.h"
-#include "models/study/record/record.h"
-#include "models/study/record/record_values.h"
 
 // The judgement: the models compared with each other on held-out rows.
 

@@ -9,12 +9,11 @@
 
 #include "fitting/minimisers/fit_summary.h"
 #include "models/error_model.h"
+#include "models/record.h"
+#include "models/regression_record.h"
 #include "models/study/judgement/choice.h"
 #include "models/study/judgement/goal.h"
 #include "models/study/memorisation.h"
-#include "models/study/record/record.h"
-#include "models/study/record/record_values.h"
-#include "models/study/record/regression_record.h"
 #include "models/study/record/residual_record.h"
 
 // A model: its fits, and its metrics under each hold-out.

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "models/regression_report.h"
 #include "models/study/record/study_record.h"
 
 namespace errmap::models {
@@ -13,8 +12,6 @@ MetricsRecord MakeRecord(const stats::ErrorMetrics& metrics);
 SummaryRecord MakeRecord(const fitting::FitSummary& summary);
 /// One or more starts.
 StartsRecord MakeRecord(const std::vector<StartResult>& starts);
-RegressionRecord MakeRecord(const RegressionReport& report);
-
 ByName<OptionValue> MakeRecord(const std::vector<EffectiveOption>& options);
 
 /// Makes the record of a fit: its time and outcome; empty lists are left out.

@@ -209,7 +209,7 @@ ModelRecord MakeModel(const ComponentStudy& study, std::size_t index) {
                                  map.choices,
                                  map.starts);
     if (map.regression != nullptr) {
-      record.regression = MakeRecord(*map.regression);
+      record.regression = *map.regression;
     }
   }
   if (model.memorisation) {
