@@ -77,8 +77,8 @@ SampleSummary Summarize(const Eigen::Ref<const Eigen::VectorXd>& sample) {
   return summary;
 }
 
-double StandardError(const SampleSummary& summary) {
-  return summary.sd / std::sqrt(static_cast<double>(summary.n));
+double StandardError(double sd, Eigen::Index n) {
+  return sd / std::sqrt(static_cast<double>(n));
 }
 
 Eigen::VectorXd Standardise(const Eigen::Ref<const Eigen::VectorXd>& sample) {

@@ -88,7 +88,7 @@ Json FitJson(const models::FittedModel& fitted,
       {"inputs", std::move(inputs)},
       {"parameters", fitted.model->num_parameters()},
       {"equation", fitted.equation.empty() ? Json() : Json(fitted.equation)},
-      {"train", models::ToJson(models::MakeRecord(train))},
+      {"train", models::ToJson(train)},
       {"fit_seconds", fit_seconds},
       {"remarks", fitted.remarks},
       {"data_remarks", prepared.remarks},
@@ -153,7 +153,7 @@ std::string FitText(const models::FittedModel& fitted,
                   learnt_from < dataset.num_rows()
                       ? fmt::format("{} of ", learnt_from)
                       : "",
-                  report::Count(train.residuals.n, "row"),
+                  report::Count(train.n, "row"),
                   error.WithUnit(train.rmse),
                   learnt_from < dataset.num_rows() ? "all" : "these"));
   constexpr Eigen::Index kMostTerms = 12;

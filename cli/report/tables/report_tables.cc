@@ -7,6 +7,7 @@
 
 #include "cli/report/number_text.h"
 #include "cli/report/plot.h"
+#include "stats/error_metrics.h"
 
 namespace errmap::report {
 namespace {
@@ -51,7 +52,7 @@ void AddRowsOfModels(const ReportView& view,
 
 std::vector<Named> ErrorsRow(const std::string& model,
                              const ResultRecord& result) {
-  const models::MetricsRecord& test = result.test;
+  const stats::ErrorMetrics& test = result.test;
   return {{{"model", false}, model},
           {{"rows"}, test.n},
           {{"mean"}, Error{test.mean}},

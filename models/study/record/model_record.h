@@ -15,22 +15,11 @@
 #include "models/study/judgement/goal.h"
 #include "models/study/memorisation.h"
 #include "models/study/record/residual_record.h"
+#include "stats/error_metrics.h"
 
 // A model: its fits, and its metrics under each hold-out.
 
 namespace errmap::models {
-
-struct MetricsRecord {
-  std::int64_t n = 0;
-  double mean = kNotKnown;
-  double sd = kNotKnown;  // n - 1
-  double rmse = kNotKnown;
-  double mae = kNotKnown;
-  double min = kNotKnown;
-  double max = kNotKnown;
-  double range = kNotKnown;
-  double r2 = kNotKnown;
-};
 
 /// Statistics of the finite final costs.
 struct CostSpreadRecord {
@@ -92,8 +81,8 @@ struct MemorisationRecord {
 
 /// A model under one hold-out.
 struct ResultRecord {
-  MetricsRecord train;  // metrics averaged over the folds
-  MetricsRecord test;   // of the pooled residuals of all folds
+  stats::ErrorMetrics train;  // metrics averaged over the folds
+  stats::ErrorMetrics test;   // of the pooled residuals of all folds
   std::vector<FoldRecord> folds;
   NormalityRecord normality;
   RandomnessRecord randomness;

@@ -33,18 +33,6 @@ CostSpreadRecord SpreadOf(const std::vector<StartResult>& starts) {
 
 }  // namespace
 
-MetricsRecord MakeRecord(const stats::ErrorMetrics& metrics) {
-  return {.n = metrics.residuals.n,
-          .mean = metrics.residuals.mean,
-          .sd = metrics.residuals.sd,
-          .rmse = metrics.rmse,
-          .mae = metrics.mae,
-          .min = metrics.residuals.min,
-          .max = metrics.residuals.max,
-          .range = metrics.residuals.range,
-          .r2 = metrics.r2};
-}
-
 SummaryRecord MakeRecord(const fitting::FitSummary& summary) {
   SummaryRecord record{.stop = summary.termination,
                        .converged = summary.converged(),

@@ -6,9 +6,8 @@
 
 namespace errmap::models {
 
-// Makes records of fits and their metrics.
+// Makes records of fits.
 
-MetricsRecord MakeRecord(const stats::ErrorMetrics& metrics);
 SummaryRecord MakeRecord(const fitting::FitSummary& summary);
 /// One or more starts.
 StartsRecord MakeRecord(const std::vector<StartResult>& starts);

@@ -126,8 +126,8 @@ ResultRecord MakeResult(const ComponentStudy& study,
                         std::size_t h) {
   const HoldoutResult& result = study.study.models[model].holdouts[h];
   ResultRecord record;
-  record.train = MakeRecord(result.train);
-  record.test = MakeRecord(result.test);
+  record.train = result.train;
+  record.test = result.test;
   for (const FoldResult& fold : result.folds) {
     record.folds.push_back({.train_rmse = fold.train_rmse,
                             .test_rmse = fold.test_rmse,

@@ -230,7 +230,7 @@ TEST(Verdict, CallsNoGoalMetByRezeroingWhereMapsAreRezeroed) {
   const data::Dataset dataset = GroupedLine(12, 6, 0.01);
   const auto holdouts = MakeHoldouts(dataset, {"groups:4"});
   StudyResult study = RunStudy(dataset, holdouts, MakeRecipes({"mean"}), {});
-  study.models[0].holdouts[0].test.residuals.sd = 1e-3;
+  study.models[0].holdouts[0].test.sd = 1e-3;
   const auto standing = [&](bool rezeroed) {
     return JudgeStudy(
                dataset, holdouts, study, {.goal = 2e-3, .rezeroed = rezeroed})
