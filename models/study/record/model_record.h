@@ -108,7 +108,9 @@ struct StepCostRecord {
 };
 
 enum class ModelStatus { kFailed, kOk };
-std::string_view ToString(ModelStatus status);
+inline std::string_view ToString(ModelStatus status) {
+  return status == ModelStatus::kOk ? "ok" : "failed";
+}
 
 struct ModelRecord {
   std::string name;  // the SPEC as given

@@ -6,6 +6,7 @@
 #include <functional>
 #include <utility>
 
+#include "data/text.h"
 #include "models/history/history.h"
 #include "models/history/view.h"
 #include "models/study/judgement/extrapolated_rows.h"
@@ -381,15 +382,9 @@ std::optional<RecommendationRecord> JudgementRecord::Advice() const {
 }
 
 std::string_view WordOf(RezeroKind kind) {
-  switch (kind) {
-    case RezeroKind::kEvery:
-      return "interval";
-    case RezeroKind::kSession:
-      return "session";
-    case RezeroKind::kProbe:
-      return "probe";
-  }
-  return "";
+  constexpr auto kNames =
+      std::to_array<std::string_view>({"interval", "session", "probe"});
+  return data::NameOf(kNames, kind);
 }
 
 double FiniteOrNothing(double value) {
