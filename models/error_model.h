@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -65,8 +66,8 @@ struct BlendForm {
     std::string name;
     double weight = 0.0;               // the members' weights sum to 1
     std::vector<Eigen::Index> inputs;  // indices of the blend's inputs it reads
-    double lowest = 0.0;               // target's unit; may be infinite
-    double highest = 0.0;
+    double lowest = -std::numeric_limits<double>::infinity();  // target's unit
+    double highest = std::numeric_limits<double>::infinity();
     Eigen::Index parameters = 0;
     std::variant<PolynomialForm, NetForm> form;
   };
