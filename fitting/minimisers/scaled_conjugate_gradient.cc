@@ -1,22 +1,11 @@
 #include "fitting/minimisers/scaled_conjugate_gradient.h"
 
-#include <stdexcept>
 #include <utility>
 
 #include "fitting/minimisers/scg_variants.h"
+#include "stats/require.h"
 
 namespace errmap::fitting {
-namespace {
-
-void RequirePositive(const char* field, double value) {
-  if (!(value > 0.0)) {
-    throw std::invalid_argument(
-        "ScaledConjugateGradientOptions: " + std::string(field) +
-        " must be above 0, found " + std::to_string(value));
-  }
-}
-
-}  // namespace
 
 std::string_view ToString(ScgVariant variant) {
   return variant == ScgVariant::kMoller ? "moller" : "netcg";
@@ -24,8 +13,13 @@ std::string_view ToString(ScgVariant variant) {
 
 void ScaledConjugateGradientOptions::Validate() const {
   stopping.Validate();
-  RequirePositive("initial_lambda", initial_lambda);
-  RequirePositive("sigma", sigma);
+  stats::Require(
+      initial_lambda > 0.0,
+      "ScaledConjugateGradientOptions: initial_lambda must be above 0",
+      initial_lambda);
+  stats::Require(sigma > 0.0,
+                 "ScaledConjugateGradientOptions: sigma must be above 0",
+                 sigma);
 }
 
 template <typename Scalar>

@@ -7,6 +7,7 @@
 #include "fitting/minimisers/levenberg_marquardt.h"
 #include "fitting/nonlinear/variable_projection.h"
 #include "stats/not_a_number.h"
+#include "stats/require.h"
 
 namespace errmap::fitting {
 namespace {
@@ -124,16 +125,10 @@ RegressionStatistics AssessRegression(const RegressionFunction& function,
 }
 
 void PolishOptions::Validate() const {
-  if (steps < 0) {
-    throw std::invalid_argument(
-        "PolishOptions: steps must be at least 0, found " +
-        std::to_string(steps));
-  }
-  if (!(smallest_step > 0.0)) {
-    throw std::invalid_argument(
-        "PolishOptions: smallest_step must be above 0, found " +
-        std::to_string(smallest_step));
-  }
+  stats::Require(steps >= 0, "PolishOptions: steps must be at least 0", steps);
+  stats::Require(smallest_step > 0.0,
+                 "PolishOptions: smallest_step must be above 0",
+                 smallest_step);
 }
 
 PolishedParameters PolishRegression(const RegressionFunction& function,
