@@ -2,7 +2,8 @@
 
 #include <utility>
 
-#include "fitting/minimisers/scg_variants.h"
+#include "fitting/minimisers/scg_moller.h"
+#include "fitting/minimisers/scg_netcg.h"
 #include "stats/require.h"
 
 namespace errmap::fitting {
@@ -35,8 +36,8 @@ Minimum BasicScaledConjugateGradient<Scalar>::DoMinimize(
     const Vector& x0,
     const RunControl& run) const {
   return options_.variant == ScgVariant::kMoller
-             ? MinimizeByMoller(options_, f, x0, run)
-             : MinimizeByNetcg(options_, f, x0, run);
+             ? MollerRun<Scalar>(options_, f, x0, run).Minimize()
+             : NetcgRun<Scalar>(options_, f, x0, run).Minimize();
 }
 
 template class BasicScaledConjugateGradient<double>;
