@@ -465,17 +465,9 @@ MatrixXd DeriveInputs(const data::Dataset& dataset, const History& history) {
 data::Dataset DeriveDataset(const data::Dataset& dataset,
                             const History& history) {
   Derived derived = Derive(dataset, history);
-  data::Dataset::Parts parts{.source = dataset.source(),
-                             .inputs = std::move(derived.columns),
-                             .input_values = std::move(derived.values),
-                             .target = dataset.target(),
-                             .target_values = dataset.target_values(),
-                             .groups = dataset.groups(),
-                             .weights = dataset.weights(),
-                             .rows = dataset.rows(),
-                             .align = dataset.align()};
-  if (dataset.log() == nullptr) return data::Dataset(std::move(parts));
-  parts.log_rows = dataset.log_rows();
+  data::Dataset made = dataset.WithInputs(std::move(derived.columns),
+                                          std::move(derived.values));
+  if (dataset.log() == nullptr) return made;
   // Derived inputs are not derived again; only sessions and times are needed.
   auto log = std::make_shared<data::SessionLog>();
   log->sessions = dataset.log()->sessions;
@@ -483,8 +475,7 @@ data::Dataset DeriveDataset(const data::Dataset& dataset,
   log->time = dataset.log()->time;
   log->time_unit = dataset.log()->time_unit;
   log->time_column = dataset.log()->time_column;
-  parts.log = std::move(log);
-  return data::Dataset(std::move(parts));
+  return made.WithLog(std::move(log), dataset.log_rows());
 }
 
 }  // namespace errmap::models
