@@ -115,10 +115,10 @@ std::vector<Named> IndependenceRow(const std::string& model,
 Table GapTable(const ReportView& view) {
   Table table{.title = "What knowing the neighbours is worth"};
   table.error = ErrorTextOf(view);
-  const models::GapRecord gap =
-      view.component->gap.value_or(models::GapRecord());
+  const models::InterpolationGap gap =
+      view.component->gap.value_or(models::InterpolationGap());
   for (const ModelRecord* viewed : view.models) {
-    for (const models::GapModelRecord& model : gap.models) {
+    for (const models::InterpolationGap::Row& model : gap.models) {
       if (model.model != viewed->name) continue;
       MarkIfRecommended(view, viewed->name, &table);
       table.Add(
@@ -180,7 +180,7 @@ Table ComparisonTable(const ReportView& view, const std::string& holdout) {
 Table StabilityTable(const ReportView& view) {
   Table table{.title = "Would other cuts choose the same?"};
   for (const models::StabilityRecord& entry : view.component->stability) {
-    for (const models::WinRecord& win : entry.wins) {
+    for (const models::WinShare& win : entry.wins) {
       table.Add({{{"hold-out", false}, entry.holdout},
                  {{"repeats"}, entry.repeats},
                  {{"model", false}, win.model},

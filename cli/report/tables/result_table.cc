@@ -127,7 +127,7 @@ Cell Gap(const Place& place) {
   const auto& gap = place.component.gap;
   if (!gap) return {};
   const auto row = std::ranges::find(
-      gap->models, place.model.name, &models::GapModelRecord::model);
+      gap->models, place.model.name, &models::InterpolationGap::Row::model);
   if (row == gap->models.end()) return {};
   constexpr double kLarge = 1000.0;
   if (row->ratio < kLarge) return Fixed{row->ratio, 1};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "models/record.h"
+#include "models/study/judgement/verdict.h"
 #include "models/study/record/data_record.h"
 #include "models/study/record/figure_record.h"
 #include "models/study/record/judgement_record.h"
@@ -44,7 +45,7 @@ struct ComponentRecord {
   DisplayRecord display;
   std::vector<HoldoutRecord> holdouts;
   std::vector<ModelRecord> models;
-  std::optional<GapRecord> gap;
+  std::optional<InterpolationGap> gap;
   std::vector<PairRecord> comparisons;
   ByName<std::vector<std::vector<std::string>>> tiers;
   std::vector<StabilityRecord> stability;
