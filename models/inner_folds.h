@@ -43,6 +43,13 @@ InnerError TypicalError(const InnerFolds& folds,
                         const Eigen::VectorXd& weights,
                         double indifference);
 
+/// Returns the root of TypicalError of folds with these sums of squared errors
+/// (NaN: no fit) and numbers of rows.
+double TypicalRmse(const InnerFolds& folds,
+                   const Eigen::VectorXd& squares,
+                   const Eigen::VectorXd& rows,
+                   double indifference);
+
 /// `deal` matters under InnerHoldout::kWholeGroups only: choices that must hold
 /// on another day are made on runs. Throws std::invalid_argument if there are
 /// fewer than 2 rows.

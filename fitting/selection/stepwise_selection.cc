@@ -540,8 +540,7 @@ double CrossValidatedError(const MatrixXd& design,
                            const VectorXd& response,
                            const FoldCodes& folds) {
   double sum = 0.0;
-  for (Index fold = folds.first_judged(); fold < folds.count(); ++fold) {
-    const auto [train, test] = folds.Split(fold);
+  for (const auto& [train, test] : folds.Splits()) {
     const LeastSquaresFit fit =
         SolveLeastSquares(design(train, Eigen::all), response(train));
     sum += (response(test) - design(test, Eigen::all) * fit.coefficients)

@@ -80,9 +80,8 @@ class Tuner {
         along_path_(tuning.along_path),
         hopeless_(kOutOfReach * tuning.rival) {
     Index rows = training.num_rows();
-    const fitting::FoldCodes& folds = inner_.folds;
-    for (Index fold = folds.first_judged(); fold < folds.count(); ++fold) {
-      rows = std::min(rows, static_cast<Index>(folds.Split(fold).train.size()));
+    for (const fitting::FoldCodes::Rows& split : inner_.folds.Splits()) {
+      rows = std::min(rows, static_cast<Index>(split.train.size()));
     }
     hidden_to_try_ = HiddenToTry(rows);
   }
