@@ -10,7 +10,6 @@
 #include "stats/normality/grid.h"
 #include "stats/normality/kolmogorov_exact.h"
 #include "stats/normality/lilliefors.h"
-#include "stats/normality/monte_carlo.h"
 #include "stats/normality/simulated_quantiles.h"
 #include "stats/not_a_number.h"
 #include "stats/random.h"
