@@ -11,7 +11,7 @@
 #include "cli/report/tables/regression_tables.h"
 #include "cli/report/wrap_text.h"
 #include "data/text.h"
-#include "models/study/record/making/make_figure_record.h"
+#include "models/study/record/making/parts.h"
 
 namespace errmap::report {
 namespace {

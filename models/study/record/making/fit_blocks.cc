@@ -1,8 +1,7 @@
-#include "models/study/record/making/fit_blocks.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "models/study/record/making/parts.h"
 #include "stats/summary.h"
 
 namespace errmap::models {

@@ -1,5 +1,3 @@
-#include "models/study/record/making/make_judgement_record.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "models/history/view.h"
 #include "models/study/judgement/extrapolated_rows.h"
 #include "models/study/judgement/units_of_analysis.h"
+#include "models/study/record/making/parts.h"
 
 namespace errmap::models {
 namespace {

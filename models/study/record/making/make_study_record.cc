@@ -9,11 +9,7 @@
 #include "models/export/program_cost.h"
 #include "models/history/with_history.h"
 #include "models/inner_folds.h"
-#include "models/study/record/making/fit_blocks.h"
-#include "models/study/record/making/held_out_residuals.h"
-#include "models/study/record/making/make_figure_record.h"
-#include "models/study/record/making/make_judgement_record.h"
-#include "models/study/record/making/make_residual_record.h"
+#include "models/study/record/making/parts.h"
 
 namespace errmap::models {
 namespace {
