@@ -173,26 +173,25 @@ PolishedParameters PolishRegression(const RegressionFunction& function,
 RegressionFit FitNonlinearRegression(const RegressionFunction& function,
                                      const Eigen::VectorXd& start,
                                      const StoppingRules& stopping) {
+  const auto minimize = [&](const Strategy& strategy,
+                            const Objective& objective,
+                            const Eigen::VectorXd& from) {
+    return LevenbergMarquardt({.stopping = stopping,
+                               .initial_damping = strategy.initial_damping,
+                               .scaling = strategy.scaling,
+                               .space = LmSpace::kParameters})
+        .Minimize(objective, from);
+  };
   const RegressionObjective objective(function);
   Candidate best;
   for (const Strategy& strategy : kStrategies) {
-    const LevenbergMarquardt optimizer(
-        {.stopping = stopping,
-         .initial_damping = strategy.initial_damping,
-         .scaling = strategy.scaling,
-         .space = LmSpace::kParameters});
-    KeepBetter({optimizer.Minimize(objective, start), strategy.name}, &best);
+    KeepBetter({minimize(strategy, objective, start), strategy.name}, &best);
   }
   const std::size_t linear = function.linear_parameters().size();
   if (linear > 0 && linear < static_cast<std::size_t>(start.size())) {
     const ProjectedObjective projected(function);
     for (const Strategy& strategy : kStrategies) {
-      const LevenbergMarquardt optimizer(
-          {.stopping = stopping,
-           .initial_damping = strategy.initial_damping,
-           .scaling = strategy.scaling,
-           .space = LmSpace::kParameters});
-      Minimum minimum = optimizer.Minimize(projected, projected.Reduce(start));
+      Minimum minimum = minimize(strategy, projected, projected.Reduce(start));
       minimum.x = projected.Complete(minimum.x);
       if (minimum.x.allFinite()) {
         KeepBetter({std::move(minimum),
