@@ -288,7 +288,7 @@ std::vector<Mutation> MutationsOfTheReport() {
       [](auto* o) { Fit(o).bootstrap.unit = "x"; },
       [](auto* o) { Fit(o).excluded[0].f = 1.0; },
       [](auto* o) { Fit(o).aliased[0].why = "x"; },
-      [](auto* o) { Fit(o).anova.p = kNaN; },
+      [](auto* o) { Fit(o).anova.p = 1.0; },
       [](auto* o) { Fit(o).anova.total_ss = kInf; },
       [](auto* o) { Fit(o).largest_residual_row = 1; },
       [](auto* o) { Fit(o).notes = {"x"}; },
