@@ -22,4 +22,12 @@ FoldCodes::Rows FoldCodes::Split(Index fold) const {
   return rows;
 }
 
+std::vector<FoldCodes::Rows> FoldCodes::Splits() const {
+  std::vector<Rows> splits;
+  for (Eigen::Index fold = first_judged(); fold < count(); ++fold) {
+    splits.push_back(Split(fold));
+  }
+  return splits;
+}
+
 }  // namespace errmap::fitting

@@ -27,6 +27,8 @@ struct FoldCodes {
   }
   /// Training and test rows of a judged fold, each ascending.
   Rows Split(Eigen::Index fold) const;
+  /// The same of every judged fold.
+  std::vector<Rows> Splits() const;
 };
 
 }  // namespace errmap::fitting

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -65,8 +66,8 @@ struct BlendForm {
     std::string name;
     double weight = 0.0;               // the members' weights sum to 1
     std::vector<Eigen::Index> inputs;  // indices of the blend's inputs it reads
-    double lowest = 0.0;               // target's unit; may be infinite
-    double highest = 0.0;
+    double lowest = -std::numeric_limits<double>::infinity();  // target's unit
+    double highest = std::numeric_limits<double>::infinity();
     Eigen::Index parameters = 0;
     std::variant<PolynomialForm, NetForm> form;
   };
@@ -142,7 +143,7 @@ struct TrainedInput {
   double sd = 0.0;
 };
 
-struct RegressionReport;
+struct RegressionRecord;
 
 /// An option and the value that took effect.
 struct EffectiveOption {
@@ -230,7 +231,7 @@ struct FittedModel {
   std::vector<EffectiveOption> choices;
   std::vector<StartResult> starts;  // empty if there was only one
   /// Set for polynomials if FitContext::explain is set, else null.
-  std::shared_ptr<const RegressionReport> regression;
+  std::shared_ptr<const RegressionRecord> regression;
   /// Derives the inputs of the form (models/history/history.h). Null: the form
   /// reads `inputs` as they are.
   std::shared_ptr<const History> history;
@@ -293,7 +294,7 @@ class SharedWork;
 struct FitContext {
   std::uint64_t seed = 1;
   const std::atomic<bool>* stop = nullptr;
-  /// Also make the regression report (tables and bootstraps), and judge each of
+  /// Also make the regression record (tables and bootstraps), and judge each of
   /// several starts on inner hold-outs.
   bool explain = false;
   /// True: explain with the recipe's default number of bootstraps. False: with

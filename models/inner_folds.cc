@@ -135,4 +135,13 @@ InnerError TypicalError(const InnerFolds& folds,
   return {typical, typical * spread(logs, mean)};
 }
 
+double TypicalRmse(const InnerFolds& folds,
+                   const VectorXd& squares,
+                   const VectorXd& rows,
+                   double indifference) {
+  return std::sqrt(
+      TypicalError(folds, squares.cwiseQuotient(rows), rows, indifference)
+          .mean_square);
+}
+
 }  // namespace errmap::models

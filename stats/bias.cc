@@ -48,9 +48,10 @@ BiasByLevel ComputeBias(const Eigen::Ref<const VectorXd>& values,
     }
     const SampleSummary summary = Summarize(Eigen::Map<const VectorXd>(
         level.data(), static_cast<Index>(level.size())));
-    bias.levels.push_back({.n = summary.n,
-                           .mean = summary.mean,
-                           .standard_error = StandardError(summary)});
+    bias.levels.push_back(
+        {.n = summary.n,
+         .mean = summary.mean,
+         .standard_error = StandardError(summary.sd, summary.n)});
     const double size = static_cast<double>(summary.n);
     const double offset = (summary.mean - all.mean) / all.sd;
     const double spread = summary.n > 1 ? summary.sd / all.sd : 0.0;

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "stats/not_a_number.h"
 #include "stats/power_of_two.h"
+#include "stats/summary.h"
 
 namespace errmap::stats {
 
@@ -46,8 +46,13 @@ ErrorMetrics ComputeErrorMetrics(
         std::to_string(residuals.size()) + ", " +
         std::to_string(baseline.size()));
   }
-  ErrorMetrics metrics;
-  metrics.residuals = Summarize(residuals);
+  const SampleSummary summary = Summarize(residuals);
+  ErrorMetrics metrics{.n = summary.n,
+                       .mean = summary.mean,
+                       .sd = summary.sd,
+                       .min = summary.min,
+                       .max = summary.max,
+                       .range = summary.range};
   const Eigen::VectorXd magnitudes = residuals.cwiseAbs();
   const Eigen::VectorXd spread = (targets - baseline).cwiseAbs2();
   const double n = static_cast<double>(residuals.size());

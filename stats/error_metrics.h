@@ -2,18 +2,24 @@
 
 #include <Eigen/Core>
 
-#include "stats/summary.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::stats {
 
-/// Errors of predictions against measured targets.
+/// Errors of predictions against measured targets, in their unit: of residual =
+/// target - predicted (Eq. 136).
 struct ErrorMetrics {
-  SampleSummary residuals;  // of residual = target - predicted (Eq. 136)
-  double rmse = 0.0;        // sqrt(mean of squared residuals), divisor n
-  double mae = 0.0;         // mean of |residual|
+  Eigen::Index n = 0;
+  double mean = kNaN;
+  double sd = kNaN;    // divisor n - 1
+  double rmse = kNaN;  // sqrt(mean of squared residuals), divisor n
+  double mae = kNaN;   // mean of |residual|
+  double min = kNaN;
+  double max = kNaN;
+  double range = kNaN;
   /// 1 - SSE / sum (target - baseline)^2. NaN if the targets equal the
   /// baseline. Negative: worse than predicting the baseline.
-  double r2 = 0.0;
+  double r2 = kNaN;
 };
 
 /// Returns the metrics of `residuals` (n) of `targets` (n). `baseline` (n) is

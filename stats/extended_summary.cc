@@ -1,20 +1,16 @@
 #include "stats/extended_summary.h"
 
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
+#include "stats/require.h"
 #include "stats/summary.h"
 
 namespace errmap::stats {
 namespace {
 
 void RequireTwo(const char* function, Eigen::Index n) {
-  if (n < 2) {
-    throw std::invalid_argument(std::string(function) +
-                                ": needs at least 2 values, found " +
-                                std::to_string(n));
-  }
+  Require(n >= 2, std::string(function) + ": needs at least 2 values", n);
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 #include "stats/f_test.h"
 
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
 #include "stats/not_a_number.h"
+#include "stats/require.h"
 
 namespace errmap::stats {
 double FTestPValue(double f, double df1, double df2) {
@@ -26,12 +26,9 @@ double StudentTwoSidedP(double t, double df) {
 }
 
 double StudentTwoSidedQuantile(double confidence, double df) {
-  if (!(confidence > 0.0 && confidence < 1.0)) {
-    throw std::invalid_argument(
-        "StudentTwoSidedQuantile: confidence must be above 0 and below 1, "
-        "found " +
-        std::to_string(confidence));
-  }
+  Require(confidence > 0.0 && confidence < 1.0,
+          "StudentTwoSidedQuantile: confidence must be above 0 and below 1",
+          confidence);
   if (!(df > 0.0)) return kNaN;
   return boost::math::quantile(boost::math::complement(
       boost::math::students_t(df), 0.5 * (1.0 - confidence)));

@@ -20,16 +20,21 @@ using Eigen::Index;
   throw std::invalid_argument("hold-out '" + std::string(text) + "': " + why);
 }
 
+// Returns false unless the whole text is a number.
+template <typename Number>
+bool Parse(std::string_view text, Number* number) {
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, *number);
+  return result.ec == std::errc() && result.ptr == end;
+}
+
 Index ParseCount(std::string_view spec,
                  std::string_view name,
                  std::string_view value,
                  Index least) {
   constexpr Index kMost = 1'000'000'000;
   Index count = 0;
-  const auto [end, error] =
-      std::from_chars(value.data(), value.data() + value.size(), count);
-  if (error != std::errc() || end != value.data() + value.size() ||
-      count < least || count > kMost) {
+  if (!Parse(value, &count) || count < least || count > kMost) {
     Refuse(spec,
            std::string(name) + " must be a whole number of at least " +
                std::to_string(least) + ", found '" + std::string(value) + "'");
@@ -39,10 +44,7 @@ Index ParseCount(std::string_view spec,
 
 double ParseShare(std::string_view spec, std::string_view value) {
   double share = 0.0;
-  const auto [end, error] =
-      std::from_chars(value.data(), value.data() + value.size(), share);
-  if (error != std::errc() || end != value.data() + value.size() ||
-      !(share > 0.0 && share < 1.0)) {
+  if (!Parse(value, &share) || !(share > 0.0 && share < 1.0)) {
     Refuse(spec,
            "the test share must be above 0 and below 1, found '" +
                std::string(value) + "'");
@@ -64,8 +66,6 @@ std::vector<std::vector<Index>> CutIntoRuns(const std::vector<Index>& items,
   return runs;
 }
 
-std::vector<Index> Range(Index size) { return AllIndices(size); }
-
 // Splits rows by a flag per row: true = test.
 Fold FoldOf(const std::vector<bool>& is_test) {
   Fold fold;
@@ -80,7 +80,7 @@ class Units {
  public:
   Units(Index num_rows, const std::vector<Index>& group_codes)
       : num_rows_(num_rows),
-        codes_(group_codes.empty() ? Range(num_rows) : group_codes) {
+        codes_(group_codes.empty() ? AllIndices(num_rows) : group_codes) {
     // Groups whose rows were all dropped do not count: renumber those present.
     std::vector<Index> present = codes_;
     std::sort(present.begin(), present.end());
@@ -123,7 +123,7 @@ std::vector<Fold> HoldOutRuns(const Units& units,
 }
 
 std::vector<Fold> ForwardFolds(const HoldoutSpec& spec, const Units& units) {
-  const auto blocks = CutIntoRuns(Range(units.count()), spec.k + 1);
+  const auto blocks = CutIntoRuns(AllIndices(units.count()), spec.k + 1);
   std::vector<Fold> folds;
   std::vector<Index> earlier;
   for (std::size_t block = 1; block < blocks.size(); ++block) {
@@ -147,18 +147,18 @@ std::vector<Fold> ForwardFolds(const HoldoutSpec& spec, const Units& units) {
   return folds;
 }
 
-std::vector<Fold> GroupFolds(const HoldoutSpec& spec,
-                             const Units& units,
-                             std::uint64_t seed) {
-  if (spec.repeats == 0) {
-    return HoldOutRuns(units, Range(units.count()), spec.k);
-  }
+// In order, or `repeats` times shuffled.
+std::vector<Fold> RunsOf(const Units& units,
+                         Index parts,
+                         Index repeats,
+                         std::uint64_t seed) {
+  if (repeats == 0) return HoldOutRuns(units, AllIndices(units.count()), parts);
   Random random(seed);
   std::vector<Fold> folds;
-  for (Index repeat = 0; repeat < spec.repeats; ++repeat) {
-    std::vector<Index> order = Range(units.count());
+  for (Index repeat = 0; repeat < repeats; ++repeat) {
+    std::vector<Index> order = AllIndices(units.count());
     random.Shuffle(order);
-    for (auto& fold : HoldOutRuns(units, order, spec.k)) {
+    for (auto& fold : HoldOutRuns(units, order, parts)) {
       folds.push_back(std::move(fold));
     }
   }
@@ -166,16 +166,12 @@ std::vector<Fold> GroupFolds(const HoldoutSpec& spec,
 }
 
 Fold RandomFold(const HoldoutSpec& spec, Index num_rows, std::uint64_t seed) {
-  std::vector<Index> order = Range(num_rows);
+  std::vector<Index> order = AllIndices(num_rows);
   Random random(seed);
   random.Shuffle(order);
-  const auto num_test = static_cast<std::size_t>(
-      std::lround(spec.share * static_cast<double>(num_rows)));
-  std::vector<bool> is_test(order.size(), false);
-  for (std::size_t i = 0; i < std::min(num_test, order.size()); ++i) {
-    is_test[static_cast<std::size_t>(order[i])] = true;
-  }
-  return FoldOf(is_test);
+  order.resize(static_cast<std::size_t>(
+      std::lround(spec.share * static_cast<double>(num_rows))));
+  return FoldOf(Units(num_rows, {}).RowsOf(order));
 }
 
 Fold EveryFold(const HoldoutSpec& spec, Index num_rows) {
@@ -184,15 +180,6 @@ Fold EveryFold(const HoldoutSpec& spec, Index num_rows) {
     is_test[static_cast<std::size_t>(row)] = row % spec.k == spec.k - 1;
   }
   return FoldOf(is_test);
-}
-
-std::vector<Fold> ShuffledFolds(const HoldoutSpec& spec,
-                                const Units& rows,
-                                std::uint64_t seed) {
-  std::vector<Index> order = Range(rows.count());
-  Random random(seed);
-  random.Shuffle(order);
-  return HoldOutRuns(rows, order, spec.k);
 }
 
 // The folds of one hold-out, or why these rows do not allow it.
@@ -215,19 +202,19 @@ class FoldMaker {
         return {EveryFold(spec_, num_rows_)};
       case HoldoutKind::kGroups:
         RequireGroups(spec_.k);
-        return GroupFolds(spec_, groups_, seed_);
+        return RunsOf(groups_, spec_.k, spec_.repeats, seed_);
       case HoldoutKind::kSessions:
         RequireSessions();
-        return GroupFolds(spec_, groups_, seed_);
+        return RunsOf(groups_, spec_.k, spec_.repeats, seed_);
       case HoldoutKind::kBlocks:
         RequireRows();
-        return HoldOutRuns(Units(num_rows_, {}), Range(num_rows_), spec_.k);
+        return RunsOf(Units(num_rows_, {}), spec_.k, 0, seed_);
       case HoldoutKind::kLeaveOneGroupOut:
         RequireGroups(2);
-        return HoldOutRuns(groups_, Range(groups_.count()), groups_.count());
+        return RunsOf(groups_, groups_.count(), 0, seed_);
       case HoldoutKind::kKFold:
         RequireRows();
-        return ShuffledFolds(spec_, Units(num_rows_, {}), seed_);
+        return RunsOf(Units(num_rows_, {}), spec_.k, 1, seed_);
       case HoldoutKind::kForward:
         Require(groups_.count(),
                 spec_.k + 1,
@@ -237,7 +224,7 @@ class FoldMaker {
       case HoldoutKind::kRandom:
         return {RandomFold(spec_, num_rows_, seed_)};
       case HoldoutKind::kFile:
-        return {{Range(num_rows_), {}}};
+        return {{AllIndices(num_rows_), {}}};
     }
     throw std::invalid_argument("MakeFolds: no such kind of hold-out");
   }

@@ -5,13 +5,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "stats/require.h"
+
 namespace errmap::stats {
 
 double LogRelativeError(double value, double certified, double cap) {
-  if (!(cap > 0.0)) {
-    throw std::invalid_argument(
-        "LogRelativeError: cap must be above 0, found " + std::to_string(cap));
-  }
+  Require(cap > 0.0, "LogRelativeError: cap must be above 0", cap);
   if (!std::isfinite(value) || !std::isfinite(certified)) return 0.0;
   const double difference = std::abs(value - certified);
   if (difference == 0.0) return cap;

@@ -13,4 +13,10 @@ double Random::Normal() {
   return NormalQuantile(std::min(Uniform() + kHalfStep, kLast));
 }
 
+Eigen::VectorXd NormalSample(Eigen::Index n, Random* random) {
+  Eigen::VectorXd sample(n);
+  for (double& value : sample) value = random->Normal();
+  return sample;
+}
+
 }  // namespace errmap::stats

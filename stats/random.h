@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace errmap::stats {
 
 /// Random numbers that are the same with every standard library: the engine is
@@ -43,5 +45,8 @@ class Random {
  private:
   std::mt19937_64 engine_;
 };
+
+/// Returns n independent standard normal values.
+Eigen::VectorXd NormalSample(Eigen::Index n, Random* random);
 
 }  // namespace errmap::stats

@@ -11,6 +11,7 @@
 #include "stats/not_a_number.h"
 #include "stats/order_statistic.h"
 #include "stats/random.h"
+#include "stats/require.h"
 #include "stats/two_sample_ks.h"
 
 namespace errmap::stats {
@@ -270,11 +271,7 @@ SerialTests TestSerially(const Segments& segments) {
 SerialShuffles ShuffleSerially(const Segments& segments,
                                Index draws,
                                std::uint64_t seed) {
-  if (draws < 1) {
-    throw std::invalid_argument(
-        "ShuffleSerially: needs at least 1 draw, found " +
-        std::to_string(draws));
-  }
+  Require(draws >= 1, "ShuffleSerially: needs at least 1 draw", draws);
   const SerialTests observed = TestSerially(segments);
   Index runs = 1;
   Index lag1 = 1;

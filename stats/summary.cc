@@ -7,6 +7,7 @@
 
 #include "stats/not_a_number.h"
 #include "stats/power_of_two.h"
+#include "stats/require.h"
 
 namespace errmap::stats {
 namespace {
@@ -77,8 +78,8 @@ SampleSummary Summarize(const Eigen::Ref<const Eigen::VectorXd>& sample) {
   return summary;
 }
 
-double StandardError(const SampleSummary& summary) {
-  return summary.sd / std::sqrt(static_cast<double>(summary.n));
+double StandardError(double sd, Eigen::Index n) {
+  return sd / std::sqrt(static_cast<double>(n));
 }
 
 Eigen::VectorXd Standardise(const Eigen::Ref<const Eigen::VectorXd>& sample) {
@@ -103,11 +104,9 @@ double Correlation(const Eigen::Ref<const Eigen::VectorXd>& a,
 
 double Quantile(const Eigen::Ref<const Eigen::VectorXd>& ascending,
                 double probability) {
-  if (!(probability >= 0.0 && probability <= 1.0)) {
-    throw std::invalid_argument(
-        "Quantile: probability must be within 0 and 1, found " +
-        std::to_string(probability));
-  }
+  Require(probability >= 0.0 && probability <= 1.0,
+          "Quantile: probability must be within 0 and 1",
+          probability);
   const Eigen::Index n = ascending.size();
   if (n == 0) return kNaN;
   const double at = probability * static_cast<double>(n - 1);

@@ -25,8 +25,9 @@ SampleSummary Summarize(const Eigen::Ref<const Eigen::VectorXd>& sample);
 /// error is about one unit in the last place unless terms cancel completely.
 double CompensatedSum(const Eigen::Ref<const Eigen::VectorXd>& values);
 
-/// Returns the standard error of the mean of independent values: sd / sqrt(n).
-double StandardError(const SampleSummary& summary);
+/// Returns the standard error of the mean of `n` independent values:
+/// sd / sqrt(n).
+double StandardError(double sd, Eigen::Index n);
 
 /// Returns (x - mean) / sd of `sample` (n), in its order: NISTIR 5367, Eq. 137.
 /// Throws std::invalid_argument unless two values differ and all are finite.

@@ -21,8 +21,8 @@
 #include "data/measurements/reading/reading.h"
 #include "models/model_spec.h"
 #include "models/recipe_catalog.h"
+#include "models/record.h"
 #include "models/study/journal/kept_fits.h"
-#include "models/study/record/record_values.h"
 
 namespace errmap::cli {
 

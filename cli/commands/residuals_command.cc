@@ -25,8 +25,7 @@
 #include "data/measurements/column_roles.h"
 #include "data/measurements/dataset.h"
 #include "data/text.h"
-#include "models/study/record/making/fit_blocks.h"
-#include "models/study/record/making/make_residual_record.h"
+#include "models/study/record/making/parts.h"
 #include "models/study/record/record_json.h"
 #include "stats/error_metrics.h"
 #include "stats/report_1995.h"
@@ -202,8 +201,8 @@ Json SummaryJson(const stats::ErrorMetrics& metrics,
                  const stats::ShapeMoments& shape) {
   Eigen::VectorXd sorted = values;
   std::sort(sorted.begin(), sorted.end());
-  Json summary = models::ToJson(models::MakeRecord(metrics));
-  summary["standard_error"] = stats::StandardError(metrics.residuals);
+  Json summary = models::ToJson(metrics);
+  summary["standard_error"] = stats::StandardError(metrics.sd, metrics.n);
   summary["skewness"] = shape.skewness;
   summary["kurtosis"] = shape.kurtosis;
   summary["q25"] = stats::Quantile(sorted, 0.25);
@@ -274,7 +273,7 @@ int RunResiduals(const ResidualsArguments& arguments,
           ? std::numeric_limits<double>::quiet_NaN()
           : stats::RSquaredAsPrinted1995(inputs.fitted + values, inputs.fitted);
   const std::string sentences =
-      report::ResidualSentences(report, metrics.residuals, printed, unit);
+      report::ResidualSentences(report, metrics, printed, unit);
   if (arguments.format == "json") {
     Json document = {
         {"schema", "errmap-residuals-1"},

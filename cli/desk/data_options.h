@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "data/measurements/dataset.h"
-#include "models/study/record/record.h"
+#include "models/record.h"
 
 namespace errmap::desk {
 

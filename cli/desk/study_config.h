@@ -6,8 +6,8 @@
 
 #include "cli/desk/given_error.h"
 #include "data/measurements/dataset.h"
+#include "models/record.h"
 #include "models/study/judgement/recommendation.h"
-#include "models/study/record/record.h"
 
 namespace errmap::desk {
 

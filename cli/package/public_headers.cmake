@@ -53,7 +53,7 @@ set(ERRMAP_PUBLIC_HEADERS
   models/polynomial/polynomial_model.h
   models/polynomial/polynomial_options.h
   models/recipe_catalog.h
-  models/regression_report.h
+  models/regression_record.h
   models/scaling.h
   models/sensors/applicability.h
   models/sensors/sensitivity.h

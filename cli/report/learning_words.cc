@@ -69,7 +69,7 @@ std::string LawWords(const models::LearningCurvesRecord& curves,
   return words;
 }
 
-std::string EnoughWords(const models::SensorCurveRecord& curve) {
+std::string EnoughWords(const models::SensorCurve& curve) {
   const double percent = kPercent * (models::SensorCurve::kTolerance - 1.0);
   return curve.enough
              ? fmt::format("{} of {} sensors do it, within {:.0f} % of all",
@@ -82,11 +82,11 @@ std::string EnoughWords(const models::SensorCurveRecord& curve) {
                            curve.all.sensors);
 }
 
-std::string SensorWords(const models::SensorCurveRecord& curve,
+std::string SensorWords(const models::SensorCurve& curve,
                         const ErrorText& error) {
   constexpr std::size_t kMostSubstitutes = 4;
   std::vector<std::string> sensors;
-  for (const models::ChosenSensorRecord& chosen : curve.chosen) {
+  for (const models::SensorCurve::Chosen& chosen : curve.chosen) {
     std::vector<std::string> substitutes = chosen.substitutes;
     substitutes.resize(std::min(kMostSubstitutes, substitutes.size()));
     sensors.push_back(substitutes.empty()
@@ -97,7 +97,7 @@ std::string SensorWords(const models::SensorCurveRecord& curve,
   }
   const auto number = static_cast<std::int64_t>(curve.chosen.size());
   const auto point = std::ranges::find(
-      curve.points, number, &models::SensorPointRecord::sensors);
+      curve.points, number, &models::SensorCurve::Point::sensors);
   return fmt::format(
       "{}: {} with {}, {} with all{}{}.",
       EnoughWords(curve),
@@ -119,7 +119,7 @@ ErrorText ErrorTextOf(const models::LearningCurvesRecord& curves,
   return {unit, std::isfinite(smallest) ? smallest : 1.0};
 }
 
-ErrorText ErrorTextOf(const models::SensorCurveRecord& curve,
+ErrorText ErrorTextOf(const models::SensorCurve& curve,
                       const data::Unit& unit) {
   double smallest = curve.all.rmse;
   for (const auto& point : curve.points) {

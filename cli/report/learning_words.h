@@ -14,17 +14,16 @@ std::string LawWords(const models::LearningCurvesRecord& curves,
                      const ErrorText& error);
 
 /// Returns "4 of 36 sensors do it, within 5 % of all".
-std::string EnoughWords(const models::SensorCurveRecord& curve);
+std::string EnoughWords(const models::SensorCurve& curve);
 
 /// Returns "4 of 27 sensors do it, within 5 % of all: 1.24 um with them, 1.20
 /// um with all. t3 (or t4, t5), t12." If no choice does it: the nearest one.
-std::string SensorWords(const models::SensorCurveRecord& curve,
+std::string SensorWords(const models::SensorCurve& curve,
                         const ErrorText& error);
 
 /// Formats the errors of the curves with the decimals that the smallest needs.
 ErrorText ErrorTextOf(const models::LearningCurvesRecord& curves,
                       const data::Unit& unit);
-ErrorText ErrorTextOf(const models::SensorCurveRecord& curve,
-                      const data::Unit& unit);
+ErrorText ErrorTextOf(const models::SensorCurve& curve, const data::Unit& unit);
 
 }  // namespace errmap::report

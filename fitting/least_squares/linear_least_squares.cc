@@ -11,6 +11,7 @@
 #include "fitting/least_squares/decompositions.h"
 #include "fitting/least_squares/orthogonal_basis.h"
 #include "stats/not_a_number.h"
+#include "stats/require.h"
 
 namespace errmap::fitting {
 namespace {
@@ -445,20 +446,17 @@ void AddDigits(Problem* problem,
 }  // namespace
 
 void LeastSquaresOptions::Validate() const {
-  const auto refuse = [](const std::string& what, double found) {
-    throw std::invalid_argument("LeastSquaresOptions: " + what + ", found " +
-                                std::to_string(found));
-  };
-  if (!(aliased > 0.0 && aliased < 1.0)) {
-    refuse("aliased must be above 0 and below 1", aliased);
-  }
-  if (!(confirmed > 0.0 && confirmed <= aliased)) {
-    refuse("confirmed must be above 0 and at most aliased", confirmed);
-  }
   constexpr double kMostDigits = 15.0;
-  if (!(digits >= 0.0 && digits <= kMostDigits)) {
-    refuse("digits must be 0 to 15", digits);
-  }
+  stats::Require(aliased > 0.0 && aliased < 1.0,
+                 "LeastSquaresOptions: aliased must be above 0 and below 1",
+                 aliased);
+  stats::Require(
+      confirmed > 0.0 && confirmed <= aliased,
+      "LeastSquaresOptions: confirmed must be above 0 and at most aliased",
+      confirmed);
+  stats::Require(digits >= 0.0 && digits <= kMostDigits,
+                 "LeastSquaresOptions: digits must be 0 to 15",
+                 digits);
 }
 
 double CountObservations(Index rows, const VectorXd& weights) {

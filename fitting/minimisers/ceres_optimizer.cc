@@ -14,6 +14,7 @@
 #include <glog/logging.h>
 
 #include "fitting/minimisers/guarded_run.h"
+#include "stats/require.h"
 
 namespace errmap::fitting {
 namespace {
@@ -209,11 +210,8 @@ std::string_view ToString(CeresMethod method) {
 
 void CeresOptions::Validate() const {
   stopping.Validate();
-  if (memory < 1) {
-    throw std::invalid_argument(
-        "CeresOptions: memory must be at least 1, found " +
-        std::to_string(memory));
-  }
+  stats::Require(
+      memory >= 1, "CeresOptions: memory must be at least 1", memory);
 }
 
 CeresOptimizer::CeresOptimizer(CeresOptions options) : options_(options) {

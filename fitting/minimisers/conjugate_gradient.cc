@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 
 #include "fitting/minimisers/best_point.h"
 #include "fitting/minimisers/cost_resolution.h"
+#include "stats/require.h"
 
 namespace errmap::fitting {
 namespace {
@@ -190,11 +190,8 @@ class CgRun {
 
 void ConjugateGradientOptions::Validate() const {
   stopping.Validate();
-  if (!(sigma > 0.0)) {
-    throw std::invalid_argument(
-        "ConjugateGradientOptions: sigma must be above 0, found " +
-        std::to_string(sigma));
-  }
+  stats::Require(
+      sigma > 0.0, "ConjugateGradientOptions: sigma must be above 0", sigma);
 }
 
 ConjugateGradient::ConjugateGradient(ConjugateGradientOptions options)

@@ -1,18 +1,13 @@
 #include "fitting/minimisers/discrepancy_principle.h"
 
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "stats/require.h"
+
 namespace errmap::fitting {
 namespace {
-
-void Require(bool holds, const char* rule, double found) {
-  if (holds) return;
-  throw std::invalid_argument("DiscrepancyRules: " + std::string(rule) +
-                              ", found " + std::to_string(found));
-}
 
 bool EndsTheSearch(const Minimum& minimum) {
   return minimum.summary.termination == Termination::kFailed ||
@@ -22,12 +17,20 @@ bool EndsTheSearch(const Minimum& minimum) {
 }  // namespace
 
 void DiscrepancyRules::Validate() const {
-  Require(delta > 0.0 && std::isfinite(delta), "delta must be above 0", delta);
-  Require(
-      alpha0 > 0.0 && std::isfinite(alpha0), "alpha0 must be above 0", alpha0);
-  Require(q > 0.0 && q < 1.0, "q must be between 0 and 1", q);
-  Require(least_alpha > 0.0, "least_alpha must be above 0", least_alpha);
-  Require(tolerance > 0.0, "tolerance must be above 0", tolerance);
+  stats::Require(delta > 0.0 && std::isfinite(delta),
+                 "DiscrepancyRules: delta must be above 0",
+                 delta);
+  stats::Require(alpha0 > 0.0 && std::isfinite(alpha0),
+                 "DiscrepancyRules: alpha0 must be above 0",
+                 alpha0);
+  stats::Require(
+      q > 0.0 && q < 1.0, "DiscrepancyRules: q must be between 0 and 1", q);
+  stats::Require(least_alpha > 0.0,
+                 "DiscrepancyRules: least_alpha must be above 0",
+                 least_alpha);
+  stats::Require(tolerance > 0.0,
+                 "DiscrepancyRules: tolerance must be above 0",
+                 tolerance);
 }
 
 DiscrepancyChoice ChooseByDiscrepancy(

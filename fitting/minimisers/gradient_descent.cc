@@ -1,24 +1,19 @@
 #include "fitting/minimisers/gradient_descent.h"
 
-#include <stdexcept>
-
 #include "fitting/minimisers/best_point.h"
+#include "stats/require.h"
 
 namespace errmap::fitting {
 
 void GradientDescentOptions::Validate() const {
   stopping.Validate();
-  if (!(learning_rate > 0.0)) {
-    throw std::invalid_argument(
-        "GradientDescentOptions: learning_rate must be above 0, found " +
-        std::to_string(learning_rate));
-  }
-  if (!(momentum >= 0.0 && momentum < 1.0)) {
-    throw std::invalid_argument(
-        "GradientDescentOptions: momentum must be at least 0 and below 1, "
-        "found " +
-        std::to_string(momentum));
-  }
+  stats::Require(learning_rate > 0.0,
+                 "GradientDescentOptions: learning_rate must be above 0",
+                 learning_rate);
+  stats::Require(
+      momentum >= 0.0 && momentum < 1.0,
+      "GradientDescentOptions: momentum must be at least 0 and below 1",
+      momentum);
 }
 
 GradientDescent::GradientDescent(GradientDescentOptions options)

@@ -12,6 +12,7 @@
 #include "fitting/minimisers/cost_resolution.h"
 #include "fitting/minimisers/damped_least_squares.h"
 #include "fitting/minimisers/run_monitor.h"
+#include "stats/require.h"
 
 namespace errmap::fitting {
 namespace {
@@ -288,24 +289,21 @@ class LmRun {
   std::int64_t evaluations_ = 0;
 };
 
-void Refuse(const std::string& what, double found) {
-  throw std::invalid_argument("LevenbergMarquardtOptions: " + what +
-                              ", found " + std::to_string(found));
-}
-
 }  // namespace
 
 void LevenbergMarquardtOptions::Validate() const {
   stopping.Validate();
-  if (!(initial_damping > 0.0 && std::isfinite(initial_damping))) {
-    Refuse("initial_damping must be above 0 and finite", initial_damping);
-  }
-  if (!(step_tolerance >= 0.0)) {
-    Refuse("step_tolerance must be at least 0", step_tolerance);
-  }
-  if (!(cost_resolution >= 0.0 && cost_resolution < 1.0)) {
-    Refuse("cost_resolution must be at least 0 and below 1", cost_resolution);
-  }
+  stats::Require(
+      initial_damping > 0.0 && std::isfinite(initial_damping),
+      "LevenbergMarquardtOptions: initial_damping must be above 0 and finite",
+      initial_damping);
+  stats::Require(step_tolerance >= 0.0,
+                 "LevenbergMarquardtOptions: step_tolerance must be at least 0",
+                 step_tolerance);
+  stats::Require(cost_resolution >= 0.0 && cost_resolution < 1.0,
+                 "LevenbergMarquardtOptions: cost_resolution must be at least "
+                 "0 and below 1",
+                 cost_resolution);
   if (space == LmSpace::kPatterns && scaling == LmScaling::kMarquardt) {
     throw std::invalid_argument(
         "LevenbergMarquardtOptions: kMarquardt scales parameters; it needs "
@@ -327,11 +325,9 @@ Minimum LevenbergMarquardt::DoMinimize(const Objective& f,
         "LevenbergMarquardt: the objective has no residual form; take a method "
         "that needs its gradient only");
   }
-  if (!(residuals->ridge() >= 0.0 && std::isfinite(residuals->ridge()))) {
-    throw std::invalid_argument(
-        "LevenbergMarquardt: the ridge must be at least 0 and finite, found " +
-        std::to_string(residuals->ridge()));
-  }
+  stats::Require(residuals->ridge() >= 0.0 && std::isfinite(residuals->ridge()),
+                 "LevenbergMarquardt: the ridge must be at least 0 and finite",
+                 residuals->ridge());
   return LmRun(options_, f, *residuals, x0, run).Minimize();
 }
 

@@ -9,6 +9,7 @@
 
 #include "fitting/minimisers/guarded_run.h"
 #include "stats/not_a_number.h"
+#include "stats/require.h"
 
 namespace errmap::fitting {
 namespace {
@@ -145,16 +146,11 @@ std::string_view ToString(NloptMethod method) {
 
 void NloptOptions::Validate() const {
   stopping.Validate();
-  if (memory < 1) {
-    throw std::invalid_argument(
-        "NloptOptions: memory must be at least 1, found " +
-        std::to_string(memory));
-  }
-  if (!(box > 0.0) || !std::isfinite(box)) {
-    throw std::invalid_argument(
-        "NloptOptions: box must be above 0 and finite, found " +
-        std::to_string(box));
-  }
+  stats::Require(
+      memory >= 1, "NloptOptions: memory must be at least 1", memory);
+  stats::Require(box > 0.0 && std::isfinite(box),
+                 "NloptOptions: box must be above 0 and finite",
+                 box);
 }
 
 NloptOptimizer::NloptOptimizer(NloptOptions options) : options_(options) {

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "stats/require.h"
+
 namespace errmap::fitting {
 namespace {
 
@@ -143,20 +145,18 @@ class CountedObjective final : public BasicObjective<Scalar> {
   mutable std::optional<CountedResiduals> residuals_;  // once asked for
 };
 
-void RequireAtLeast(const char* field, double value, double least) {
-  if (!(value >= least)) {
-    throw std::invalid_argument("StoppingRules: " + std::string(field) +
-                                " must be at least " + std::to_string(least) +
-                                ", found " + std::to_string(value));
-  }
+void RequireAtLeast(const std::string& field, double value, double least) {
+  stats::Require(
+      value >= least,
+      "StoppingRules: " + field + " must be at least " + std::to_string(least),
+      value);
 }
 
-void RequireAbove(const char* field, double value, double bound) {
-  if (!(value > bound)) {
-    throw std::invalid_argument("StoppingRules: " + std::string(field) +
-                                " must be above " + std::to_string(bound) +
-                                ", found " + std::to_string(value));
-  }
+void RequireAbove(const std::string& field, double value, double bound) {
+  stats::Require(
+      value > bound,
+      "StoppingRules: " + field + " must be above " + std::to_string(bound),
+      value);
 }
 
 }  // namespace

@@ -1,22 +1,12 @@
 #include "fitting/minimisers/scaled_conjugate_gradient.h"
 
-#include <stdexcept>
 #include <utility>
 
-#include "fitting/minimisers/scg_variants.h"
+#include "fitting/minimisers/scg_moller.h"
+#include "fitting/minimisers/scg_netcg.h"
+#include "stats/require.h"
 
 namespace errmap::fitting {
-namespace {
-
-void RequirePositive(const char* field, double value) {
-  if (!(value > 0.0)) {
-    throw std::invalid_argument(
-        "ScaledConjugateGradientOptions: " + std::string(field) +
-        " must be above 0, found " + std::to_string(value));
-  }
-}
-
-}  // namespace
 
 std::string_view ToString(ScgVariant variant) {
   return variant == ScgVariant::kMoller ? "moller" : "netcg";
@@ -24,8 +14,13 @@ std::string_view ToString(ScgVariant variant) {
 
 void ScaledConjugateGradientOptions::Validate() const {
   stopping.Validate();
-  RequirePositive("initial_lambda", initial_lambda);
-  RequirePositive("sigma", sigma);
+  stats::Require(
+      initial_lambda > 0.0,
+      "ScaledConjugateGradientOptions: initial_lambda must be above 0",
+      initial_lambda);
+  stats::Require(sigma > 0.0,
+                 "ScaledConjugateGradientOptions: sigma must be above 0",
+                 sigma);
 }
 
 template <typename Scalar>
@@ -41,8 +36,8 @@ Minimum BasicScaledConjugateGradient<Scalar>::DoMinimize(
     const Vector& x0,
     const RunControl& run) const {
   return options_.variant == ScgVariant::kMoller
-             ? MinimizeByMoller(options_, f, x0, run)
-             : MinimizeByNetcg(options_, f, x0, run);
+             ? MollerRun<Scalar>(options_, f, x0, run).Minimize()
+             : NetcgRun<Scalar>(options_, f, x0, run).Minimize();
 }
 
 template class BasicScaledConjugateGradient<double>;

@@ -7,6 +7,7 @@
 #include "fitting/minimisers/levenberg_marquardt.h"
 #include "fitting/nonlinear/variable_projection.h"
 #include "stats/not_a_number.h"
+#include "stats/require.h"
 
 namespace errmap::fitting {
 namespace {
@@ -124,16 +125,10 @@ RegressionStatistics AssessRegression(const RegressionFunction& function,
 }
 
 void PolishOptions::Validate() const {
-  if (steps < 0) {
-    throw std::invalid_argument(
-        "PolishOptions: steps must be at least 0, found " +
-        std::to_string(steps));
-  }
-  if (!(smallest_step > 0.0)) {
-    throw std::invalid_argument(
-        "PolishOptions: smallest_step must be above 0, found " +
-        std::to_string(smallest_step));
-  }
+  stats::Require(steps >= 0, "PolishOptions: steps must be at least 0", steps);
+  stats::Require(smallest_step > 0.0,
+                 "PolishOptions: smallest_step must be above 0",
+                 smallest_step);
 }
 
 PolishedParameters PolishRegression(const RegressionFunction& function,
@@ -178,26 +173,25 @@ PolishedParameters PolishRegression(const RegressionFunction& function,
 RegressionFit FitNonlinearRegression(const RegressionFunction& function,
                                      const Eigen::VectorXd& start,
                                      const StoppingRules& stopping) {
+  const auto minimize = [&](const Strategy& strategy,
+                            const Objective& objective,
+                            const Eigen::VectorXd& from) {
+    return LevenbergMarquardt({.stopping = stopping,
+                               .initial_damping = strategy.initial_damping,
+                               .scaling = strategy.scaling,
+                               .space = LmSpace::kParameters})
+        .Minimize(objective, from);
+  };
   const RegressionObjective objective(function);
   Candidate best;
   for (const Strategy& strategy : kStrategies) {
-    const LevenbergMarquardt optimizer(
-        {.stopping = stopping,
-         .initial_damping = strategy.initial_damping,
-         .scaling = strategy.scaling,
-         .space = LmSpace::kParameters});
-    KeepBetter({optimizer.Minimize(objective, start), strategy.name}, &best);
+    KeepBetter({minimize(strategy, objective, start), strategy.name}, &best);
   }
   const std::size_t linear = function.linear_parameters().size();
   if (linear > 0 && linear < static_cast<std::size_t>(start.size())) {
     const ProjectedObjective projected(function);
     for (const Strategy& strategy : kStrategies) {
-      const LevenbergMarquardt optimizer(
-          {.stopping = stopping,
-           .initial_damping = strategy.initial_damping,
-           .scaling = strategy.scaling,
-           .space = LmSpace::kParameters});
-      Minimum minimum = optimizer.Minimize(projected, projected.Reduce(start));
+      Minimum minimum = minimize(strategy, projected, projected.Reduce(start));
       minimum.x = projected.Complete(minimum.x);
       if (minimum.x.allFinite()) {
         KeepBetter({std::move(minimum),

@@ -9,6 +9,7 @@
 #include "fitting/least_squares/decompositions.h"
 #include "fitting/least_squares/orthogonal_basis.h"
 #include "stats/indices.h"
+#include "stats/require.h"
 
 namespace errmap::fitting {
 namespace {
@@ -203,11 +204,9 @@ void BestSubsetOptions::Validate() const {
         "found " +
         std::string(ToString(criterion)));
   }
-  if (!(collinearity > 0.0 && collinearity < 1.0)) {
-    throw std::invalid_argument(
-        "BestSubsetOptions: collinearity must be above 0 and below 1, found " +
-        std::to_string(collinearity));
-  }
+  stats::Require(collinearity > 0.0 && collinearity < 1.0,
+                 "BestSubsetOptions: collinearity must be above 0 and below 1",
+                 collinearity);
 }
 
 BestSubsetResult SelectBestSubset(const SelectionProblem& problem,

@@ -11,6 +11,7 @@
 #include "fitting/selection/swept_candidates.h"
 #include "stats/f_test.h"
 #include "stats/not_a_number.h"
+#include "stats/require.h"
 
 namespace errmap::fitting {
 namespace {
@@ -472,24 +473,22 @@ void StepwiseOptions::Validate() const {
   const auto refuse = [](const std::string& what) {
     throw std::invalid_argument("StepwiseOptions: " + what);
   };
-  if (!(enter > 0.0 && enter < 1.0)) {
-    refuse("enter must be above 0 and below 1, found " + std::to_string(enter));
-  }
-  if (!(remove > 0.0 && remove < 1.0)) {
-    refuse("remove must be above 0 and below 1, found " +
-           std::to_string(remove));
-  }
+  stats::Require(enter > 0.0 && enter < 1.0,
+                 "StepwiseOptions: enter must be above 0 and below 1",
+                 enter);
+  stats::Require(remove > 0.0 && remove < 1.0,
+                 "StepwiseOptions: remove must be above 0 and below 1",
+                 remove);
   if (remove < enter) {
     refuse("remove (" + std::to_string(remove) + ") must not be below enter (" +
            std::to_string(enter) + "): a term could enter and leave for ever");
   }
-  if (!(collinearity > 0.0 && collinearity < 1.0)) {
-    refuse("collinearity must be above 0 and below 1, found " +
-           std::to_string(collinearity));
-  }
-  if (!std::isnan(sigma2) && !(sigma2 > 0.0 && std::isfinite(sigma2))) {
-    refuse("sigma2 must be above 0, found " + std::to_string(sigma2));
-  }
+  stats::Require(collinearity > 0.0 && collinearity < 1.0,
+                 "StepwiseOptions: collinearity must be above 0 and below 1",
+                 collinearity);
+  stats::Require(std::isnan(sigma2) || (sigma2 > 0.0 && std::isfinite(sigma2)),
+                 "StepwiseOptions: sigma2 must be above 0",
+                 sigma2);
   if (select == Criterion::kNone) refuse("something must select");
 }
 
@@ -541,8 +540,7 @@ double CrossValidatedError(const MatrixXd& design,
                            const VectorXd& response,
                            const FoldCodes& folds) {
   double sum = 0.0;
-  for (Index fold = folds.first_judged(); fold < folds.count(); ++fold) {
-    const auto [train, test] = folds.Split(fold);
+  for (const auto& [train, test] : folds.Splits()) {
     const LeastSquaresFit fit =
         SolveLeastSquares(design(train, Eigen::all), response(train));
     sum += (response(test) - design(test, Eigen::all) * fit.coefficients)

@@ -9,7 +9,7 @@
 #include "models/certification/certification.h"
 #include "models/certification/strd_functions.h"
 #include "models/recipe_catalog.h"
-#include "models/regression_report.h"
+#include "models/regression_record.h"
 #include "stats/extended_summary.h"
 #include "stats/lre.h"
 #include "stats/summary.h"
@@ -60,13 +60,9 @@ LinearCertificate Certify(const data::StrdProblem& problem) {
        .inputs = {problem.columns.begin() + 1, problem.columns.end()}});
   const FittedModel fitted =
       MakeRecipe(row.model)->Fit(prepared.dataset, {.explain = true});
-  const RegressionReport& report = *fitted.regression;
-  const auto add = [&](const ReportTerm& term) {
-    row.estimates.push_back(
-        {term.name, term.numbers.estimate, term.numbers.standard_error});
-  };
-  if (report.fit.has_intercept) add(report.intercept);
-  for (const ReportTerm& term : report.terms) add(term);
+  for (const CoefficientRecord& line : fitted.regression->coefficients) {
+    row.estimates.push_back({line.term, line.estimate, line.standard_error});
+  }
   const auto count = static_cast<Eigen::Index>(row.estimates.size());
   Eigen::VectorXd coefficients(count);
   Eigen::VectorXd deviations(count);
@@ -75,14 +71,15 @@ LinearCertificate Certify(const data::StrdProblem& problem) {
     coefficients[j] = found.estimate;
     deviations[j] = found.standard_deviation;
   }
-  row.rss = report.fit.residual_sum_of_squares;
+  const LeastSquaresRecord& fit = *fitted.regression->least_squares.value;
+  row.rss = fit.anova.residual_ss;
   row.lre_coefficients = stats::SmallestLogRelativeError(
       coefficients, CertifiedParameters(problem), stats::kLreCapLinear);
   row.lre_sd = stats::SmallestLogRelativeError(
       deviations, CertifiedDeviations(problem), stats::kLreCapLinear);
   row.lre_rss = Lre(row.rss, problem.residual_sum_of_squares);
-  row.condition = report.fit.condition;
-  row.bits = report.fit.bits;
+  row.condition = fit.condition;
+  row.bits = static_cast<int>(fit.bits);
   return row;
 }
 

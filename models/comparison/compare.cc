@@ -6,7 +6,7 @@
 
 #include "data/csv.h"
 #include "models/comparison/component_plan.h"
-#include "models/study/record/record_values.h"
+#include "models/record.h"
 #include "models/study/study_defaults.h"
 
 namespace errmap::models {

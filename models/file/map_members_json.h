@@ -104,13 +104,17 @@ T ReadWord(const ModelJsonNode& node) {
 }
 
 /// Reads every member except those with keys in `except`, left to the caller.
+/// Those of `may_lack`, which older files do not have, keep their values if
+/// they are missing or null.
 template <typename T>
 void ReadMembers(const ModelJsonNode& node,
                  T* value,
-                 const std::vector<std::string_view>& except = {}) {
+                 const std::vector<std::string_view>& except = {},
+                 const std::vector<std::string_view>& may_lack = {}) {
   if constexpr (Record<T>) {
     VisitKeys(*value, [&](const std::string& key, auto& member) {
       if (std::ranges::count(except, key) > 0) return;
+      if (std::ranges::count(may_lack, key) > 0 && !node.Find(key)) return;
       if constexpr (std::is_same_v<std::decay_t<decltype(member)>,
                                    data::ColumnInfo>) {
         member = ReadColumn(node);

@@ -1,4 +1,3 @@
-#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -58,11 +57,7 @@ void ReadFormAt(const Node& node, Form* form) {
 }
 
 void ReadFormAt(const Node& node, PolynomialForm* form) {
-  ReadMembers(node, form, {"bends_within"});
-  // Files of before have none.
-  if (const auto bends = node.Find("bends_within")) {
-    ReadMembers(*bends, &form->bends_within);
-  }
+  ReadMembers(node, form, {}, {"bends_within"});
   for (const Node& element : node.At("terms").Elements()) {
     for (const Node& power : element.At("powers").Elements()) {
       constexpr Index kMostPower = 64;
@@ -104,16 +99,11 @@ Node ReadOneOf(const Node& around, std::variant<Forms...>* form) {
 }
 
 void ReadFormAt(const Node& node, BlendForm* form) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   form->rule = node.At("rule").Text();
   for (const Node& element : node.At("members").Elements()) {
     BlendForm::Member& member = form->members.emplace_back();
-    ReadMembers(element, &member, {"lowest", "highest"});
-    // Bounds may be infinite, and are null then.
-    const auto lowest = element.Find("lowest");
-    member.lowest = lowest ? lowest->Number() : -kInfinity;
-    const auto highest = element.Find("highest");
-    member.highest = highest ? highest->Number() : kInfinity;
+    // Bounds that are infinite are null.
+    ReadMembers(element, &member, {}, {"lowest", "highest"});
     ReadOneOf(element, &member.form);
   }
 }

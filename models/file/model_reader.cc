@@ -85,13 +85,7 @@ std::vector<RowChange> ReadRowChanges(
 }
 
 // Reads the starts of sessions, which older files lack.
-void ReadStarts(const Node& node, History* history) {
-  const auto read = [&](const char* key, double* value) {
-    if (const auto number = node.Find(key)) *value = number->Number();
-  };
-  read("start_limit", &history->start_limit);
-  read("start_clock", &history->start_clock);
-  read("start_clock_late", &history->start_clock_late);
+void ReadStartReadings(const Node& node, History* history) {
   const auto readings = node.Find("start_readings");
   if (!readings) return;
   const std::vector<std::string> names = history->columns();
@@ -105,33 +99,29 @@ void ReadStarts(const Node& node, History* history) {
 
 History ReadHistory(const Node& node, const std::vector<TrainedInput>& inputs) {
   History history;
-  history.time_unit = node.At("time_unit").Text();
+  ReadMembers(node,
+              &history,
+              {"derived", "start_readings", "row_changes"},
+              {"time",
+               "gap",
+               "latest_start",
+               "longest_step",
+               "start_limit",
+               "start_clock",
+               "start_clock_late"});
   if (history.time_unit != "s" && history.time_unit != "rows") {
     node.At("time_unit").Refuse("must be 's' or 'rows'");
   }
-  history.session = node.At("session").Text();
-  if (const auto time = node.Find("time")) history.time = time->Text();
-  if (const auto gap = node.Find("gap")) history.gap = gap->Number();
-  if (const auto start = node.Find("latest_start")) {
-    history.latest_start = start->Number();
-  }
-  if (const auto step = node.Find("longest_step")) {
-    history.longest_step = step->Number();
-  }
   for (const Node& element : node.At("derived").Elements()) {
-    DerivedInput input;
-    input.column = ReadColumn(element);
-    input.of = element.At("of").Text();
-    input.filter = ReadWord<Filter>(element.At("filter"));
+    DerivedInput& input = history.derived.emplace_back();
+    ReadMembers(element, &input, {"tau", "between"});
     if (RunsInTime(input.filter)) {
       input.tau = element.At("tau").Number();
       // The first maps held the later reading and do not say so.
       const auto between = element.Find("between");
       input.between = between ? ReadWord<Between>(*between) : Between::kHeld;
     }
-    history.derived.push_back(std::move(input));
   }
-  ReadMembers(node.At("form_inputs"), &history.form_inputs);
   std::vector<data::ColumnInfo> columns;
   for (const TrainedInput& input : inputs) columns.push_back(input.column);
   try {
@@ -139,7 +129,7 @@ History ReadHistory(const Node& node, const std::vector<TrainedInput>& inputs) {
   } catch (const std::invalid_argument& error) {
     node.Refuse(error.what());
   }
-  ReadStarts(node, &history);
+  ReadStartReadings(node, &history);
   if (const auto changes = node.Find("row_changes")) {
     history.row_changes = ReadRowChanges(*changes, history, columns);
   }
@@ -195,7 +185,7 @@ std::vector<Index> ReadColumnsOf(const Node& node,
 
 Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
   Applicability trained;
-  ReadMembers(node, &trained, {"columns", "repeats", "standing"});
+  ReadMembers(node, &trained, {"columns"}, {"repeats", "standing"});
   for (std::size_t i = 0; i < trained.derived.size(); ++i) {
     if (fitted.history == nullptr ||
         std::ranges::find(fitted.history->form_inputs,
@@ -207,8 +197,7 @@ Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
   trained.columns = ReadColumnsOf(node.At("columns"), fitted.inputs);
   const auto size = static_cast<Index>(trained.columns.size());
   if (const auto standing = node.Find("standing")) {
-    StandingStill& still = trained.standing;
-    ReadMembers(*standing, &still);
+    const StandingStill& still = trained.standing;
     RequireSize(standing->At("others_move"), still.others_move, size);
     RequireSize(standing->At("resolution"), still.resolution, size);
     RequireSize(standing->At("quiet"), still.quiet, size);
@@ -218,12 +207,8 @@ Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
   if (trained.rows < 2) node.At("rows").Refuse("must be at least 2");
   RequireSize(node.At("mean"), trained.mean, size);
   RequirePositive(node.At("scale"), trained.scale, size);
-  // Older files do not tell.
-  if (const auto repeats = node.Find("repeats")) {
-    trained.repeats = repeats->Vector();
-    if (trained.repeats.size() > 0) {
-      RequireSize(*repeats, trained.repeats, size);
-    }
+  if (trained.repeats.size() > 0) {
+    RequireSize(node.At("repeats"), trained.repeats, size);
   }
   if (trained.sessions) {
     RequirePositive(
@@ -256,17 +241,10 @@ Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
 
 HeldOutErrors ReadHeldOut(const Node& node) {
   HeldOutErrors errors;
-  // Files of before know of no temperature.
-  ReadMembers(node, &errors, {"temperature", "units"});
-  if (const auto column = node.Find("temperature")) {
-    errors.temperature = column->Text();
-  }
+  ReadMembers(node, &errors, {"units"}, {"temperature"});
   for (const Node& element : node.At("units").Elements()) {
     HeldOutErrors::Unit& unit = errors.units.emplace_back();
-    ReadMembers(element, &unit, {"temperature", "predicted"});
-    if (const auto predicted = element.Find("predicted")) {
-      unit.predicted = predicted->Vector();
-    }
+    ReadMembers(element, &unit, {"temperature"}, {"predicted"});
     const Index rows = unit.residuals.size();
     if (rows == 0) element.Refuse("has no residuals");
     RequireSize(element.At("elapsed"), unit.elapsed, rows);
@@ -355,23 +333,18 @@ Json ParseUniqueKeys(const std::string& text) {
                          " twice in one object");
 }
 
-std::optional<LearntRows::Filter> ReadFilter(const Node& node,
-                                             const char* key) {
-  const auto found = node.Find(key);
-  if (!found) return std::nullopt;
-  LearntRows::Filter filter;
-  ReadMembers(*found, &filter);
-  if (filter.bits.empty() ||
-      filter.bits.find_first_not_of("0123456789abcdef") != std::string::npos) {
-    found->At("bits").Refuse("must be hexadecimal digits");
-  }
-  return filter;
-}
-
 LearntRows ReadLearntRows(const Node& node) {
-  LearntRows learnt{.every = node.At("every").Count(),
-                    .measured = ReadFilter(node, "measured"),
-                    .readings = ReadFilter(node, "readings")};
+  LearntRows learnt;
+  ReadMembers(node, &learnt);
+  for (const char* key : {"measured", "readings"}) {
+    const auto filter = node.Find(key);
+    if (!filter) continue;
+    const std::string bits = filter->At("bits").Text();
+    if (bits.empty() ||
+        bits.find_first_not_of("0123456789abcdef") != std::string::npos) {
+      filter->At("bits").Refuse("must be hexadecimal digits");
+    }
+  }
   if (learnt.every < 1) node.At("every").Refuse("must be at least 1");
   return learnt;
 }

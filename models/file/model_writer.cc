@@ -76,15 +76,6 @@ Json ToJson(const Applicability& trained,
   return json;
 }
 
-Json ToJson(const LearntRows& learnt) {
-  const auto filter = [](const std::optional<LearntRows::Filter>& one) {
-    return one ? MembersToJson(*one) : Json();
-  };
-  return {{"every", learnt.every},
-          {"measured", filter(learnt.measured)},
-          {"readings", filter(learnt.readings)}};
-}
-
 Json ToJson(const std::vector<data::ColumnFilter>& where) {
   Json filters = Json::array();
   for (const data::ColumnFilter& filter : where) {
@@ -127,7 +118,7 @@ std::string ModelToJson(const FittedModel& fitted,
                              ? MembersToJson(*fitted.held_out, Rounded)
                              : Json();
   document["learnt"] =
-      fitted.learnt != nullptr ? ToJson(*fitted.learnt) : Json();
+      fitted.learnt != nullptr ? MembersToJson(*fitted.learnt) : Json();
   document["reading"] =
       fitted.reading != nullptr ? MembersToJson(*fitted.reading) : Json();
   document["provenance"] = Json::object();

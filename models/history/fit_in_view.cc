@@ -24,29 +24,25 @@ double HeldOutError(const Dataset& rows,
                     const FitContext& context,
                     const FitRows& fit) {
   const InnerFolds inner = MakeInnerFolds(rows, context);
-  const fitting::FoldCodes& folds = inner.folds;
-  const Index first = folds.first_judged();
-  VectorXd mean_squares(folds.count() - first);
-  VectorXd sizes(folds.count() - first);
-  for (Index fold = first; fold < folds.count(); ++fold) {
+  const std::vector<fitting::FoldCodes::Rows> splits = inner.folds.Splits();
+  VectorXd squares(std::ssize(splits));
+  VectorXd sizes(std::ssize(splits));
+  Index fold = 0;
+  for (const fitting::FoldCodes::Rows& split : splits) {
     if (context.stop != nullptr && context.stop->load()) {
       return stats::kNaN;
     }
-    const fitting::FoldCodes::Rows split = folds.Split(fold);
     const Dataset test = rows.SelectRows(split.test);
     try {
       const FittedModel fitted = fit(rows.SelectRows(split.train), context);
-      mean_squares[fold - first] =
-          (test.target_values() - fitted.Predict(test)).squaredNorm() /
-          static_cast<double>(test.num_rows());
+      squares[fold] =
+          (test.target_values() - fitted.Predict(test)).squaredNorm();
     } catch (const std::invalid_argument&) {
       return stats::kNaN;
     }
-    sizes[fold - first] = static_cast<double>(test.num_rows());
+    sizes[fold++] = static_cast<double>(test.num_rows());
   }
-  return std::sqrt(
-      TypicalError(inner, mean_squares, sizes, context.indifference)
-          .mean_square);
+  return TypicalRmse(inner, squares, sizes, context.indifference);
 }
 
 }  // namespace

@@ -65,15 +65,6 @@ std::vector<std::vector<Index>> RowsOfSessions(const data::SessionLog& log) {
   return rows;
 }
 
-// The time of the first row of every session.
-std::vector<double> StartsOf(const data::SessionLog& log) {
-  std::vector<double> starts;
-  for (const std::vector<Index>& rows : RowsOfSessions(log)) {
-    starts.push_back(rows.empty() ? stats::kNaN : log.time[rows.front()]);
-  }
-  return starts;
-}
-
 double StepOf(const data::SessionLog& log) {
   std::vector<double> steps;
   for (const std::vector<Index>& rows : RowsOfSessions(log)) {
@@ -362,12 +353,11 @@ DerivedInput CosineOf(const data::ColumnInfo& angle) {
 double LatestStart(const data::Dataset& training) {
   if (training.log() == nullptr) return stats::kNaN;
   const data::SessionLog& log = *training.log();
-  const std::vector<double> starts = StartsOf(log);
   double earliest = std::numeric_limits<double>::infinity();
   double latest = -earliest;
-  for (const Index code : training.session_codes()) {
-    earliest = std::min(earliest, starts[static_cast<std::size_t>(code)]);
-    latest = std::max(latest, starts[static_cast<std::size_t>(code)]);
+  for (const std::vector<Index>& rows : RowsOfSessions(training)) {
+    earliest = std::min(earliest, log.time[rows.front()]);
+    latest = std::max(latest, log.time[rows.front()]);
   }
   const double step = StepOf(log);
   // Of the training rows: those of a few probes lie far apart.
@@ -382,9 +372,7 @@ std::vector<RowChange> RowChanges(const data::Dataset& training,
   std::vector<RowChange> changes;
   if (history.time_unit != "rows" || training.log() == nullptr) return changes;
   const data::SessionLog& log = *training.log();
-  const std::vector<std::vector<Index>> sessions = RowsOfSessions(log);
-  const std::vector<Index> codes = training.session_codes();
-  const std::set<Index> seen(codes.begin(), codes.end());
+  const std::vector<std::vector<Index>> sessions = RowsOfSessions(training);
   for (const std::string& name : history.columns()) {
     const bool is_filtered =
         std::ranges::any_of(history.derived, [&](const DerivedInput& input) {
@@ -395,8 +383,7 @@ std::vector<RowChange> RowChanges(const data::Dataset& training,
     double largest = 0.0;
     double sum = 0.0;
     Index steps = 0;
-    for (const Index code : seen) {
-      const std::vector<Index>& rows = sessions[static_cast<std::size_t>(code)];
+    for (const std::vector<Index>& rows : sessions) {
       for (std::size_t i = 1; i < rows.size(); ++i) {
         const double change = std::fabs(column[rows[i]] - column[rows[i - 1]]);
         if (std::isnan(change)) continue;
@@ -415,10 +402,8 @@ std::vector<RowChange> RowChanges(const data::Dataset& training,
 double LongestStep(const data::Dataset& training) {
   if (training.log() == nullptr) return stats::kNaN;
   const data::SessionLog& log = *training.log();
-  const std::vector<std::vector<Index>> sessions = RowsOfSessions(log);
   double longest = 0.0;
-  for (const Index code : training.session_codes()) {
-    const std::vector<Index>& rows = sessions[static_cast<std::size_t>(code)];
+  for (const std::vector<Index>& rows : RowsOfSessions(training)) {
     for (std::size_t i = 1; i < rows.size(); ++i) {
       longest = std::max(longest, log.time[rows[i]] - log.time[rows[i - 1]]);
     }
@@ -465,17 +450,9 @@ MatrixXd DeriveInputs(const data::Dataset& dataset, const History& history) {
 data::Dataset DeriveDataset(const data::Dataset& dataset,
                             const History& history) {
   Derived derived = Derive(dataset, history);
-  data::Dataset::Parts parts{.source = dataset.source(),
-                             .inputs = std::move(derived.columns),
-                             .input_values = std::move(derived.values),
-                             .target = dataset.target(),
-                             .target_values = dataset.target_values(),
-                             .groups = dataset.groups(),
-                             .weights = dataset.weights(),
-                             .rows = dataset.rows(),
-                             .align = dataset.align()};
-  if (dataset.log() == nullptr) return data::Dataset(std::move(parts));
-  parts.log_rows = dataset.log_rows();
+  data::Dataset made =
+      dataset.WithInputs(std::move(derived.columns), std::move(derived.values));
+  if (dataset.log() == nullptr) return made;
   // Derived inputs are not derived again; only sessions and times are needed.
   auto log = std::make_shared<data::SessionLog>();
   log->sessions = dataset.log()->sessions;
@@ -483,8 +460,7 @@ data::Dataset DeriveDataset(const data::Dataset& dataset,
   log->time = dataset.log()->time;
   log->time_unit = dataset.log()->time_unit;
   log->time_column = dataset.log()->time_column;
-  parts.log = std::move(log);
-  return data::Dataset(std::move(parts));
+  return made.WithLog(std::move(log), dataset.log_rows());
 }
 
 }  // namespace errmap::models

@@ -25,24 +25,6 @@ constexpr std::size_t kFewestSessions = 4;
 constexpr double kReadingsWithin = 0.9;
 constexpr double kClockWithin = 0.97;
 
-std::vector<std::vector<Index>> SessionsOfTraining(
-    const data::Dataset& training) {
-  const data::SessionLog& log = *training.log();
-  const std::vector<Index> codes = training.session_codes();
-  const std::set<Index> trained(codes.begin(), codes.end());
-  std::map<Index, std::vector<Index>> rows;
-  Index row = 0;
-  for (const Index code : log.sessions.codes) {
-    if (trained.contains(code)) rows[code].push_back(row);
-    ++row;
-  }
-  std::vector<std::vector<Index>> sessions;
-  for (auto& [code, of_session] : rows) {
-    sessions.push_back(std::move(of_session));
-  }
-  return sessions;
-}
-
 // Each reading less the mean of them all.
 VectorXd Differences(const data::SessionLog& log,
                      Index row,
@@ -174,9 +156,26 @@ void LearnClock(const data::SessionLog& log,
 
 }  // namespace
 
+std::vector<std::vector<Index>> RowsOfSessions(const data::Dataset& training) {
+  const data::SessionLog& log = *training.log();
+  const std::vector<Index> codes = training.session_codes();
+  const std::set<Index> trained(codes.begin(), codes.end());
+  std::map<Index, std::vector<Index>> rows;
+  Index row = 0;
+  for (const Index code : log.sessions.codes) {
+    if (trained.contains(code)) rows[code].push_back(row);
+    ++row;
+  }
+  std::vector<std::vector<Index>> sessions;
+  for (auto& [code, of_session] : rows) {
+    sessions.push_back(std::move(of_session));
+  }
+  return sessions;
+}
+
 void LearnStarts(const data::Dataset& training, History* history) {
   if (training.log() == nullptr || !history->needs_sessions()) return;
-  const std::vector<std::vector<Index>> sessions = SessionsOfTraining(training);
+  const std::vector<std::vector<Index>> sessions = RowsOfSessions(training);
   if (sessions.size() < kFewestSessions) return;
   LearnReadings(*training.log(), sessions, training, history);
   LearnClock(*training.log(), sessions, history);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "data/measurements/dataset.h"
@@ -15,6 +17,10 @@ namespace errmap::models {
 // its change within sessions over the spread of its starts, scaled so that the
 // mean row of training has z = 1. Starts left out of w and mean give the limit.
 // The second indicator is the time of day.
+
+/// Returns the rows of the log of each session of these rows, which have one.
+std::vector<std::vector<Eigen::Index>> RowsOfSessions(
+    const data::Dataset& training);
 
 /// Fills start_readings, start_limit, start_clock and start_clock_late of a
 /// history whose other members are set, from the sessions of these rows. Fewer

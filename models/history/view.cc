@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "data/text.h"
+#include "models/history/session_start.h"
 #include "models/history/view_options.h"
 #include "models/shared_work.h"
 #include "stats/not_a_number.h"
@@ -179,21 +180,10 @@ std::vector<bool> ColumnsThatOnlyGrow(const Dataset& rows) {
 std::vector<double> MakeTimeConstants(const Dataset& training) {
   if (training.log() == nullptr) return {};
   const data::SessionLog& log = *training.log();
-  const std::vector<Index> codes = training.session_codes();
-  const std::set<Index> trained(codes.begin(), codes.end());
-  std::map<Index, std::pair<double, double>> spans;
-  for (std::size_t row = 0; row < log.sessions.codes.size(); ++row) {
-    const Index session = log.sessions.codes[row];
-    if (!trained.contains(session)) continue;
-    const double time = log.time[static_cast<Index>(row)];
-    const auto [span, is_new] = spans.try_emplace(session, time, time);
-    if (is_new) continue;
-    span->second.first = std::min(span->second.first, time);
-    span->second.second = std::max(span->second.second, time);
-  }
   std::vector<double> lengths;
-  for (const auto& [session, span] : spans) {
-    lengths.push_back(span.second - span.first);
+  for (const std::vector<Index>& rows : RowsOfSessions(training)) {
+    const Eigen::VectorXd times = log.time(rows);
+    lengths.push_back(times.maxCoeff() - times.minCoeff());
   }
   if (lengths.empty()) return {};
   const double typical = stats::UpperMedian(std::move(lengths));

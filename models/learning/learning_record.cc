@@ -53,34 +53,6 @@ LearningCurvesRecord MakeRecord(const LearningPlan& plan,
   return record;
 }
 
-SensorCurveRecord MakeRecord(const SensorCurve& curve) {
-  SensorCurveRecord record{.held_out = curve.unit,
-                           .view = std::string(ToString(curve.view)),
-                           .points = {},
-                           .all = {curve.all_sensors, curve.all_rmse},
-                           .enough = {},
-                           .chosen = {}};
-  for (const SensorCurve::Point& point : curve.points) {
-    record.points.push_back({point.sensors, point.rmse});
-  }
-  if (curve.enough >= 0) record.enough = curve.enough;
-  for (const SensorCurve::Chosen& chosen : curve.chosen) {
-    record.chosen.push_back({chosen.sensor,
-                             chosen.stability,
-                             chosen.replaced_cost,
-                             chosen.substitutes});
-  }
-  return record;
-}
-
-std::vector<NextStateRecord> MakeRecord(const std::vector<NextState>& chosen) {
-  std::vector<NextStateRecord> records;
-  for (const NextState& state : chosen) {
-    records.push_back({state.candidate, state.variance_left, state.distance});
-  }
-  return records;
-}
-
 LearningRecord LearningFromJsonText(std::string_view text) {
   return RecordFromText<LearningRecord>(
       text,

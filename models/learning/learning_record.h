@@ -50,33 +50,6 @@ struct LearningCurvesRecord {
   std::vector<LearningModelRecord> models;
 };
 
-struct SensorPointRecord {
-  std::int64_t sensors = 0;
-  double rmse = kNotKnown;
-};
-
-struct ChosenSensorRecord {
-  std::string sensor;
-  double stability = kNotKnown;
-  double replaced_cost = kNotKnown;
-  std::vector<std::string> substitutes;
-};
-
-struct SensorCurveRecord {
-  std::string held_out;
-  std::string view;  // raw, history, zero, history+zero
-  std::vector<SensorPointRecord> points;
-  SensorPointRecord all;
-  std::optional<std::int64_t> enough;
-  std::vector<ChosenSensorRecord> chosen;
-};
-
-struct NextStateRecord {
-  std::int64_t row = 0;  // of the candidates
-  double variance_left = kNotKnown;
-  double distance = kNotKnown;
-};
-
 struct LearningSourceRecord {
   std::vector<InputFileRecord> inputs;
 };
@@ -94,8 +67,8 @@ struct LearningRecord {
   std::string unit;
   std::optional<std::string> by;  // one of kLearntBy
   std::optional<LearningCurvesRecord> curves;
-  std::optional<SensorCurveRecord> sensors;
-  std::optional<std::vector<NextStateRecord>> next;
+  std::optional<SensorCurve> sensors;
+  std::optional<std::vector<NextState>> next;
   /// Read back only in part: what a reader needs.
   LeftOut<LearningSourceRecord> provenance;
 };
@@ -104,8 +77,6 @@ struct LearningRecord {
 LearningCurvesRecord MakeRecord(const LearningPlan& plan,
                                 const std::vector<LearningCurve>& curves,
                                 double goal);
-SensorCurveRecord MakeRecord(const SensorCurve& curve);
-std::vector<NextStateRecord> MakeRecord(const std::vector<NextState>& chosen);
 
 /// Reads a file of errmap learn. Throws data::InputError if the text is not
 /// JSON or of another schema.

@@ -121,7 +121,7 @@ std::vector<NextState> ChooseNext(const data::Dataset& measured,
             .rowwise()
             .norm();
     chosen.push_back(
-        {.candidate = best,
+        {.row = best,
          .variance_left = MeanVariance(information, products) / before,
          .distance = distances.minCoeff()});
   }

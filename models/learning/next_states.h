@@ -10,7 +10,7 @@ namespace errmap::models {
 
 /// A candidate state to measure next.
 struct NextState {
-  Eigen::Index candidate = 0;  // row of the candidates
+  Eigen::Index row = 0;  // of the candidates
   /// Mean prediction variance over all rows, measured and candidate, after this
   /// and all earlier choices, divided by that before any of them.
   double variance_left = 1.0;

@@ -436,10 +436,10 @@ SensorCurve LearnSensors(const data::Dataset& dataset,
   const InnerFolds outer = MakeInnerFolds(dataset, {});
   const Design design = BestDesign(dataset, outer.folds);
   SensorCurve curve;
-  curve.view = design.view;
-  curve.unit = outer.text;
-  curve.all_sensors = static_cast<Index>(design.names.size());
-  const Index most = std::min(search.most_sensors, curve.all_sensors);
+  curve.view = ToString(design.view);
+  curve.held_out = outer.text;
+  curve.all.sensors = static_cast<Index>(design.names.size());
+  const Index most = std::min(search.most_sensors, curve.all.sensors);
   const std::vector<Index> all_rows = stats::AllIndices(dataset.num_rows());
   const Training of_all = TrainingOf(design, all_rows, outer.folds);
 
@@ -474,16 +474,14 @@ SensorCurve LearnSensors(const data::Dataset& dataset,
   const VectorXd rmse =
       (squares.rowwise().sum() / static_cast<double>(dataset.num_rows()))
           .cwiseSqrt();
-  curve.all_rmse = rmse[most + 1];
+  curve.all.rmse = rmse[most + 1];
   for (Index k = 0; k <= most; ++k) {
     curve.points.push_back({k, rmse[k]});
-    if (curve.enough < 0 &&
-        rmse[k] <= SensorCurve::kTolerance * curve.all_rmse) {
+    if (!curve.enough && rmse[k] <= SensorCurve::kTolerance * curve.all.rmse) {
       curve.enough = k;
     }
   }
-  const auto number =
-      static_cast<std::size_t>(curve.enough >= 0 ? curve.enough : most);
+  const auto number = static_cast<std::size_t>(curve.enough.value_or(most));
   const std::vector<Index> chosen = choices.back()[number];
   choices.pop_back();
   for (std::size_t i = 0; i < chosen.size(); ++i) {

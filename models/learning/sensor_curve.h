@@ -2,13 +2,13 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "data/measurements/dataset.h"
-#include "models/history/view.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::models {
@@ -21,11 +21,11 @@ namespace errmap::models {
 struct SensorCurve {
   struct Point {
     Eigen::Index sensors = 0;
-    double rmse = 0.0;  // held out, target's unit
+    double rmse = stats::kNaN;  // held out, target's unit
   };
   struct Chosen {
     std::string sensor;
-    double stability = 0.0;  // share of outer folds that also choose it
+    double stability = stats::kNaN;  // share of outer folds that also choose it
     /// Rise of the held-out error if the best of all others replaces it.
     /// Sensors that read alike replace each other at no cost. NaN if there is
     /// no other.
@@ -37,14 +37,13 @@ struct SensorCurve {
   /// Errors within this factor of each other count as equal.
   static constexpr double kTolerance = 1.05;
 
-  View view = View::kRaw;
-  std::string unit;           // the units held out whole: "day"
+  std::string held_out;       // "sessions:5 of day"
+  std::string view;           // raw, history, zero, history+zero
   std::vector<Point> points;  // 0, 1, 2, ... chosen sensors
-  double all_rmse = 0.0;      // with every sensor
-  Eigen::Index all_sensors = 0;
-  /// Fewest sensors with at most kTolerance times the error of all; -1 if no
+  Point all;
+  /// Fewest sensors with at most kTolerance times the error of all; empty if no
   /// point reaches it.
-  Eigen::Index enough = -1;
+  std::optional<Eigen::Index> enough;
   /// As many sensors as `enough`, or else as `points` has, chosen from all
   /// rows.
   std::vector<Chosen> chosen;

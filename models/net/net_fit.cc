@@ -37,28 +37,6 @@ double SquaresOn(const Dataset& test,
       .squaredNorm();
 }
 
-std::vector<fitting::FoldCodes::Rows> SplitsOf(const InnerFolds& inner) {
-  std::vector<fitting::FoldCodes::Rows> splits;
-  const fitting::FoldCodes& folds = inner.folds;
-  for (Index fold = folds.first_judged(); fold < folds.count(); ++fold) {
-    splits.push_back(folds.Split(fold));
-  }
-  return splits;
-}
-
-// RMSE of all folds together from the squares of each (NaN: no fit) and its
-// number of rows.
-double PooledRmse(const InnerFolds& inner,
-                  const Eigen::VectorXd& squares,
-                  const Eigen::VectorXd& rows,
-                  const FitContext& context) {
-  return std::sqrt(TypicalError(inner,
-                                (squares.array() / rows.array()).matrix(),
-                                rows,
-                                context.indifference)
-                       .mean_square);
-}
-
 bool IsStopped(const FitContext& context) {
   return context.stop != nullptr && context.stop->load();
 }
@@ -236,7 +214,7 @@ std::vector<double> InnerHoldoutRmse(const NetDesign& design,
                                      const InnerFolds& folds,
                                      const std::vector<NetTrial>& trials,
                                      const FitContext& context) {
-  const std::vector<fitting::FoldCodes::Rows> split = SplitsOf(folds);
+  const std::vector<fitting::FoldCodes::Rows> split = folds.folds.Splits();
   const auto count = static_cast<Index>(split.size());
   Eigen::VectorXd rows(count);
   for (Index fold = 0; fold < count; ++fold) {
@@ -256,7 +234,8 @@ std::vector<double> InnerHoldoutRmse(const NetDesign& design,
       });
   std::vector<double> rmse;
   for (Index trial = 0; trial < squares.cols(); ++trial) {
-    rmse.push_back(PooledRmse(folds, squares.col(trial), rows, context));
+    rmse.push_back(
+        TypicalRmse(folds, squares.col(trial), rows, context.indifference));
   }
   return rmse;
 }
@@ -280,7 +259,7 @@ WfactorWalk::WfactorWalk(const NetDesign& design,
       context_(context),
       seed_(seed),
       warm_(warm) {
-  for (const fitting::FoldCodes::Rows& split : SplitsOf(folds)) {
+  for (const fitting::FoldCodes::Rows& split : folds.folds.Splits()) {
     Fold fold{.rows = std::nullopt,
               .test = training.SelectRows(split.test),
               .weights = {}};
@@ -319,7 +298,7 @@ double WfactorWalk::Step(double wfactor) {
     squares[fold] = from.squares;
     rows[fold] = static_cast<double>(from.test.num_rows());
   }
-  return PooledRmse(inner_, squares, rows, context_);
+  return TypicalRmse(inner_, squares, rows, context_.indifference);
 }
 
 std::vector<fitting::Minimum> TrainFromStarts(

@@ -72,16 +72,12 @@ const NetKernels<Scalar>& WantedNetKernels() {
 
 }  // namespace
 
-template <>
-const NetKernels<double>& FastestNetKernels<double>() {
-  static const NetKernels<double>& kernels = WantedNetKernels<double>();
+template <typename Scalar>
+const NetKernels<Scalar>& FastestNetKernels() {
+  static const NetKernels<Scalar>& kernels = WantedNetKernels<Scalar>();
   return kernels;
 }
-
-template <>
-const NetKernels<float>& FastestNetKernels<float>() {
-  static const NetKernels<float>& kernels = WantedNetKernels<float>();
-  return kernels;
-}
+template const NetKernels<double>& FastestNetKernels();
+template const NetKernels<float>& FastestNetKernels();
 
 }  // namespace errmap::models

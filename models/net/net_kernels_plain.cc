@@ -130,8 +130,10 @@ void Backward(BlockSize size,
   }
 }
 
+}  // namespace
+
 template <typename Scalar>
-const NetKernels<Scalar>& Kernels() {
+const NetKernels<Scalar>& PlainNetKernels() {
   static const NetKernels<Scalar> kernels = {"plain",
                                              Activate<Scalar>,
                                              AddProducts<Scalar>,
@@ -144,16 +146,7 @@ const NetKernels<Scalar>& Kernels() {
   return kernels;
 }
 
-}  // namespace
-
-template <>
-const NetKernels<double>& PlainNetKernels<double>() {
-  return Kernels<double>();
-}
-
-template <>
-const NetKernels<float>& PlainNetKernels<float>() {
-  return Kernels<float>();
-}
+template const NetKernels<double>& PlainNetKernels();
+template const NetKernels<float>& PlainNetKernels();
 
 }  // namespace errmap::models

@@ -17,7 +17,6 @@
 #include "models/net/net_options.h"
 #include "models/net/net_trainer.h"
 #include "models/net/net_tuning.h"
-#include "models/net/net_wfactor.h"
 #include "models/net/training_sample.h"
 #include "models/option_list.h"
 #include "models/shared_work.h"

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "models/out_of_reach.h"
+#include "models/inner_folds.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::models {
@@ -80,9 +80,8 @@ class Tuner {
         along_path_(tuning.along_path),
         hopeless_(kOutOfReach * tuning.rival) {
     Index rows = training.num_rows();
-    const fitting::FoldCodes& folds = inner_.folds;
-    for (Index fold = folds.first_judged(); fold < folds.count(); ++fold) {
-      rows = std::min(rows, static_cast<Index>(folds.Split(fold).train.size()));
+    for (const fitting::FoldCodes::Rows& split : inner_.folds.Splits()) {
+      rows = std::min(rows, static_cast<Index>(split.train.size()));
     }
     hidden_to_try_ = HiddenToTry(rows);
   }
@@ -232,6 +231,27 @@ class Tuner {
   Scores<std::int64_t> by_iterations_;
 };
 
+// Continues a fit ended by a limit until another run lowers the cost by at most
+// a hundredth. Otherwise its misfit would depend on the length of the run
+// instead of on alpha.
+fitting::Minimum TrainUntilSettled(const NetTrainer& trainer,
+                                   const fitting::RunControl& run,
+                                   NetTraining* training) {
+  constexpr int kMostRuns = 20;
+  constexpr double kSettled = 0.99;
+  fitting::Minimum minimum = trainer.Train(*training, run);
+  for (int i = 1; i < kMostRuns; ++i) {
+    if (minimum.summary.termination != fitting::Termination::kIterationLimit) {
+      break;
+    }
+    const double before = minimum.summary.final_cost;
+    training->initial_weights = minimum.x;
+    minimum = trainer.Train(*training, run);
+    if (!(minimum.summary.final_cost < kSettled * before)) break;
+  }
+  return minimum;
+}
+
 }  // namespace
 
 std::vector<std::int64_t> HiddenToTry(Index rows) {
@@ -262,6 +282,26 @@ TunedNet TuneNet(const NetDesign& design,
   }
   if (tuning.wfactor && trainers.brief) tuner.ChooseIterations();
   return tuner.Result(tuning);
+}
+
+fitting::DiscrepancyChoice ChooseWfactorByDiscrepancy(
+    const NetRows& rows,
+    const NetTrainer& trainer,
+    double delta,
+    const FitContext& context) {
+  const fitting::RunControl run{.stop = context.stop,
+                                .keep_trace = context.keep_trace};
+  NetTraining training = rows.From(context.seed, 0.0);
+  const Eigen::VectorXd start = training.initial_weights;
+  return fitting::ChooseByDiscrepancy(
+      {.delta = delta},
+      start,
+      [&](double wfactor, const Eigen::VectorXd& from) {
+        training.wfactor = wfactor;
+        training.initial_weights = from;
+        return TrainUntilSettled(trainer, run, &training);
+      },
+      [&](const Eigen::VectorXd& w) { return rows.TrainingRms(w); });
 }
 
 }  // namespace errmap::models

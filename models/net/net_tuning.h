@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "fitting/minimisers/discrepancy_principle.h"
 #include "models/net/net_fit.h"
 
 namespace errmap::models {
@@ -17,7 +18,7 @@ struct NetTuning {
   bool wfactor = false;  // else the one below
   double fixed_wfactor = 0.0;
   bool along_path = false;  // true: fits TrainAlong WfactorPathTo
-  /// RMSE of a rival (out_of_reach.h).
+  /// RMSE of a rival (kOutOfReach).
   double rival = std::numeric_limits<double>::infinity();
 };
 
@@ -83,5 +84,13 @@ TunedNet TuneNet(const NetDesign& design,
 
 /// Returns the wfactors of a fit at `wfactor`: the path to it, or only itself.
 std::vector<double> WfactorsOf(double wfactor, bool along_path);
+
+/// Returns the largest wfactor whose fit has an RMS residual of at most
+/// `delta`, in the target's unit, on the training rows.
+fitting::DiscrepancyChoice ChooseWfactorByDiscrepancy(
+    const NetRows& rows,
+    const NetTrainer& trainer,
+    double delta,
+    const FitContext& context);
 
 }  // namespace errmap::models

@@ -11,7 +11,7 @@
 #include "models/polynomial/polynomial_options.h"
 #include "models/polynomial/selection_bootstrap.h"
 #include "models/polynomial/term_dictionary.h"
-#include "models/regression_report.h"
+#include "models/regression_record.h"
 
 namespace errmap::models {
 namespace {
@@ -69,7 +69,7 @@ class BestSubsetRecipe final : public PolynomialRecipe {
                                   context.stop);
     const UsedTerms used =
         KeepUsedInputs(dictionary.design.terms(), best.chosen);
-    RegressionReport report;
+    RegressionRecord report;
     if (context.explain) {
       report.method = fmt::format(
           "best of all subsets of {} terms up to degree {} by {} ({} of 2^{} "
@@ -79,10 +79,11 @@ class BestSubsetRecipe final : public PolynomialRecipe {
           ToString(rules_.criterion),
           best.nodes,
           dictionary.NumOpen());
-      report.selected = true;
       report.candidates = dictionary.design.num_terms();
+      LeastSquaresRecord& fit = report.least_squares.value.emplace();
+      fit.after_selection = true;
       ReportExcluded(
-          dictionary, rows, best.chosen, rules_.collinearity, context, &report);
+          dictionary, rows, best.chosen, rules_.collinearity, context, &fit);
       Bootstrap(dictionary, rows, best, context, &report);
     }
     FittedModel fitted = FitTerms(
@@ -115,15 +116,15 @@ class BestSubsetRecipe final : public PolynomialRecipe {
                  const DesignRows& rows,
                  const fitting::BestSubsetResult& best,
                  const FitContext& context,
-                 RegressionReport* report) const {
+                 RegressionRecord* report) const {
     const auto repetitions = static_cast<int>(options_.bootstrap);
     if (repetitions == 0 || !rows.are_observations()) return;
-    report->bootstrap = repetitions;
     ReportInclusion(
         dictionary,
         rows,
         dictionary.design.dataset().groups().codes,
         best.chosen,
+        repetitions,
         [&](const fitting::SelectionProblem& drawn) {
           return fitting::SelectBestSubset(drawn,
                                            dictionary.include,

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "models/history/view_options.h"
-#include "models/out_of_reach.h"
+#include "models/inner_folds.h"
 #include "models/polynomial/term_dictionary.h"
 #include "models/shared_work.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "models/history/with_history.h"
-#include "models/out_of_reach.h"
+#include "models/inner_folds.h"
 #include "models/polynomial/polynomial_fit.h"
 #include "models/polynomial/polynomial_model.h"
 #include "stats/not_a_number.h"

@@ -11,7 +11,7 @@
 #include "models/polynomial/polynomial_fit.h"
 #include "models/polynomial/polynomial_options.h"
 #include "models/polynomial/term_dictionary.h"
-#include "models/regression_report.h"
+#include "models/regression_record.h"
 
 namespace errmap::models {
 namespace {
@@ -98,7 +98,7 @@ class PenalizedRecipe final : public PolynomialRecipe {
     if (options_.family == Penalty::kLasso) {
       fitted.remarks.push_back("chosen: " + ChosenNames(design, chosen));
     }
-    if (context.explain) Explain(training, design, best, over, &fitted);
+    if (context.explain) Explain(design, best, over, &fitted);
     return fitted;
   }
 
@@ -115,12 +115,11 @@ class PenalizedRecipe final : public PolynomialRecipe {
     return chosen.empty() ? "none" : chosen;
   }
 
-  void Explain(const Dataset& training,
-               const PolynomialDesign& design,
+  void Explain(const PolynomialDesign& design,
                const BasisCandidate& best,
                const std::string& over,
                FittedModel* fitted) const {
-    auto report = std::make_shared<RegressionReport>();
+    auto report = std::make_shared<RegressionRecord>();
     const PenalizedCandidate& fit = best.fit->candidate;
     report->method = fmt::format(
         "{} over {} terms up to degree {}, penalty {:.6g}{} on columns of "
@@ -130,32 +129,23 @@ class PenalizedRecipe final : public PolynomialRecipe {
         best.degree,
         fit.strength,
         over.empty() ? "" : " by cross-validation over " + over);
-    report->penalised = true;
-    report->weighted = training.weights().size() != 0;
     report->candidates = design.num_terms();
-    report->cross_validation = over;
-    report->strength = fit.strength;
-    report->degrees_of_freedom = fit.degrees_of_freedom;
-    report->strengths = fit.strengths;
-    report->mean_squared_errors = fit.mean_squared_errors;
-    report->standard_errors = fit.standard_errors;
-    // The table needs estimates only, so the fit is filled by hand.
-    const Eigen::VectorXd residual =
-        training.target_values() - fitted->Predict(training);
-    report->fit.observations = static_cast<double>(design.rows());
-    report->fit.residual_sum_of_squares =
-        report->weighted ? residual.cwiseAbs2().dot(training.weights())
-                         : residual.squaredNorm();
-    report->fit.intercept.estimate = fit.intercept;
-    report->fit.coefficients.resize(
-        static_cast<std::size_t>(fit.coefficients.size()));
-    for (Index j = 0; j < fit.coefficients.size(); ++j) {
-      report->fit.coefficients[static_cast<std::size_t>(j)].estimate =
-          fit.coefficients[j];
+    report->penalised.value = PenaltyRecord{
+        .penalty = fit.strength,
+        .effective_parameters = fit.degrees_of_freedom,
+        .cross_validation = {.holdout = over,
+                             .penalty = fit.strengths,
+                             .mse = fit.mean_squared_errors,
+                             .standard_error = fit.standard_errors}};
+    // The table needs estimates only.
+    fitting::RegressionDiagnostics estimates;
+    estimates.intercept.estimate = fit.intercept;
+    for (const double estimate : fit.coefficients) {
+      estimates.coefficients.push_back({.estimate = estimate});
     }
-    FillCoefficientTable(design, report.get());
-    std::erase_if(report->terms, [](const ReportTerm& term) {
-      return term.numbers.estimate == 0.0;
+    FillCoefficientTable(design, estimates, report.get());
+    std::erase_if(report->coefficients, [](const CoefficientRecord& line) {
+      return line.of_term.value && line.estimate == 0.0;
     });
     fitted->regression = std::move(report);
   }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -25,9 +26,10 @@ using Eigen::VectorXd;
 constexpr Index kRowsAtATime = 4096;
 
 // The terms that the solution left out, with a word on why for the first.
-std::vector<AliasReport> NameAliased(const std::vector<std::string>& names,
-                                     const DesignRows& rows,
-                                     const fitting::LeastSquaresFit& solution) {
+std::vector<AliasedRecord> NameAliased(
+    const std::vector<std::string>& names,
+    const DesignRows& rows,
+    const fitting::LeastSquaresFit& solution) {
   constexpr std::size_t kMostExplained = 10;
   std::vector<Index> kept;
   std::vector<std::string> kept_names;
@@ -40,7 +42,7 @@ std::vector<AliasReport> NameAliased(const std::vector<std::string>& names,
     kept_names.push_back(names[static_cast<std::size_t>(j)]);
   }
   const MatrixXd others = rows.terms(Eigen::all, kept);
-  std::vector<AliasReport> aliased;
+  std::vector<AliasedRecord> aliased;
   for (const Index column : solution.aliased) {
     const Index term = column - 1;
     if (term < 0) continue;  // there is no intercept
@@ -143,6 +145,42 @@ Solved Solve(const PolynomialDesign& design,
     return solved;
   }
   return SolveRows(design, form_options, context);
+}
+
+void FillLeastSquares(const fitting::RegressionDiagnostics& fit,
+                      const fitting::RowDiagnostics& rows,
+                      LeastSquaresRecord* record) {
+  record->anova = {.regression_df = fit.regression_degrees_of_freedom(),
+                   .regression_ss = fit.regression_sum_of_squares,
+                   .residual_df = fit.residual_degrees_of_freedom,
+                   .residual_ss = fit.residual_sum_of_squares,
+                   .total_ss = fit.total_sum_of_squares,
+                   .f = fit.f,
+                   .p = fit.f_p};
+  record->s = fit.s;
+  record->r2 = fit.r2;
+  record->adjusted_r2 = fit.adjusted_r2;
+  record->press = rows.press;
+  record->predicted_r2 = rows.PredictedR2(fit);
+  record->rows_of_leverage_1 = rows.leverage_one;
+  record->largest_residual = rows.largest_residual;
+  record->largest_residual_row = rows.largest_residual_row;
+  record->largest_leverage = rows.largest_leverage;
+  record->condition = fit.condition;
+  record->effective_rank = fit.effective_rank;
+  record->bits = fit.bits;
+}
+
+CoefficientRecord CoefficientOf(const std::string& term,
+                                const fitting::CoefficientEstimate& fit,
+                                double factor) {
+  return {.term = term,
+          .estimate = factor * fit.estimate,
+          .standard_error = factor * fit.standard_error,
+          .t = fit.t,
+          .p = fit.p,
+          .ci95 = {factor * fit.lower, factor * fit.upper},
+          .of_term = {}};
 }
 
 // Result of fitting terms.
@@ -270,7 +308,7 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
                                        const std::vector<TermPowers>& terms,
                                        const FitContext& context,
                                        const FormOptions& form_options,
-                                       RegressionReport* report) const {
+                                       RegressionRecord* report) const {
   const Index coefficients =
       static_cast<Index>(terms.size()) + (form_options.intercept ? 1 : 0);
   if (training.num_rows() < coefficients) {
@@ -310,22 +348,25 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
       std::make_shared<PolynomialModel>(std::move(form), solution.rank);
 
   if (context.explain) {
-    auto complete = std::make_shared<RegressionReport>();
+    auto complete = std::make_shared<RegressionRecord>();
     if (report != nullptr) *complete = std::move(*report);
     if (complete->method.empty()) complete->method = "least squares";
-    complete->fit = fitting::Diagnose(ProblemOf(rows), solution);
-    complete->rows = JudgeRows(design, complete->fit);
-    complete->weighted = training.weights().size() != 0;
-    FillCoefficientTable(design, complete.get());
-    for (AliasReport& alias : NameAliased(design.TermNames(), rows, solution)) {
-      complete->aliased.push_back(std::move(alias));
+    const fitting::RegressionDiagnostics fit =
+        fitting::Diagnose(ProblemOf(rows), solution);
+    FillCoefficientTable(design, fit, complete.get());
+    auto& of_rows = complete->least_squares.value;
+    if (!of_rows) of_rows.emplace();
+    FillLeastSquares(fit, JudgeRows(design, fit), &*of_rows);
+    for (AliasedRecord& alias :
+         NameAliased(design.TermNames(), rows, solution)) {
+      of_rows->aliased.push_back(std::move(alias));
     }
     constexpr double kWorthSaying = 1e8;
-    if (complete->fit.condition > kWorthSaying) {
+    if (fit.condition > kWorthSaying) {
       fitted.remarks.push_back(fmt::format(
           "condition number {:.2g}: single coefficients follow the last digits "
           "of the data; trust predictions inside the data only",
-          complete->fit.condition));
+          fit.condition));
     }
     fitted.regression = std::move(complete);
   }
@@ -354,15 +395,15 @@ std::string WhyAliased(const VectorXd& column,
 }
 
 void FillCoefficientTable(const PolynomialDesign& design,
-                          RegressionReport* report) {
+                          const fitting::RegressionDiagnostics& fit,
+                          RegressionRecord* report) {
   const std::vector<std::string> names = design.TermNames();
-  report->intercept.name = "(intercept)";
-  report->intercept.numbers = report->fit.intercept;
-  std::vector<double> inclusion;
-  for (const ReportTerm& term : report->terms) {
-    inclusion.push_back(term.inclusion);
+  const std::vector<CoefficientRecord> known =
+      std::exchange(report->coefficients, {});
+  if (fit.has_intercept) {
+    report->coefficients.push_back(
+        CoefficientOf("(intercept)", fit.intercept, 1.0));
   }
-  report->terms.clear();
   for (std::size_t i = 0; i < names.size(); ++i) {
     // From scaled inputs to the inputs' units: a factor per power.
     double factor = 1.0;
@@ -370,13 +411,12 @@ void FillCoefficientTable(const PolynomialDesign& design,
       factor *= std::pow(design.scaling().scale[static_cast<Index>(input)],
                          design.terms()[i][input]);
     }
-    ReportTerm term{names[i], report->fit.coefficients[i]};
-    term.numbers.estimate *= factor;
-    term.numbers.standard_error *= factor;
-    term.numbers.lower *= factor;
-    term.numbers.upper *= factor;
-    if (i < inclusion.size()) term.inclusion = inclusion[i];
-    report->terms.push_back(std::move(term));
+    const fitting::CoefficientEstimate& estimate = fit.coefficients[i];
+    report->coefficients.push_back(CoefficientOf(names[i], estimate, factor));
+    TermRecord& term = report->coefficients.back().of_term.value.emplace();
+    if (i < known.size()) term = *known[i].of_term.value;
+    term.standardised = estimate.standardised;
+    term.vif = estimate.vif;
   }
   report->centres.clear();
   for (std::size_t i = 0; i < design.inputs().size(); ++i) {

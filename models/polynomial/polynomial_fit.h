@@ -3,9 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "fitting/least_squares/regression_diagnostics.h"
 #include "models/error_model.h"
 #include "models/polynomial/polynomial_design.h"
-#include "models/regression_report.h"
+#include "models/regression_record.h"
 
 namespace errmap::models {
 
@@ -42,7 +43,7 @@ class PolynomialRecipe : public ModelRecipe {
                        const std::vector<TermPowers>& terms,
                        const FitContext& context,
                        const FormOptions& form_options = {},
-                       RegressionReport* report = nullptr) const;
+                       RegressionRecord* report = nullptr) const;
 
  private:
   std::string name_;
@@ -66,9 +67,11 @@ std::string WhyAliased(const Eigen::VectorXd& column,
                        const std::vector<std::string>& names,
                        const Eigen::VectorXd& intercept);
 
-/// Returns the lines of the coefficient table in the inputs' own units, and
-/// their centres; `fit` is in scaled terms.
+/// Fills the lines of the coefficient table in the inputs' own units, and
+/// their centres; `fit` is in scaled terms. Keeps the bootstrap inclusions of
+/// lines that `report` already has, one for each term.
 void FillCoefficientTable(const PolynomialDesign& design,
-                          RegressionReport* report);
+                          const fitting::RegressionDiagnostics& fit,
+                          RegressionRecord* report);
 
 }  // namespace errmap::models

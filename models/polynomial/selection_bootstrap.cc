@@ -4,7 +4,7 @@
 #include <mutex>
 
 #include "fitting/parallel_for.h"
-#include "models/regression_report.h"
+#include "models/regression_record.h"
 #include "stats/not_a_number.h"
 #include "stats/random.h"
 
@@ -74,25 +74,28 @@ void ReportInclusion(const TermDictionary& dictionary,
                      const DesignRows& rows,
                      const std::vector<Index>& units,
                      const std::vector<Index>& chosen,
+                     int repetitions,
                      const ChooseTerms& choose,
                      const FitContext& context,
-                     RegressionReport* report) {
+                     RegressionRecord* report) {
   const data::Dataset& training = dictionary.design.dataset();
-  report->bootstrap_unit =
-      training.has_groups() ? training.groups().column : "row";
+  LeastSquaresRecord& fit = *report->least_squares.value;
+  fit.bootstrap = {
+      .repetitions = repetitions,
+      .unit = training.has_groups() ? training.groups().column : "row"};
   const VectorXd shares =
-      BootstrapInclusion(rows, units, report->bootstrap, choose, context);
-  report->terms.resize(chosen.size());
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    report->terms[i].inclusion = shares[chosen[i]];
+      BootstrapInclusion(rows, units, repetitions, choose, context);
+  for (const Index term : chosen) {
+    report->coefficients.emplace_back().of_term.value =
+        TermRecord{.bootstrap_inclusion = shares[term]};
   }
   const std::vector<std::string> names = dictionary.design.TermNames();
   std::map<std::string, double> share_of;
   for (std::size_t j = 0; j < names.size(); ++j) {
     share_of[names[j]] = shares[static_cast<Index>(j)];
   }
-  for (ExcludedReport& excluded : report->excluded) {
-    excluded.inclusion = share_of[excluded.name];
+  for (ExcludedRecord& excluded : fit.excluded) {
+    excluded.bootstrap_inclusion = share_of[excluded.term];
   }
 }
 

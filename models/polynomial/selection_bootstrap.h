@@ -12,16 +12,17 @@ namespace errmap::models {
 using ChooseTerms = std::function<std::vector<Eigen::Index>(
     const fitting::SelectionProblem& problem)>;
 
-/// Reports the share of `report->bootstrap` repetitions in which each candidate
-/// is chosen, for `chosen` and for those that are not. Each repetition draws
-/// rows with replacement, or whole groups where there are groups: those of
-/// `units` (r); draws enter as weights. NaN if interrupted.
+/// Reports the share of `repetitions` in which each candidate is chosen, for
+/// `chosen` (as lines of the coefficient table) and for the excluded ones. Each
+/// repetition draws rows with replacement, or whole groups where there are
+/// groups: those of `units` (r); draws enter as weights. NaN if interrupted.
 void ReportInclusion(const TermDictionary& dictionary,
                      const DesignRows& rows,
                      const std::vector<Eigen::Index>& units,
                      const std::vector<Eigen::Index>& chosen,
+                     int repetitions,
                      const ChooseTerms& choose,
                      const FitContext& context,
-                     RegressionReport* report);
+                     RegressionRecord* report);
 
 }  // namespace errmap::models

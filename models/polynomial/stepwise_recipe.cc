@@ -14,7 +14,7 @@
 #include "models/polynomial/polynomial_options.h"
 #include "models/polynomial/selection_bootstrap.h"
 #include "models/polynomial/term_dictionary.h"
-#include "models/regression_report.h"
+#include "models/regression_record.h"
 
 namespace errmap::models {
 namespace {
@@ -183,9 +183,10 @@ class StepwiseRecipe final : public PolynomialRecipe {
       return fitting::SelectStepwise(problem, rules, how, context.stop);
     };
     const fitting::SelectionResult selection = select(SelectionOf(rows));
-    RegressionReport report;
+    RegressionRecord report;
     if (context.explain) {
-      Explain(dictionary, rows, selection, folds, context, &report);
+      report.least_squares.value.emplace();
+      Explain(dictionary, rows, selection, context, &report);
       Bootstrap(
           dictionary, rows, selection.chosen, plan, select, context, &report);
     }
@@ -242,9 +243,8 @@ class StepwiseRecipe final : public PolynomialRecipe {
   void Explain(const TermDictionary& dictionary,
                const DesignRows& rows,
                const fitting::SelectionResult& selection,
-               const InnerFolds& folds,
                const FitContext& context,
-               RegressionReport* report) const {
+               RegressionRecord* report) const {
     report->method = fmt::format(
         "{} selection over {} terms up to degree {}: select {}, stop {}, "
         "choose {}{}",
@@ -259,22 +259,33 @@ class StepwiseRecipe final : public PolynomialRecipe {
             : fmt::format(
                   ", {} heredity",
                   Heredities()[static_cast<std::size_t>(rules_.heredity)]));
-    report->selected = true;
     report->candidates = dictionary.design.num_terms();
-    report->chosen_step = selection.chosen_step;
+    report->chosen_step = static_cast<std::int64_t>(selection.chosen_step);
     report->ended = selection.ended;
-    report->cross_validation = folds.text;
     for (const fitting::SelectionStep& step : selection.steps) {
-      report->steps.push_back(
-          {step.candidate < 0 ? "" : dictionary.design.NameOf(step.candidate),
-           step});
+      std::optional<std::string> term;
+      if (step.candidate >= 0) term = dictionary.design.NameOf(step.candidate);
+      report->steps.push_back({.term = std::move(term),
+                               .entered = step.entered,
+                               .terms = step.terms,
+                               .f = step.f,
+                               .p = step.p,
+                               .rss = step.residual_sum_of_squares,
+                               .aic = step.aic,
+                               .aicc = step.aicc,
+                               .bic = step.bic,
+                               .adjusted_r2 = step.adjusted_r2,
+                               .press = step.press,
+                               .cp = step.cp,
+                               .cv = step.cv});
     }
+    report->least_squares.value->after_selection = true;
     ReportExcluded(dictionary,
                    rows,
                    selection.chosen,
                    rules_.collinearity,
                    context,
-                   report);
+                   &*report->least_squares.value);
   }
 
   template <typename Select>
@@ -284,22 +295,22 @@ class StepwiseRecipe final : public PolynomialRecipe {
                  const Plan& plan,
                  const Select& select,
                  const FitContext& context,
-                 RegressionReport* report) const {
+                 RegressionRecord* report) const {
     const Dataset& training = dictionary.design.dataset();
     if (plan.repetitions > 0 && (training.has_groups() || !plan.by_triangle)) {
-      report->bootstrap = static_cast<int>(plan.repetitions);
       ReportInclusion(
           dictionary,
           rows,
           plan.by_triangle ? rows.parts : training.groups().codes,
           chosen,
+          static_cast<int>(plan.repetitions),
           [&](const fitting::SelectionProblem& drawn) {
             return select(drawn).chosen;
           },
           context,
           report);
     } else if (plan.by_triangle || (plan.is_large && !options_.bootstrap)) {
-      report->notes.push_back(
+      report->least_squares.value->notes.push_back(
           "no bootstrap at this size; bootstrap=N draws whole groups, where "
           "there are groups");
     }

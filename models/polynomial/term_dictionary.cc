@@ -11,7 +11,7 @@
 #include "data/text.h"
 #include "models/history/view.h"
 #include "models/polynomial/polynomial_fit.h"
-#include "models/regression_report.h"
+#include "models/regression_record.h"
 
 namespace errmap::models {
 namespace {
@@ -214,7 +214,7 @@ void ReportExcluded(const TermDictionary& dictionary,
                     const std::vector<Index>& chosen,
                     double collinearity,
                     const FitContext& context,
-                    RegressionReport* report) {
+                    LeastSquaresRecord* record) {
   const auto is_stopped = [&] {
     return context.stop != nullptr && context.stop->load();
   };
@@ -230,18 +230,18 @@ void ReportExcluded(const TermDictionary& dictionary,
            SelectionOf(rows), chosen, collinearity, context.stop)) {
     if (is_stopped()) break;
     if (!term.aliased) {
-      report->excluded.push_back({name(term.candidate), term.f, term.p});
+      record->excluded.push_back({name(term.candidate), term.f, term.p});
       continue;
     }
-    report->aliased.push_back({name(term.candidate),
+    record->aliased.push_back({name(term.candidate),
                                WhyAliased(rows.terms.col(term.candidate),
                                           terms,
                                           chosen_names,
                                           rows.intercept)});
   }
-  std::stable_sort(report->excluded.begin(),
-                   report->excluded.end(),
-                   [](const ExcludedReport& a, const ExcludedReport& b) {
+  std::stable_sort(record->excluded.begin(),
+                   record->excluded.end(),
+                   [](const ExcludedRecord& a, const ExcludedRecord& b) {
                      return a.f > b.f;
                    });
 }

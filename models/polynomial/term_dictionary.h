@@ -38,6 +38,8 @@ struct TermDictionary {
   Eigen::Index NumOpen() const;
 };
 
+struct LeastSquaresRecord;
+
 /// Returns rows in the form that selection uses; they must outlive it.
 fitting::SelectionProblem SelectionOf(const DesignRows& rows);
 
@@ -48,13 +50,13 @@ int DefaultDegree(Eigen::Index num_inputs);
 std::string ChosenTerms(const TermDictionary& dictionary,
                         const std::vector<Eigen::Index>& chosen);
 
-/// Adds to `report` why candidates that are not in a model add nothing to it,
+/// Adds to `record` why candidates that are not in a model add nothing to it,
 /// and the F of the others. Stops where it is if context.stop becomes true.
 void ReportExcluded(const TermDictionary& dictionary,
                     const DesignRows& rows,
                     const std::vector<Eigen::Index>& chosen,
                     double collinearity,
                     const FitContext& context,
-                    RegressionReport* report);
+                    LeastSquaresRecord* record);
 
 }  // namespace errmap::models

@@ -1,11 +1,13 @@
 #include "models/sensors/applicability.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
 
+#include "data/text.h"
 #include "fitting/least_squares/decompositions.h"
 #include "models/history/history.h"
 #include "models/history/view.h"
@@ -291,19 +293,9 @@ void JudgeState(const FittedModel& fitted,
 }  // namespace
 
 std::string_view ToString(Outside outside) {
-  switch (outside) {
-    case Outside::kNo:
-      return "no";
-    case Outside::kRange:
-      return "range";
-    case Outside::kRelation:
-      return "relation";
-    case Outside::kDistance:
-      return "distance";
-    case Outside::kLeverage:
-      return "leverage";
-  }
-  return "";
+  constexpr auto kNames = std::to_array<std::string_view>(
+      {"no", "range", "relation", "distance", "leverage"});
+  return data::NameOf(kNames, outside);
 }
 
 StateMeasures MeasureStates(const Applicability& trained,

@@ -1,10 +1,12 @@
 #include "models/sensors/sensor_check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "data/text.h"
 #include "models/map_experience.h"
 #include "models/trained_range.h"
 #include "stats/not_a_number.h"
@@ -281,21 +283,9 @@ void CallDead(const FittedModel& fitted,
 }  // namespace
 
 std::string_view ToString(SensorFault fault) {
-  switch (fault) {
-    case SensorFault::kUnit:
-      return "unit";
-    case SensorFault::kDead:
-      return "dead";
-    case SensorFault::kFrozen:
-      return "frozen";
-    case SensorFault::kSwapped:
-      return "swapped";
-    case SensorFault::kOff:
-      return "off";
-    case SensorFault::kSpike:
-      return "spike";
-  }
-  return "";
+  constexpr auto kNames = std::to_array<std::string_view>(
+      {"unit", "dead", "frozen", "swapped", "off", "spike"});
+  return data::NameOf(kNames, fault);
 }
 
 std::optional<SensorFaultFound> FindSensorFault(const FittedModel& fitted,

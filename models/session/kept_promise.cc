@@ -1,8 +1,10 @@
 #include "models/session/kept_promise.h"
 
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
+#include "data/text.h"
 #include "models/map_experience.h"
 #include "models/session/session_check.h"
 #include "stats/error_metrics.h"
@@ -44,15 +46,9 @@ ErrorShape ShapeOf(const KeptPromise& kept) {
 }  // namespace
 
 std::string_view ToString(ErrorShape shape) {
-  switch (shape) {
-    case ErrorShape::kWithin:
-      return "within";
-    case ErrorShape::kOffset:
-      return "offset";
-    case ErrorShape::kShape:
-      return "shape";
-  }
-  return "";
+  constexpr auto kNames =
+      std::to_array<std::string_view>({"within", "offset", "shape"});
+  return data::NameOf(kNames, shape);
 }
 
 KeptPromise HoldToPromise(const FittedModel& fitted,

@@ -1,12 +1,14 @@
 #include "models/session/session_check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <stdexcept>
 #include <utility>
 
+#include "data/text.h"
 #include "stats/error_metrics.h"
 #include "stats/not_a_number.h"
 #include "stats/order_statistic.h"
@@ -191,37 +193,15 @@ void RequireProbes(const SessionProbes& probes) {
 }  // namespace
 
 std::string_view ToString(SessionStatus status) {
-  switch (status) {
-    case SessionStatus::kHolds:
-      return "holds";
-    case SessionStatus::kOff:
-      return "off";
-    case SessionStatus::kUnknown:
-      return "unknown";
-    case SessionStatus::kHoldsSoFar:
-      return "holds so far";
-    case SessionStatus::kSensor:
-      return "sensor";
-  }
-  return "";
+  constexpr auto kNames = std::to_array<std::string_view>(
+      {"holds", "off", "unknown", "holds so far", "sensor"});
+  return data::NameOf(kNames, status);
 }
 
 std::string_view ToString(Remedy remedy) {
-  switch (remedy) {
-    case Remedy::kNone:
-      return "none";
-    case Remedy::kRezero:
-      return "re-zero";
-    case Remedy::kRefit:
-      return "refit";
-    case Remedy::kUnknown:
-      return "unknown";
-    case Remedy::kGain:
-      return "gain";
-    case Remedy::kSign:
-      return "sign";
-  }
-  return "";
+  constexpr auto kNames = std::to_array<std::string_view>(
+      {"none", "re-zero", "refit", "unknown", "gain", "sign"});
+  return data::NameOf(kNames, remedy);
 }
 
 bool OffsetExplains(double mean, double rms, double promised) {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "stats/not_a_number.h"
+#include "stats/summary.h"
 
 namespace errmap::models {
 namespace {
@@ -13,31 +13,23 @@ using data::Dataset;
 using Eigen::Index;
 using Eigen::VectorXd;
 
-stats::SampleSummary MeanOf(const std::vector<stats::ErrorMetrics>& folds) {
-  const double count = static_cast<double>(folds.size());
-  stats::SampleSummary mean;
-  Index n = 0;
-  for (const auto& fold : folds) {
-    n += fold.residuals.n;
-    mean.mean += fold.residuals.mean / count;
-    mean.sd += fold.residuals.sd / count;
-    mean.min += fold.residuals.min / count;
-    mean.max += fold.residuals.max / count;
-    mean.range += fold.residuals.range / count;
-  }
-  mean.n = n / static_cast<Index>(folds.size());
-  return mean;
-}
-
 stats::ErrorMetrics AverageMetrics(
     const std::vector<stats::ErrorMetrics>& folds) {
+  using Metrics = stats::ErrorMetrics;
   const double count = static_cast<double>(folds.size());
-  stats::ErrorMetrics average;
-  average.residuals = MeanOf(folds);
-  for (const auto& fold : folds) {
-    average.rmse += fold.rmse / count;
-    average.mae += fold.mae / count;
-    average.r2 += fold.r2 / count;
+  Metrics average;
+  for (const Metrics& fold : folds) average.n += fold.n;
+  average.n /= static_cast<Index>(folds.size());
+  for (double Metrics::*const figure : {&Metrics::mean,
+                                        &Metrics::sd,
+                                        &Metrics::rmse,
+                                        &Metrics::mae,
+                                        &Metrics::min,
+                                        &Metrics::max,
+                                        &Metrics::range,
+                                        &Metrics::r2}) {
+    average.*figure = 0.0;
+    for (const Metrics& fold : folds) average.*figure += fold.*figure / count;
   }
   return average;
 }
@@ -53,20 +45,8 @@ stats::ErrorMetrics JudgeTargets(const VectorXd& targets,
 // Predictions from elsewhere may not cover the training rows.
 stats::ErrorMetrics JudgeTraining(const VectorXd& targets,
                                   const VectorXd& predicted) {
-  if (predicted.size() > 0) return JudgeTargets(targets, predicted);
-  stats::ErrorMetrics unknown;
-  unknown.residuals.n = targets.size();
-  for (double* figure : {&unknown.rmse,
-                         &unknown.mae,
-                         &unknown.r2,
-                         &unknown.residuals.mean,
-                         &unknown.residuals.sd,
-                         &unknown.residuals.min,
-                         &unknown.residuals.max,
-                         &unknown.residuals.range}) {
-    *figure = stats::kNaN;
-  }
-  return unknown;
+  return predicted.size() > 0 ? JudgeTargets(targets, predicted)
+                              : stats::ErrorMetrics{.n = targets.size()};
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 
 #include "data/formula_text.h"
 #include "models/study/row_table.h"
-#include "models/study/session_cut.h"
 
 namespace errmap::models {
 namespace {

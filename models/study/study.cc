@@ -18,7 +18,6 @@
 #include "models/shared_work.h"
 #include "models/study/fold_pool.h"
 #include "models/study/repeated_rows.h"
-#include "models/study/session_cut.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::models {
@@ -355,6 +354,14 @@ std::string ModelResult::why() const {
     if (!holdout.ok()) return holdout.holdout + ": " + holdout.why_failed;
   }
   return final_why_failed.empty() ? "" : "all rows: " + final_why_failed;
+}
+
+bool IsOfSessions(const Holdout& holdout, const Dataset& dataset) {
+  const bool groups_are_coarser =
+      holdout.whole_groups &&
+      static_cast<Index>(dataset.groups().labels.size()) <
+          dataset.num_sessions();
+  return holdout.whole_sessions && !groups_are_coarser;
 }
 
 Holdout MakeHoldout(const stats::HoldoutSpec& spec,

@@ -36,6 +36,10 @@ struct Holdout {
   InnerHoldout inner = InnerHoldout::kDecisive;
 };
 
+/// True if whole sessions of `dataset`, and nothing coarser, are held out. It
+/// then counts as a hold-out of sessions, whatever its SPEC.
+bool IsOfSessions(const Holdout& holdout, const data::Dataset& dataset);
+
 /// Makes the folds of `spec` over `dataset`; `test_data` is for file:TEST.csv
 /// only. Throws std::invalid_argument if the data do not allow it.
 Holdout MakeHoldout(const stats::HoldoutSpec& spec,

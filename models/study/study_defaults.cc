@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "models/study/session_cut.h"
-
 namespace errmap::models {
 
 std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset) {

@@ -8,6 +8,7 @@
 #include "stats/comparison/holm.h"
 #include "stats/not_a_number.h"
 #include "stats/randomness.h"
+#include "stats/require.h"
 
 namespace errmap::stats {
 namespace {
@@ -281,14 +282,10 @@ void BoundErrors(const UnitLosses& losses,
 }  // namespace
 
 void ComparisonOptions::Validate() const {
-  const auto check = [](const char* field, Index value, Index least) {
-    if (value >= least) return;
-    throw std::invalid_argument(std::string("ComparisonOptions: ") + field +
-                                " must be at least " + std::to_string(least) +
-                                ", found " + std::to_string(value));
-  };
-  check("flips", flips, 1);
-  check("resamples", resamples, 99);
+  Require(flips >= 1, "ComparisonOptions: flips must be at least 1", flips);
+  Require(resamples >= 99,
+          "ComparisonOptions: resamples must be at least 99",
+          resamples);
   margin.Validate();
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "stats/random.h"
+#include "stats/require.h"
 
 namespace errmap::stats {
 namespace {
@@ -127,11 +128,7 @@ std::vector<double> NonzeroMagnitudes(const VectorXd& differences) {
 std::vector<SignFlipTest> TestBySignFlips(const MatrixXd& differences,
                                           Index draws,
                                           std::uint64_t seed) {
-  if (draws < 1) {
-    throw std::invalid_argument(
-        "TestBySignFlips: needs at least 1 draw, found " +
-        std::to_string(draws));
-  }
+  Require(draws >= 1, "TestBySignFlips: needs at least 1 draw", draws);
   if (!differences.allFinite()) {
     throw std::invalid_argument("TestBySignFlips: a difference is not finite");
   }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "stats/indices.h"
+#include "stats/require.h"
 
 namespace errmap::stats {
 namespace {
@@ -36,14 +37,12 @@ double Margin::Of(double best_rmse) const {
 }
 
 void Margin::Validate() const {
-  const auto check = [](const char* field, double value) {
-    if (value >= 0.0 && std::isfinite(value)) return;
-    throw std::invalid_argument(std::string("Margin: ") + field +
-                                " must be finite and at least 0, found " +
-                                std::to_string(value));
-  };
-  check("share", share);
-  check("indifference", indifference);
+  Require(share >= 0.0 && std::isfinite(share),
+          "Margin: share must be finite and at least 0",
+          share);
+  Require(indifference >= 0.0 && std::isfinite(indifference),
+          "Margin: indifference must be finite and at least 0",
+          indifference);
 }
 
 std::vector<std::vector<Index>> FormTiers(const Eigen::VectorXd& rmse,

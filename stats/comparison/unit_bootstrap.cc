@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <stdexcept>
 #include <string>
 
 #include "stats/distributions.h"
 #include "stats/random.h"
+#include "stats/require.h"
 #include "stats/unit_freedom.h"
 
 namespace errmap::stats {
@@ -118,12 +118,8 @@ UnitBootstrap::UnitBootstrap(const UnitLosses& losses,
                              Index resamples,
                              std::uint64_t seed)
     : units_(losses.num_units()) {
-  constexpr Index kFewestResamples = 99;
-  if (resamples < kFewestResamples) {
-    throw std::invalid_argument(
-        "UnitBootstrap: needs at least " + std::to_string(kFewestResamples) +
-        " resamples, found " + std::to_string(resamples));
-  }
+  Require(
+      resamples >= 99, "UnitBootstrap: needs at least 99 resamples", resamples);
   losses.Validate();
   if (units_ < kFewestForBootstrap) return;
   rmse_ = PooledRmse(losses);

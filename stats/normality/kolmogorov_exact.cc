@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 
 #include "stats/distributions.h"
+#include "stats/require.h"
 
 namespace errmap::stats {
 namespace {
@@ -131,11 +131,7 @@ double BodyByExpansion(double d, Index n) {
 }  // namespace
 
 double KsProbabilityExact(double d, Index n) {
-  if (n < 1) {
-    throw std::invalid_argument(
-        "KsProbabilityExact: needs at least 1 value, found " +
-        std::to_string(n));
-  }
+  Require(n >= 1, "KsProbabilityExact: needs at least 1 value", n);
   if (std::isnan(d)) return d;
   const double size = static_cast<double>(n);
   if (d >= 1.0) return 0.0;

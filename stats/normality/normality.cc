@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -11,10 +10,10 @@
 #include "stats/normality/grid.h"
 #include "stats/normality/kolmogorov_exact.h"
 #include "stats/normality/lilliefors.h"
-#include "stats/normality/monte_carlo.h"
 #include "stats/normality/simulated_quantiles.h"
 #include "stats/not_a_number.h"
 #include "stats/random.h"
+#include "stats/require.h"
 
 namespace errmap::stats {
 namespace {
@@ -180,11 +179,9 @@ void NormalityTests::CompareOnGrid(const OrderedSample& sample,
 }
 
 Normality NormalityTests::operator()(const OrderedSample& sample) const {
-  if (sample.size() != n_) {
-    throw std::invalid_argument("NormalityTests: made for " +
-                                std::to_string(n_) + " values, found " +
-                                std::to_string(sample.size()));
-  }
+  Require(sample.size() == n_,
+          "NormalityTests: made for " + std::to_string(n_) + " values",
+          sample.size());
   Normality result;
   const std::string why_not = sample.WhyNotWith(kFewestForShape);
   if (!why_not.empty()) {
@@ -212,11 +209,7 @@ MonteCarloP NormalityTests::Simulate(const OrderedSample& sample,
                                      const Normality& observed,
                                      Index draws,
                                      std::uint64_t seed) const {
-  if (draws < 1) {
-    throw std::invalid_argument(
-        "NormalityTests::Simulate: needs at least 1 draw, found " +
-        std::to_string(draws));
-  }
+  Require(draws >= 1, "NormalityTests::Simulate: needs at least 1 draw", draws);
   std::vector<Share> shares;
   for (const SimulatedTest& simulated : std::span(kTests).first(kQuickTests)) {
     shares.emplace_back(simulated, observed);

@@ -10,6 +10,7 @@
 #include <boost/math/tools/minima.hpp>
 
 #include "stats/distributions.h"
+#include "stats/require.h"
 
 namespace errmap::stats {
 namespace {
@@ -31,11 +32,9 @@ VectorXd GridLambdas() {
 class MirroredSample {
  public:
   MirroredSample(const Eigen::Ref<const VectorXd>& ascending, Index n) {
-    if (ascending.size() != n) {
-      throw std::invalid_argument("TukeyPlot: made for " + std::to_string(n) +
-                                  " values, found " +
-                                  std::to_string(ascending.size()));
-    }
+    Require(ascending.size() == n,
+            "TukeyPlot: made for " + std::to_string(n) + " values",
+            ascending.size());
     const Index half = n / 2;
     spread_ = ascending.tail(half) - ascending.head(half).reverse();
     norm_ = (ascending.array() - ascending.mean()).matrix().norm();
@@ -95,10 +94,7 @@ double PlotCorrelation(const Eigen::Ref<const VectorXd>& ascending,
 }
 
 TukeyPlot::TukeyPlot(Index n) : n_(n) {
-  if (n < 2) {
-    throw std::invalid_argument("TukeyPlot: needs at least 2 values, found " +
-                                std::to_string(n));
-  }
+  Require(n >= 2, "TukeyPlot: needs at least 2 values", n);
   // Upper half only: the lower is its mirror image. 1 - p is the mirrored
   // median itself, which keeps the digits of the last ones.
   const VectorXd medians = UniformMedians(n);

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 #include "stats/distributions.h"
 #include "stats/normality/simulated_quantiles_data.h"
+#include "stats/require.h"
 
 namespace errmap::stats {
 namespace {
@@ -75,11 +75,10 @@ const simulated::Quantiles& LevelScores() {
 }
 
 void RequireSize(Index n) {
-  if (n < kFewestSimulated) {
-    throw std::invalid_argument("simulated quantiles: needs at least " +
-                                std::to_string(kFewestSimulated) +
-                                " values, found " + std::to_string(n));
-  }
+  Require(n >= kFewestSimulated,
+          "simulated quantiles: needs at least " +
+              std::to_string(kFewestSimulated) + " values",
+          n);
 }
 
 }  // namespace
@@ -108,13 +107,9 @@ double SimulatedCriticalValue(SimulatedStatistic statistic,
                               double probability,
                               Index n) {
   RequireSize(n);
-  if (!(probability >= kSmallestSimulated &&
-        probability <= kLargestSimulated)) {
-    throw std::invalid_argument(
-        "SimulatedCriticalValue: probability must be within 0.001 and 0.999, "
-        "found " +
-        std::to_string(probability));
-  }
+  Require(probability >= kSmallestSimulated && probability <= kLargestSimulated,
+          "SimulatedCriticalValue: probability must be within 0.001 and 0.999",
+          probability);
   const auto& levels = simulated::kLevels;
   std::size_t below = 1;  // first level not above the probability
   while (levels[below] > probability) ++below;

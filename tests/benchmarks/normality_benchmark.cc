@@ -11,7 +11,6 @@
 
 #include "stats/bias.h"
 #include "stats/normality/kolmogorov_exact.h"
-#include "stats/normality/monte_carlo.h"
 #include "stats/normality/normality.h"
 #include "stats/random.h"
 #include "stats/randomness.h"

@@ -36,12 +36,12 @@ TEST(ErrorMetrics, FollowTheirDefinitions) {
   EXPECT_DOUBLE_EQ(metrics.rmse, std::sqrt(6.0 / 4.0));
   EXPECT_DOUBLE_EQ(metrics.mae, 1.0);
   EXPECT_DOUBLE_EQ(metrics.r2, 1.0 - 6.0 / 14.0);
-  EXPECT_EQ(metrics.residuals.n, 4);
-  EXPECT_DOUBLE_EQ(metrics.residuals.mean, 0.5);
-  EXPECT_DOUBLE_EQ(metrics.residuals.sd, std::sqrt(5.0 / 3.0));
-  EXPECT_EQ(metrics.residuals.min, -1.0);
-  EXPECT_EQ(metrics.residuals.max, 2.0);
-  EXPECT_EQ(metrics.residuals.range, 3.0);
+  EXPECT_EQ(metrics.n, 4);
+  EXPECT_DOUBLE_EQ(metrics.mean, 0.5);
+  EXPECT_DOUBLE_EQ(metrics.sd, std::sqrt(5.0 / 3.0));
+  EXPECT_EQ(metrics.min, -1.0);
+  EXPECT_EQ(metrics.max, 2.0);
+  EXPECT_EQ(metrics.range, 3.0);
 }
 
 TEST(ErrorMetrics, R2IsOneForAPerfectModelAndZeroForTheBaselineItself) {
@@ -78,8 +78,8 @@ TEST(ErrorMetrics, R2IsNotANumberWhereTargetsDoNotVary) {
 TEST(ErrorMetrics, OfNothingAreNotANumber) {
   const ErrorMetrics metrics =
       ComputeErrorMetrics(VectorXd(), VectorXd(), VectorXd());
-  EXPECT_EQ(metrics.residuals.n, 0);
-  EXPECT_TRUE(std::isnan(metrics.residuals.mean));
+  EXPECT_EQ(metrics.n, 0);
+  EXPECT_TRUE(std::isnan(metrics.mean));
   EXPECT_TRUE(std::isnan(metrics.rmse));
   EXPECT_TRUE(std::isnan(metrics.mae));
   EXPECT_TRUE(std::isnan(metrics.r2));
@@ -91,19 +91,19 @@ TEST(ErrorMetrics, OfOneRowHaveNoSd) {
   EXPECT_EQ(metrics.rmse, 0.5);
   EXPECT_EQ(metrics.mae, 0.5);
   EXPECT_EQ(metrics.r2, 0.75);
-  EXPECT_TRUE(std::isnan(metrics.residuals.sd));
+  EXPECT_TRUE(std::isnan(metrics.sd));
 }
 
 TEST(ErrorMetrics, SquaredRmseIsVariancePlusSquaredMean) {
   const VectorXd residuals = RandomVector(397, 2);
   const ErrorMetrics metrics =
       ComputeErrorMetrics(RandomVector(397, 3), residuals, VectorXd::Zero(397));
-  const SampleSummary& s = metrics.residuals;
-  EXPECT_NEAR(metrics.rmse * metrics.rmse,
-              s.mean * s.mean + s.sd * s.sd * 396.0 / 397.0,
-              kErrorMetricsRounding);
+  EXPECT_NEAR(
+      metrics.rmse * metrics.rmse,
+      metrics.mean * metrics.mean + metrics.sd * metrics.sd * 396.0 / 397.0,
+      kErrorMetricsRounding);
   EXPECT_LE(metrics.mae, metrics.rmse);
-  EXPECT_LE(std::abs(s.mean), metrics.mae);
+  EXPECT_LE(std::abs(metrics.mean), metrics.mae);
 }
 
 TEST(ErrorMetrics, KeepTheirInvariances) {

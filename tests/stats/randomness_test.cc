@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "stats/bias.h"
-#include "stats/normality/monte_carlo.h"
 #include "stats/random.h"
 #include "tests/models/serial_reference.h"
 #include "tests/stats/golden_samples.h"

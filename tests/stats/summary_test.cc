@@ -250,7 +250,7 @@ TEST(Standardise, GivesMeanZeroAndSdOneInTheSameOrder) {
 }
 
 TEST(StandardError, IsTheSdOverTheRootOfN) {
-  EXPECT_DOUBLE_EQ(StandardError(Summarize(VectorXd{{2.0, 4.0, 4.0, 6.0}})),
+  EXPECT_DOUBLE_EQ(StandardError(std::sqrt(8.0 / 3.0), 4),
                    std::sqrt(8.0 / 3.0) / 2.0);
 }
 

@@ -27,8 +27,7 @@
 #include "models/session/map_rows.h"
 #include "models/study/fold_pool.h"
 #include "models/study/record/make_study_record.h"
-#include "models/study/record/making/fit_blocks.h"
-#include "models/study/record/making/make_residual_record.h"
+#include "models/study/record/making/parts.h"
 #include "models/study/record/record_json.h"
 #include "models/trained_range.h"
 #include "stats/kolmogorov_smirnov.h"
@@ -143,7 +142,7 @@ Json EvaluationJson(const Evaluation& found,
       {"align", data::ToString(fitted.align)},
       {"clipped", found.clipped},
       {"learnt_from", LearntJson(found.learnt)},
-      {"summary", models::ToJson(models::MakeRecord(found.metrics))},
+      {"summary", models::ToJson(found.metrics)},
       {"promise", PromiseJson(found.kept)},
       {"outside", OutsideJson(fitted.inputs, dataset.input_values())},
       {"unlike", UnlikeJson(found.judged.flags, dataset.rows())},
@@ -163,9 +162,8 @@ Json EvaluationJson(const Evaluation& found,
 std::string EvaluationText(const Evaluation& found,
                            const EvaluateArguments& arguments) {
   const data::Unit& unit = found.fitted.target.unit;
-  const double ks_d = stats::KsDistanceFromNormal(found.residuals,
-                                                  found.metrics.residuals.mean,
-                                                  found.metrics.residuals.sd);
+  const double ks_d = stats::KsDistanceFromNormal(
+      found.residuals, found.metrics.mean, found.metrics.sd);
   return fmt::format(
       "{} ({}) on {}: target - predicted of {}\n{}{}{}",
       arguments.model,

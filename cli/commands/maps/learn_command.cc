@@ -202,7 +202,7 @@ void LearnCurves(const LearnArguments& arguments,
 }
 
 // The comparison with the sensors that do it, and the positions.
-std::string ComparisonOfChosen(const models::SensorCurveRecord& curve,
+std::string ComparisonOfChosen(const models::SensorCurve& curve,
                                const LearnArguments& arguments,
                                const data::Dataset& dataset) {
   if (!curve.enough || *curve.enough >= curve.all.sensors) return "";
@@ -210,7 +210,7 @@ std::string ComparisonOfChosen(const models::SensorCurveRecord& curve,
   for (const data::ColumnInfo& input : dataset.inputs()) {
     if (data::IsPosition(input) ||
         std::ranges::find(
-            curve.chosen, input.name, &models::ChosenSensorRecord::sensor) !=
+            curve.chosen, input.name, &models::SensorCurve::Chosen::sensor) !=
             curve.chosen.end()) {
       inputs.push_back(input.name);
     }
@@ -230,14 +230,14 @@ void LearnBySensors(const LearnArguments& arguments,
                     Learned* learned) {
   Progress progress(!arguments.data.quiet);
   try {
-    learned->record.sensors = models::MakeRecord(
+    learned->record.sensors =
         models::LearnSensors(dataset,
                              {.most_sensors = arguments.sensors,
                               .jobs = JobsOf(arguments.jobs),
                               .stop = &InstallInterruptFlag(),
                               .progress = [&](int done, int all) {
                                 progress.Show({.done = done, .all = all});
-                              }}));
+                              }});
   } catch (const fitting::Interrupted&) {
     learned->interrupted = true;
     return;
@@ -255,9 +255,8 @@ void LearnNext(const LearnArguments& arguments,
                Learned* learned) {
   const Eigen::MatrixXd candidates =
       ReadCandidates(arguments.candidates, dataset, arguments.data.quiet);
-  const std::vector<models::NextState> chosen =
+  learned->record.next =
       models::ChooseNext(dataset, candidates, arguments.next);
-  learned->record.next = models::MakeRecord(chosen);
   learned->text += report::NextText(*learned->record.next);
 }
 

@@ -38,8 +38,7 @@
 #include "models/model_file.h"
 #include "models/sensors/sensitivity.h"
 #include "models/study/fold_pool.h"
-#include "models/study/record/making/fit_blocks.h"
-#include "models/study/record/making/make_figure_record.h"
+#include "models/study/record/making/parts.h"
 #include "models/study/record/record_json.h"
 #include "models/study/study_defaults.h"
 #include "models/uncertainty/promise.h"
@@ -88,7 +87,7 @@ Json FitJson(const models::FittedModel& fitted,
       {"inputs", std::move(inputs)},
       {"parameters", fitted.model->num_parameters()},
       {"equation", fitted.equation.empty() ? Json() : Json(fitted.equation)},
-      {"train", models::ToJson(models::MakeRecord(train))},
+      {"train", models::ToJson(train)},
       {"fit_seconds", fit_seconds},
       {"remarks", fitted.remarks},
       {"data_remarks", prepared.remarks},
@@ -101,7 +100,7 @@ Json FitJson(const models::FittedModel& fitted,
     json["starts"] = models::ToJson(models::MakeRecord(fitted.starts));
   }
   if (fitted.regression) {
-    json["regression"] = models::ToJson(models::MakeRecord(*fitted.regression));
+    json["regression"] = models::ToJson(*fitted.regression);
   }
   if (arguments.correlations) {
     json["correlations"] = models::ToJson(models::Correlate(dataset));
@@ -153,7 +152,7 @@ std::string FitText(const models::FittedModel& fitted,
                   learnt_from < dataset.num_rows()
                       ? fmt::format("{} of ", learnt_from)
                       : "",
-                  report::Count(train.residuals.n, "row"),
+                  report::Count(train.n, "row"),
                   error.WithUnit(train.rmse),
                   learnt_from < dataset.num_rows() ? "all" : "these"));
   constexpr Eigen::Index kMostTerms = 12;
@@ -170,7 +169,8 @@ std::string FitText(const models::FittedModel& fitted,
   text += report::StartsText(fitted.starts, error);
   if (arguments.correlations) text += report::CorrelationText(dataset, room);
   if (fitted.regression && is_short) {
-    text += report::RegressionText(*fitted.regression, fitted.target, room);
+    text += report::RegressionText(
+        *fitted.regression, dataset.weights().size() != 0, fitted.target, room);
   }
   if (fitted.interval) {
     say(report::IntervalLine(models::MakeRecord(*fitted.interval), error));

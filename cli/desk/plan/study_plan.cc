@@ -23,7 +23,7 @@
 #include "data/text.h"
 #include "models/comparison/compare.h"
 #include "models/file_recipe.h"
-#include "models/study/record/record_values.h"
+#include "models/record.h"
 #include "models/study/split_file.h"
 #include "models/study/study_defaults.h"
 #include "stats/error_metrics.h"

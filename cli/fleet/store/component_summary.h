@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "models/study/record/record.h"
+#include "models/record.h"
 #include "models/study/record/study_record.h"
 
 // What a fleet keeps of one component's study: a file of at most 20 kB, schema

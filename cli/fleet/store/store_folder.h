@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/fleet/store/component_summary.h"
-#include "models/study/record/record.h"
+#include "models/record.h"
 
 namespace errmap::fleet {
 

@@ -11,8 +11,7 @@
 #include "cli/report/tables/regression_tables.h"
 #include "cli/report/wrap_text.h"
 #include "data/text.h"
-#include "models/study/record/making/fit_blocks.h"
-#include "models/study/record/making/make_figure_record.h"
+#include "models/study/record/making/parts.h"
 
 namespace errmap::report {
 namespace {
@@ -67,21 +66,23 @@ std::string InRoom(const Table& whole, const Terminal& room) {
 
 }  // namespace
 
-std::string RegressionText(const models::RegressionReport& report,
+std::string RegressionText(const models::RegressionRecord& record,
+                           bool weighted,
                            const data::ColumnInfo& target,
                            const Terminal& room) {
-  const models::RegressionRecord record = models::MakeRecord(report);
+  const models::LeastSquaresRecord fit =
+      record.least_squares.value.value_or(models::LeastSquaresRecord());
   Table anova = AnovaTable(record);
-  if (report.weighted) anova.title += " (weighted)";
+  if (weighted) anova.title += " (weighted)";
   std::string text =
       "\n" + Paragraph(record.method, room) + "\n" +
       InRoom(StepTable(record), room) + InRoom(CoefficientTable(record), room) +
       InRoom(anova, room) +
-      Paragraph(RegressionSummary(record, ErrorText(target.unit, report.fit.s)),
+      Paragraph(RegressionSummary(record, ErrorText(target.unit, fit.s)),
                 room) +
       "\n" + InRoom(ExcludedTerms(record), room) +
       InRoom(AliasedTerms(record), room);
-  for (const std::string& note : report.notes) text += Paragraph(note, room);
+  for (const std::string& note : fit.notes) text += Paragraph(note, room);
   return text;
 }
 

@@ -5,14 +5,15 @@
 #include "cli/report/screen.h"
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
-#include "models/regression_report.h"
+#include "models/regression_record.h"
 
 namespace errmap::report {
 
 /// The report of a regression for people: step log, coefficient table, ANOVA,
 /// s, R2, PRESS, condition, excluded and aliased terms. Tables that are wider
-/// or longer than `room` are cut, and say so.
-std::string RegressionText(const models::RegressionReport& report,
+/// or longer than `room` are cut, and say so. `weighted`: its rows had weights.
+std::string RegressionText(const models::RegressionRecord& record,
+                           bool weighted,
                            const data::ColumnInfo& target,
                            const Terminal& room);
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "models/study/record/making/fit_blocks.h"
+#include "models/study/record/making/parts.h"
 
 namespace errmap::report {
 

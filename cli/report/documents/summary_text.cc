@@ -28,15 +28,14 @@ std::string SummaryText(const stats::ErrorMetrics& metrics,
                         const data::Unit& unit,
                         double ks_d,
                         double ks_p_given) {
-  const stats::SampleSummary& residuals = metrics.residuals;
-  std::string text = fmt::format("  {:<10} {}\n", "n", residuals.n);
-  text += Line("mean", residuals.mean, unit);
-  text += Line("sd", residuals.sd, unit, "  (n - 1)");
+  std::string text = fmt::format("  {:<10} {}\n", "n", metrics.n);
+  text += Line("mean", metrics.mean, unit);
+  text += Line("sd", metrics.sd, unit, "  (n - 1)");
   text += Line("rmse", metrics.rmse, unit, "  (n)");
   text += Line("mae", metrics.mae, unit);
-  text += Line("min", residuals.min, unit);
-  text += Line("max", residuals.max, unit);
-  text += Line("range", residuals.range, unit);
+  text += Line("min", metrics.min, unit);
+  text += Line("max", metrics.max, unit);
+  text += Line("range", metrics.range, unit);
   if (std::isfinite(metrics.r2)) {
     text += fmt::format("  {:<10} {:.6f}\n", "r2", metrics.r2);
   }

@@ -88,7 +88,7 @@ Figure CurvesFigure(const models::LearningCurvesRecord& curves,
   return figure;
 }
 
-Figure SensorsFigure(const models::SensorCurveRecord& curve,
+Figure SensorsFigure(const models::SensorCurve& curve,
                      const data::Unit& unit,
                      const std::string& prefix) {
   Figure figure;
@@ -102,7 +102,7 @@ Figure SensorsFigure(const models::SensorCurveRecord& curve,
   const ErrorText error = ErrorTextOf(curve, unit);
   std::vector<std::vector<double>> columns(2);
   std::vector<std::string> told;
-  for (const models::SensorPointRecord& point : curve.points) {
+  for (const models::SensorCurve::Point& point : curve.points) {
     columns[0].push_back(static_cast<double>(point.sensors));
     columns[1].push_back(unit.display_scale * point.rmse);
     told.push_back(

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "models/study/record/record_values.h"
+#include "models/record.h"
 
 namespace errmap::report {
 

@@ -7,6 +7,7 @@
 
 #include "cli/report/number_text.h"
 #include "cli/report/plot.h"
+#include "stats/error_metrics.h"
 
 namespace errmap::report {
 namespace {
@@ -51,7 +52,7 @@ void AddRowsOfModels(const ReportView& view,
 
 std::vector<Named> ErrorsRow(const std::string& model,
                              const ResultRecord& result) {
-  const models::MetricsRecord& test = result.test;
+  const stats::ErrorMetrics& test = result.test;
   return {{{"model", false}, model},
           {{"rows"}, test.n},
           {{"mean"}, Error{test.mean}},
@@ -114,10 +115,10 @@ std::vector<Named> IndependenceRow(const std::string& model,
 Table GapTable(const ReportView& view) {
   Table table{.title = "What knowing the neighbours is worth"};
   table.error = ErrorTextOf(view);
-  const models::GapRecord gap =
-      view.component->gap.value_or(models::GapRecord());
+  const models::InterpolationGap gap =
+      view.component->gap.value_or(models::InterpolationGap());
   for (const ModelRecord* viewed : view.models) {
-    for (const models::GapModelRecord& model : gap.models) {
+    for (const models::InterpolationGap::Row& model : gap.models) {
       if (model.model != viewed->name) continue;
       MarkIfRecommended(view, viewed->name, &table);
       table.Add(
@@ -179,7 +180,7 @@ Table ComparisonTable(const ReportView& view, const std::string& holdout) {
 Table StabilityTable(const ReportView& view) {
   Table table{.title = "Would other cuts choose the same?"};
   for (const models::StabilityRecord& entry : view.component->stability) {
-    for (const models::WinRecord& win : entry.wins) {
+    for (const models::WinShare& win : entry.wins) {
       table.Add({{{"hold-out", false}, entry.holdout},
                  {{"repeats"}, entry.repeats},
                  {{"model", false}, win.model},

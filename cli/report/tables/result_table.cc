@@ -9,13 +9,14 @@
 #include "cli/report/words/answers/verdict_text.h"
 #include "cli/report/wrap_text.h"
 #include "data/text.h"
+#include "stats/error_metrics.h"
 
 namespace errmap::report {
 namespace {
 
 using models::ComponentRecord;
 using models::FindNamed;
-using models::MetricsRecord;
+using stats::ErrorMetrics;
 
 // Where a cell stands; `holdout` "": of the model in general.
 struct Place {
@@ -66,13 +67,13 @@ Cell EndOfInterval(const Place& place) {
 
 Cell Known(double value) { return std::isnan(value) ? Cell() : Number{value}; }
 
-template <MetricsRecord ResultRecord::*kRows, auto kFigure>
+template <ErrorMetrics ResultRecord::*kRows, auto kFigure>
 Cell Metric(const Place& place) {
   if (place.result == nullptr) return {};
   const auto value = (place.result->*kRows).*kFigure;
   if constexpr (std::integral<std::remove_const_t<decltype(value)>>) {
     return value;
-  } else if constexpr (kFigure == &MetricsRecord::r2) {
+  } else if constexpr (kFigure == &ErrorMetrics::r2) {
     return Known(value);
   } else {
     return Error{value, place.component.display.scale};
@@ -102,7 +103,7 @@ Cell SensorCount(const Place& place) {
 
 Cell TrainingRmse(const Place& place) {
   if (place.result == nullptr) return "failed";
-  return Metric<&ResultRecord::train, &MetricsRecord::rmse>(place);
+  return Metric<&ResultRecord::train, &ErrorMetrics::rmse>(place);
 }
 
 Cell RmseInterval(const Place& place) {
@@ -126,7 +127,7 @@ Cell Gap(const Place& place) {
   const auto& gap = place.component.gap;
   if (!gap) return {};
   const auto row = std::ranges::find(
-      gap->models, place.model.name, &models::GapModelRecord::model);
+      gap->models, place.model.name, &models::InterpolationGap::Row::model);
   if (row == gap->models.end()) return {};
   constexpr double kLarge = 1000.0;
   if (row->ratio < kLarge) return Fixed{row->ratio, 1};
@@ -200,22 +201,22 @@ Cell UnitOf(const Place& place) {
 }
 
 // Of the rows trained on or held out: "train_rmse", ...
-template <MetricsRecord ResultRecord::*kRows>
+template <ErrorMetrics ResultRecord::*kRows>
 void AddMetrics(const std::string& rows, std::vector<ResultColumn>* columns) {
   columns->insert(
       columns->end(),
-      {{.key = rows + "_n", .cell = &Metric<kRows, &MetricsRecord::n>},
+      {{.key = rows + "_n", .cell = &Metric<kRows, &ErrorMetrics::n>},
        {.key = rows + "_rmse",
-        .cell = &Metric<kRows, &MetricsRecord::rmse>,
+        .cell = &Metric<kRows, &ErrorMetrics::rmse>,
         .name = "RMSE",
         .page = "RMSE"},
-       {.key = rows + "_mean", .cell = &Metric<kRows, &MetricsRecord::mean>},
-       {.key = rows + "_sd", .cell = &Metric<kRows, &MetricsRecord::sd>},
-       {.key = rows + "_mae", .cell = &Metric<kRows, &MetricsRecord::mae>},
-       {.key = rows + "_min", .cell = &Metric<kRows, &MetricsRecord::min>},
-       {.key = rows + "_max", .cell = &Metric<kRows, &MetricsRecord::max>},
-       {.key = rows + "_range", .cell = &Metric<kRows, &MetricsRecord::range>},
-       {.key = rows + "_r2", .cell = &Metric<kRows, &MetricsRecord::r2>}});
+       {.key = rows + "_mean", .cell = &Metric<kRows, &ErrorMetrics::mean>},
+       {.key = rows + "_sd", .cell = &Metric<kRows, &ErrorMetrics::sd>},
+       {.key = rows + "_mae", .cell = &Metric<kRows, &ErrorMetrics::mae>},
+       {.key = rows + "_min", .cell = &Metric<kRows, &ErrorMetrics::min>},
+       {.key = rows + "_max", .cell = &Metric<kRows, &ErrorMetrics::max>},
+       {.key = rows + "_range", .cell = &Metric<kRows, &ErrorMetrics::range>},
+       {.key = rows + "_r2", .cell = &Metric<kRows, &ErrorMetrics::r2>}});
 }
 
 // Every column there is. A new one is declared here and named in the layouts

@@ -1,5 +1,6 @@
 #include "models/study/journal/fit_record.h"
 
+#include <array>
 #include <concepts>
 #include <cstdint>
 #include <cstring>
@@ -20,7 +21,7 @@
 #include "models/history/history.h"
 #include "models/map_experience.h"
 #include "models/members.h"
-#include "models/regression_report.h"
+#include "models/regression_record.h"
 
 namespace errmap::models {
 
@@ -63,6 +64,11 @@ class Writer {
   void Put(const std::vector<T>& list) {
     Put(list.size());
     for (const T& element : list) Put(element);
+  }
+
+  template <typename T, std::size_t kSize>
+  void Put(const std::array<T, kSize>& values) {
+    for (const T& value : values) Put(value);
   }
 
   template <typename T>
@@ -154,6 +160,11 @@ class Reader {
   void Get(std::vector<T>* list) {
     const std::size_t size = GetCount();
     for (std::size_t i = 0; i < size; ++i) Get(&list->emplace_back());
+  }
+
+  template <typename T, std::size_t kSize>
+  void Get(std::array<T, kSize>* values) {
+    for (T& value : *values) Get(&value);
   }
 
   template <typename T>

@@ -1,23 +1,20 @@
 #include "models/study/judgement/choice.h"
 
+#include <array>
+
+#include "data/text.h"
+
 namespace errmap::models {
 
 std::string_view ToString(Choice choice) {
-  switch (choice) {
-    case Choice::kPolynomial:
-      return "polynomial";
-    case Choice::kNeural:
-      return "neural";
-    case Choice::kNoPracticalDifference:
-      return "no practical difference";
-    case Choice::kBlend:
-      return "blend";
-    case Choice::kBaseline:
-      return "baseline";
-    case Choice::kGiven:
-      return "given";
-  }
-  return "";
+  constexpr auto kNames =
+      std::to_array<std::string_view>({"polynomial",
+                                       "neural",
+                                       "blend",
+                                       "no practical difference",
+                                       "baseline",
+                                       "given"});
+  return data::NameOf(kNames, choice);
 }
 
 Choice ChoiceOf(const ModelResult& model) {

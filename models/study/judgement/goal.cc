@@ -17,14 +17,12 @@ GoalJudgement JudgeGoal(double goal,
                         const stats::ErrorMetrics& test,
                         bool complete,
                         bool rezeroed) {
-  GoalJudgement judged{.goal = goal,
-                       .rmse = test.rmse,
-                       .sd = test.residuals.sd,
-                       .offset = test.residuals.mean};
+  GoalJudgement judged{
+      .goal = goal, .rmse = test.rmse, .sd = test.sd, .offset = test.mean};
   if (!std::isfinite(goal)) {
     judged.standing = GoalStanding::kNone;
   } else if (!complete || !std::isfinite(judged.rmse) ||
-             test.residuals.n < kFewestRowsForGoal) {
+             test.n < kFewestRowsForGoal) {
     judged.standing = GoalStanding::kNotJudged;
   } else if (judged.rmse <= goal) {
     judged.standing = GoalStanding::kMet;

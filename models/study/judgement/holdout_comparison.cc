@@ -36,6 +36,7 @@ stats::FoldLosses GatherFolds(const Holdout& holdout,
 // counts for the earlier model.
 std::vector<WinShare> CountWins(const stats::FoldLosses& folds,
                                 Index repeats,
+                                const StudyResult& study,
                                 const std::vector<std::size_t>& models) {
   const Index folds_of_cut = folds.mean_squares.rows() / repeats;
   std::vector<double> wins(models.size(), 0.0);
@@ -51,7 +52,8 @@ std::vector<WinShare> CountWins(const stats::FoldLosses& folds,
   std::vector<WinShare> shares;
   for (std::size_t m = 0; m < models.size(); ++m) {
     if (wins[m] > 0.0) {
-      shares.push_back({models[m], wins[m] / static_cast<double>(repeats)});
+      shares.push_back({study.models[models[m]].name,
+                        wins[m] / static_cast<double>(repeats)});
     }
   }
   std::ranges::stable_sort(shares, std::greater(), &WinShare::share);
@@ -110,7 +112,8 @@ HoldoutComparison CompareOne(const data::Dataset& dataset,
         ThatTheyDiffer(comparison.tests, pair, separate));
   }
   if (holdout.repeats > 1) {
-    comparison.wins = CountWins(folds, holdout.repeats, comparison.models);
+    comparison.wins =
+        CountWins(folds, holdout.repeats, study, comparison.models);
   }
   return comparison;
 }

@@ -11,13 +11,14 @@
 #include "models/study/judgement/units_of_analysis.h"
 #include "models/study/study.h"
 #include "stats/comparison/paired_comparison.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 
 /// A model and the share of repeats in which it had the lowest error.
 struct WinShare {
-  std::size_t model = 0;  // index into StudyResult::models
-  double share = 0.0;
+  std::string model;
+  double share = stats::kNaN;
 };
 
 /// All judged models of one hold-out, compared with each other.

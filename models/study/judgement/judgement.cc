@@ -16,7 +16,7 @@ Judgement JudgeStudy(const data::Dataset& dataset,
             : std::optional(
                   JudgeHoldout(comparison, study, options.indifference)));
   }
-  judgement.gap = MeasureGap(holdouts, judgement.comparisons);
+  judgement.gap = MeasureGap(holdouts, study, judgement.comparisons);
   judgement.recommendation =
       Recommend(dataset, holdouts, study, judgement.comparisons, options);
   for (const ModelResult& model : study.models) {

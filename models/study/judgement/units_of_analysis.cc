@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "models/study/session_cut.h"
 #include "stats/comparison/unit_losses.h"
 
 namespace errmap::models {

@@ -84,7 +84,9 @@ Verdict JudgeHoldout(const HoldoutComparison& comparison,
 
 std::optional<InterpolationGap> MeasureGap(
     const std::vector<Holdout>& holdouts,
+    const StudyResult& study,
     const std::vector<HoldoutComparison>& comparisons) {
+  constexpr double kFlatteringRatio = 2.0;
   std::optional<std::size_t> neighbours;
   for (std::size_t h = 0; h < holdouts.size(); ++h) {
     if (comparisons[h].models.empty()) continue;
@@ -96,12 +98,18 @@ std::optional<InterpolationGap> MeasureGap(
     return std::nullopt;
   }
   if (!neighbours) return std::nullopt;
-  InterpolationGap gap{*neighbours, *unseen, {}};
+  InterpolationGap gap{.neighbours = holdouts[*neighbours].name,
+                       .unseen = holdouts[*unseen].name,
+                       .warning = {},
+                       .models = {}};
   for (const std::size_t model : comparisons[*neighbours].models) {
     if (!comparisons[*unseen].PlaceOf(model)) continue;
-    gap.rows.push_back({model,
-                        RmseOf(comparisons[*neighbours], model),
-                        RmseOf(comparisons[*unseen], model)});
+    InterpolationGap::Row& row = gap.models.emplace_back();
+    row.model = study.models[model].name;
+    row.neighbours_rmse = RmseOf(comparisons[*neighbours], model);
+    row.unseen_rmse = RmseOf(comparisons[*unseen], model);
+    row.ratio = row.unseen_rmse / row.neighbours_rmse;
+    row.flatters = row.ratio >= kFlatteringRatio;
   }
   return gap;
 }

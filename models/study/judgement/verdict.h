@@ -7,6 +7,7 @@
 #include "models/study/judgement/choice.h"
 #include "models/study/judgement/holdout_comparison.h"
 #include "models/study/study.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 
@@ -31,19 +32,17 @@ struct Verdict {
 /// Each model's error among neighbours and its error on unseen groups.
 struct InterpolationGap {
   struct Row {
-    std::size_t model = 0;
-    double neighbours_rmse = 0.0;
-    double unseen_rmse = 0.0;
-    double ratio() const { return unseen_rmse / neighbours_rmse; }
-    /// True if neighbours flatter: the error on unseen groups is twice as
-    /// large.
-    bool flatters() const { return ratio() >= kFlatteringRatio; }
+    std::string model;
+    double neighbours_rmse = stats::kNaN;
+    double unseen_rmse = stats::kNaN;
+    double ratio = stats::kNaN;  // unseen_rmse / neighbours_rmse
+    bool flatters = false;       // the ratio is at least 2
   };
-  static constexpr double kFlatteringRatio = 2.0;
 
-  std::size_t neighbours = 0;  // index of the hold-out
-  std::size_t unseen = 0;
-  std::vector<Row> rows;  // models judged in both
+  std::string neighbours;  // the hold-outs
+  std::string unseen;
+  std::string warning;      // left to the caller
+  std::vector<Row> models;  // judged in both
 };
 
 /// Judges one hold-out in which at least one model could be judged.
@@ -54,6 +53,7 @@ Verdict JudgeHoldout(const HoldoutComparison& comparison,
 /// Returns nothing unless both kinds of hold-out are present.
 std::optional<InterpolationGap> MeasureGap(
     const std::vector<Holdout>& holdouts,
+    const StudyResult& study,
     const std::vector<HoldoutComparison>& comparisons);
 
 }  // namespace errmap::models

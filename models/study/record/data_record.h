@@ -7,8 +7,7 @@
 
 #include "data/measurements/column_faults.h"
 #include "data/measurements/dataset.h"
-#include "models/study/record/record.h"
-#include "models/study/record/record_values.h"
+#include "models/record.h"
 
 // The data of a component, the unit of display, and how its rows are held
 // out.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "models/study/record/record.h"
+#include "models/record.h"
 
 // The rows behind the figures.
 

@@ -5,29 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "models/record.h"
 #include "models/study/judgement/choice.h"
 #include "models/study/judgement/confidence.h"
-#include "models/study/record/record.h"
-#include "models/study/record/record_values.h"
+#include "models/study/judgement/holdout_comparison.h"
 
 // The judgement: the models compared with each other on held-out rows.
 
 namespace errmap::models {
-
-struct GapModelRecord {
-  std::string model;
-  double neighbours_rmse = kNotKnown;
-  double unseen_rmse = kNotKnown;
-  double ratio = kNotKnown;
-  bool flatters = false;
-};
-
-struct GapRecord {
-  std::string neighbours;
-  std::string unseen;
-  std::string warning;
-  std::vector<GapModelRecord> models;
-};
 
 struct WilcoxonRecord {
   double statistic = kNotKnown;
@@ -83,16 +68,11 @@ struct PairRecord {
   PairTestsRecord tests;
 };
 
-struct WinRecord {
-  std::string model;
-  double share = kNotKnown;
-};
-
 /// Share of wins over repeated splits of the groups.
 struct StabilityRecord {
   std::string holdout;
   std::int64_t repeats = 0;
-  std::vector<WinRecord> wins;
+  std::vector<WinShare> wins;
 };
 
 struct VerdictRecord {

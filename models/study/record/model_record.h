@@ -9,29 +9,17 @@
 
 #include "fitting/minimisers/fit_summary.h"
 #include "models/error_model.h"
+#include "models/record.h"
+#include "models/regression_record.h"
 #include "models/study/judgement/choice.h"
 #include "models/study/judgement/goal.h"
 #include "models/study/memorisation.h"
-#include "models/study/record/record.h"
-#include "models/study/record/record_values.h"
-#include "models/study/record/regression_record.h"
 #include "models/study/record/residual_record.h"
+#include "stats/error_metrics.h"
 
 // A model: its fits, and its metrics under each hold-out.
 
 namespace errmap::models {
-
-struct MetricsRecord {
-  std::int64_t n = 0;
-  double mean = kNotKnown;
-  double sd = kNotKnown;  // n - 1
-  double rmse = kNotKnown;
-  double mae = kNotKnown;
-  double min = kNotKnown;
-  double max = kNotKnown;
-  double range = kNotKnown;
-  double r2 = kNotKnown;
-};
 
 /// Statistics of the finite final costs.
 struct CostSpreadRecord {
@@ -93,8 +81,8 @@ struct MemorisationRecord {
 
 /// A model under one hold-out.
 struct ResultRecord {
-  MetricsRecord train;  // metrics averaged over the folds
-  MetricsRecord test;   // of the pooled residuals of all folds
+  stats::ErrorMetrics train;  // metrics averaged over the folds
+  stats::ErrorMetrics test;   // of the pooled residuals of all folds
   std::vector<FoldRecord> folds;
   NormalityRecord normality;
   RandomnessRecord randomness;
@@ -120,7 +108,9 @@ struct StepCostRecord {
 };
 
 enum class ModelStatus { kFailed, kOk };
-std::string_view ToString(ModelStatus status);
+inline std::string_view ToString(ModelStatus status) {
+  return status == ModelStatus::kOk ? "ok" : "failed";
+}
 
 struct ModelRecord {
   std::string name;  // the SPEC as given

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "data/measurements/dataset.h"
-#include "models/study/record/record.h"
+#include "models/record.h"
 
 // Origin of a study: the program, its command line, the configuration used, and
 // the files it read.

@@ -6,11 +6,10 @@
 #include <vector>
 
 #include "models/prediction_interval.h"
+#include "models/record.h"
 #include "models/study/judgement/choice.h"
 #include "models/study/judgement/confidence.h"
 #include "models/study/judgement/goal.h"
-#include "models/study/record/record.h"
-#include "models/study/record/record_values.h"
 
 // The recommended map: its error, its cost, its predicted error, and the value
 // of its sensors and sessions.

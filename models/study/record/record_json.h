@@ -15,7 +15,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "models/study/record/record.h"
+#include "models/record.h"
 
 namespace errmap::models {
 

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "models/study/record/record.h"
-#include "models/study/record/record_values.h"
+#include "models/record.h"
 #include "stats/normality/normality.h"
 #include "stats/randomness.h"
 

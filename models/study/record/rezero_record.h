@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "models/study/record/record.h"
-#include "models/study/record/record_values.h"
+#include "models/record.h"
 
 // The effect of re-zeroing on maps, and on no map.
 

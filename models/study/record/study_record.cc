@@ -1,6 +1,7 @@
 #include "models/study/record/study_record.h"
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 
 #include <fmt/format.h>
@@ -63,13 +64,9 @@ const PairRecord* FindPair(const ComponentRecord& component,
 }
 
 std::string_view ToString(Doubt doubt) {
-  switch (doubt) {
-    case Doubt::kNoHash:
-      return "no hash";
-    case Doubt::kChanged:
-      return "changed";
-  }
-  return "";
+  constexpr auto kNames =
+      std::to_array<std::string_view>({"no hash", "changed"});
+  return data::NameOf(kNames, doubt);
 }
 
 std::string ToJsonText(const StudyRecord& record) {

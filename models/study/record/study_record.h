@@ -6,14 +6,14 @@
 #include <string_view>
 #include <vector>
 
+#include "models/record.h"
+#include "models/study/judgement/verdict.h"
 #include "models/study/record/data_record.h"
 #include "models/study/record/figure_record.h"
 #include "models/study/record/judgement_record.h"
 #include "models/study/record/model_record.h"
 #include "models/study/record/provenance_record.h"
 #include "models/study/record/recommendation_record.h"
-#include "models/study/record/record.h"
-#include "models/study/record/record_values.h"
 #include "models/study/record/rezero_record.h"
 
 // The results of a study as plain data. These structs are results.json, schema
@@ -25,13 +25,14 @@
 //
 //   data_record.h            data, unit of display, hold-outs
 //   model_record.h           fits, figures of a model under each hold-out
-//   regression_record.h      steps, coefficients, analysis of variance
 //   residual_record.h        tests of held-out residuals
 //   judgement_record.h       pairs of models, verdicts
 //   recommendation_record.h  the recommended map
 //   rezero_record.h          maps that are re-zeroed
 //   figure_record.h          the rows behind the figures
 //   provenance_record.h      configuration, program, files
+//
+// Coefficients and their statistics are in models/regression_record.h.
 
 namespace errmap::models {
 
@@ -44,7 +45,7 @@ struct ComponentRecord {
   DisplayRecord display;
   std::vector<HoldoutRecord> holdouts;
   std::vector<ModelRecord> models;
-  std::optional<GapRecord> gap;
+  std::optional<InterpolationGap> gap;
   std::vector<PairRecord> comparisons;
   ByName<std::vector<std::vector<std::string>>> tiers;
   std::vector<StabilityRecord> stability;

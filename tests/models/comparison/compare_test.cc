@@ -79,7 +79,7 @@ TEST_F(CompareMapsTest, TakesWhatItIsGiven) {
   EXPECT_DOUBLE_EQ(study.goal, 0.25);
   EXPECT_DOUBLE_EQ(study.indifference, 0.125);
   ASSERT_EQ(study.holdouts.size(), 1U);
-  EXPECT_EQ(study.study.models[0].holdouts[0].test.residuals.n, 24);
+  EXPECT_EQ(study.study.models[0].holdouts[0].test.n, 24);
 }
 
 TEST_F(CompareMapsTest, RefusesSpecsAndDataThatItCannotUse) {

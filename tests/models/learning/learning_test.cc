@@ -301,7 +301,7 @@ TEST(LearnSensors, EndsWhereItIsAskedTo) {
 TEST(LearnSensors, DoesMostOfItWithAFew) {
   const SensorCurve curve =
       LearnSensors(SimulatedDays(3, 8, 8), {.most_sensors = 4, .jobs = 2});
-  EXPECT_EQ(curve.all_sensors, 36);
+  EXPECT_EQ(curve.all.sensors, 36);
   ASSERT_EQ(curve.points.size(), 5U);
   EXPECT_LT(curve.points.back().rmse, 0.3 * curve.points.front().rmse);
   EXPECT_LE(curve.enough, 4);
@@ -316,7 +316,7 @@ TEST(ChooseNext, PrefersTheStateThatNothingLikeItWasMeasured) {
   candidates.row(19) = days.input_values().row(100) + 2.0 * warming;
   const std::vector<NextState> chosen = ChooseNext(days, candidates, 3, 10.0);
   ASSERT_EQ(chosen.size(), 3U);
-  EXPECT_EQ(chosen[0].candidate, 19);
+  EXPECT_EQ(chosen[0].row, 19);
   EXPECT_LT(chosen[0].variance_left, 1.0);
   EXPECT_LT(chosen[2].variance_left, chosen[0].variance_left);
   EXPECT_GT(chosen[0].distance, chosen[1].distance);

@@ -12,7 +12,7 @@
 
 #include "models/polynomial/polynomial_basis.h"
 #include "models/recipe_catalog.h"
-#include "models/regression_report.h"
+#include "models/regression_record.h"
 #include "stats/random.h"
 
 namespace errmap::models {
@@ -233,17 +233,19 @@ TEST(DependentTerms, LeaveTableAndMapTheSame) {
     const RandomCase data(seed);
     const FittedModel fitted =
         FitFull(data.All(data.base), data.target, data.degree, true);
-    const RegressionReport& report = *fitted.regression;
+    const RegressionRecord& report = *fitted.regression;
+    const LeastSquaresRecord& fit = *report.least_squares.value;
     const VectorXd residual =
         data.target - fitted.model->Predict(data.All(data.base));
-    EXPECT_NEAR(report.fit.residual_sum_of_squares,
+    EXPECT_NEAR(fit.anova.residual_ss,
                 residual.squaredNorm(),
                 1e-9 * data.target.squaredNorm())
         << "case " << seed;
-    EXPECT_EQ(report.fit.rank, fitted.model->num_parameters());
-    EXPECT_EQ(report.aliased.size(), report.fit.aliased.size());
+    EXPECT_EQ(fit.anova.regression_df + 1, fitted.model->num_parameters());
+    EXPECT_EQ(report.coefficients.size() - fit.aliased.size(),
+              static_cast<std::size_t>(fitted.model->num_parameters()));
     const auto form = std::get<PolynomialForm>(fitted.model->Describe());
-    EXPECT_NEAR(report.intercept.numbers.estimate,
+    EXPECT_NEAR(report.coefficients.front().estimate,
                 form.intercept,
                 1e-9 * data.target.cwiseAbs().maxCoeff());
   }
@@ -269,9 +271,10 @@ TEST(DependentTerms, TheLaterCopyIsTheOneLeftOutAndIsNamed) {
   EXPECT_THAT(fitted.remarks[0],
               HasSubstr("4 of 9 terms follow from the others"));
   EXPECT_THAT(fitted.remarks[0], HasSubstr("x2, x0*x2, x1*x2, x2^2"));
-  ASSERT_EQ(fitted.regression->aliased.size(), 4U);
-  EXPECT_EQ(fitted.regression->aliased[0].name, "x2");
-  EXPECT_EQ(fitted.regression->aliased[0].why, "repeats x1");
+  const auto& aliased = fitted.regression->least_squares.value->aliased;
+  ASSERT_EQ(aliased.size(), 4U);
+  EXPECT_EQ(aliased[0].term, "x2");
+  EXPECT_EQ(aliased[0].why, "repeats x1");
   // The copy first: then the degrees Celsius repeat it.
   const MatrixXd turned = inputs(Eigen::all, std::vector<Index>{0, 2, 1});
   const FittedModel other = FitFull(turned, target, 2);
@@ -362,7 +365,7 @@ TEST(DependentTerms, WhatOnly106BitsTellApartIsKept) {
       MakeRecipe("poly:formula=x0+x0^2+x0^3+x0^4:centred=no")
           ->Fit(MakeData(inputs, target), {.explain = true});
   EXPECT_EQ(fitted.model->num_parameters(), 5);
-  EXPECT_EQ(fitted.regression->fit.bits, 106);
+  EXPECT_EQ(fitted.regression->least_squares.value->bits, 106);
   EXPECT_THAT(fitted.remarks,
               ::testing::Contains(HasSubstr("told apart in 106 bits")));
   EXPECT_THAT(fitted.remarks,

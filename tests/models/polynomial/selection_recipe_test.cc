@@ -8,12 +8,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fitting/least_squares/regression_diagnostics.h"
 #include "models/polynomial/polynomial_basis.h"
 #include "models/polynomial/polynomial_model.h"
 #include "models/polynomial/polynomial_options.h"
 #include "models/polynomial/term_set.h"
 #include "models/recipe_catalog.h"
-#include "models/regression_report.h"
+#include "models/regression_record.h"
 #include "models/shared_work.h"
 #include "tests/fitting/regression_test_data.h"
 #include "tests/models/model_test_data.h"
@@ -89,6 +90,21 @@ data::Dataset Noise() {
   return data::Dataset(std::move(parts));
 }
 
+const LeastSquaresRecord& LeastSquaresOf(const FittedModel& fitted) {
+  return *fitted.regression->least_squares.value;
+}
+
+// Of the terms, without the intercept.
+std::vector<double> InclusionsOf(const FittedModel& fitted) {
+  std::vector<double> shares;
+  for (const CoefficientRecord& line : fitted.regression->coefficients) {
+    if (const auto& term = line.of_term.value) {
+      shares.push_back(term->bootstrap_inclusion);
+    }
+  }
+  return shares;
+}
+
 TEST(SelectionRecipe, TakesNoMoreTermsThanAFifthOfTheRows) {
   const data::Dataset noise = Noise();
   const auto fit = [&](const std::string& options) {
@@ -146,9 +162,9 @@ TEST(SelectionRecipe, BootstrapOfTermsDrawsWholeCycles) {
   const FittedModel fitted =
       MakeRecipe("poly:stepwise:degree=1:bootstrap=200")
           ->Fit(data::Dataset(std::move(parts)), kExplain);
-  ASSERT_EQ(fitted.regression->terms.size(), 1U);
-  EXPECT_EQ(fitted.regression->bootstrap_unit, "cycle");
-  EXPECT_NEAR(fitted.regression->terms[0].inclusion, 0.70, 0.12);
+  ASSERT_EQ(fitted.regression->coefficients.size(), 2U);
+  EXPECT_EQ(LeastSquaresOf(fitted).bootstrap.unit, "cycle");
+  EXPECT_NEAR(InclusionsOf(fitted)[0], 0.70, 0.12);
 }
 
 TEST(SelectionRecipe, ChoosesAmongTheTermsOfEverySet) {
@@ -159,13 +175,13 @@ TEST(SelectionRecipe, ChoosesAmongTheTermsOfEverySet) {
     const Index count = *CountTerms(set, {true, false, false}, 2);
     for (const char* family : {"poly:stepwise", "poly:best"}) {
       SCOPED_TRACE(family + terms);
-      const RegressionReport report =
-          *MakeRecipe(family + terms)->Fit(dataset, kExplain).regression;
-      EXPECT_EQ(report.candidates, count);
-      EXPECT_EQ(
-          static_cast<Index>(report.terms.size() + report.excluded.size() +
-                             report.aliased.size()),
-          count);
+      const FittedModel fitted =
+          MakeRecipe(family + terms)->Fit(dataset, kExplain);
+      const LeastSquaresRecord& fit = LeastSquaresOf(fitted);
+      EXPECT_EQ(fitted.regression->candidates, count);
+      EXPECT_EQ(std::ssize(InclusionsOf(fitted)) + std::ssize(fit.excluded) +
+                    std::ssize(fit.aliased),
+                count);
     }
   }
 }
@@ -219,13 +235,11 @@ TEST(SelectionRecipe, TrianglesGiveWhatTheRowsGive) {
                     by_triangles.terms[i].coefficient,
                     kRelative * largest);
       }
-      if (rows.regression->penalised) continue;
-      EXPECT_NEAR(rows.regression->fit.s,
-                  triangles.regression->fit.s,
-                  kRelative * rows.regression->fit.s);
-      EXPECT_NEAR(rows.regression->rows.press,
-                  triangles.regression->rows.press,
-                  kRelative * rows.regression->rows.press);
+      if (rows.regression->penalised.value) continue;
+      const LeastSquaresRecord& of_rows = LeastSquaresOf(rows);
+      const LeastSquaresRecord& of_triangles = LeastSquaresOf(triangles);
+      EXPECT_NEAR(of_rows.s, of_triangles.s, kRelative * of_rows.s);
+      EXPECT_NEAR(of_rows.press, of_triangles.press, kRelative * of_rows.press);
     }
   }
 }
@@ -264,25 +278,21 @@ TEST(SelectionRecipe, BootstrapOverGroupTrianglesIsThatOverTheirRows) {
   reduced.most_design_values = 1000.0;
   const FittedModel rows = recipe->Fit(dataset, kExplain);
   const FittedModel triangles = recipe->Fit(dataset, reduced);
-  EXPECT_EQ(rows.regression->bootstrap_unit, "cycle");
-  ASSERT_EQ(rows.regression->terms.size(), triangles.regression->terms.size());
-  for (std::size_t i = 0; i < rows.regression->terms.size(); ++i) {
-    EXPECT_EQ(rows.regression->terms[i].inclusion,
-              triangles.regression->terms[i].inclusion);
-  }
+  EXPECT_EQ(LeastSquaresOf(rows).bootstrap.unit, "cycle");
+  EXPECT_EQ(InclusionsOf(rows), InclusionsOf(triangles));
 }
 
 TEST(SelectionRecipe, BootstrapsManyRowsOnlyWhereAsked) {
   // Nine terms: just above a million values.
   const auto report_of = [](const std::string& options, Eigen::Index rows) {
-    return *MakeRecipe("poly:stepwise:degree=2:max_terms=2" + options)
-                ->Fit(QuadraticData(rows), kExplain)
-                .regression;
+    return LeastSquaresOf(
+        MakeRecipe("poly:stepwise:degree=2:max_terms=2" + options)
+            ->Fit(QuadraticData(rows), kExplain));
   };
-  const RegressionReport many = report_of("", 111'112);
-  EXPECT_EQ(many.bootstrap, 0);
+  const LeastSquaresRecord many = report_of("", 111'112);
+  EXPECT_EQ(many.bootstrap.repetitions, 0);
   EXPECT_THAT(many.notes, Contains(HasSubstr("no bootstrap at this size")));
-  EXPECT_EQ(report_of(":bootstrap=2", 111'112).bootstrap, 2);
+  EXPECT_EQ(report_of(":bootstrap=2", 111'112).bootstrap.repetitions, 2);
   EXPECT_THAT(report_of(":bootstrap=0", 111'112).notes,
               Not(Contains(HasSubstr("no bootstrap"))));
 }
@@ -298,20 +308,22 @@ TEST(SelectionRecipe, TermsOfMoreValuesThanCachesHoldAreChosenFromATriangle) {
                   ->Fit(dataset, kExplain)
                   .regression;
     };
-    const RegressionReport by_triangle = report_of("");
-    const RegressionReport by_rows = report_of(":bootstrap=1");
+    const RegressionRecord by_triangle = report_of("");
+    const RegressionRecord by_rows = report_of(":bootstrap=1");
     EXPECT_EQ(by_triangle.ended, by_rows.ended);
     EXPECT_EQ(by_triangle.chosen_step, by_rows.chosen_step);
     ASSERT_EQ(by_triangle.steps.size(), by_rows.steps.size());
     for (std::size_t i = 0; i < by_rows.steps.size(); ++i) {
       EXPECT_EQ(by_triangle.steps[i].term, by_rows.steps[i].term);
     }
-    ASSERT_EQ(by_triangle.excluded.size(), by_rows.excluded.size());
-    for (std::size_t i = 0; i < by_rows.excluded.size(); ++i) {
-      EXPECT_EQ(by_triangle.excluded[i].name, by_rows.excluded[i].name);
-      EXPECT_NEAR(by_triangle.excluded[i].f, by_rows.excluded[i].f, kRelative);
+    const auto& of_triangle = by_triangle.least_squares.value->excluded;
+    const auto& of_rows = by_rows.least_squares.value->excluded;
+    ASSERT_EQ(of_triangle.size(), of_rows.size());
+    for (std::size_t i = 0; i < of_rows.size(); ++i) {
+      EXPECT_EQ(of_triangle[i].term, of_rows[i].term);
+      EXPECT_NEAR(of_triangle[i].f, of_rows[i].f, kRelative);
     }
-    EXPECT_NE(by_triangle.excluded.front().f, by_rows.excluded.front().f)
+    EXPECT_NE(of_triangle.front().f, of_rows.front().f)
         << "the roundings of two ways";
     EXPECT_FALSE(report_of(":criterion=press").steps.empty());
   }
@@ -365,27 +377,28 @@ TEST(SelectionRecipe, ReportReproducesTheMap) {
   const data::Dataset dataset = ShippedMeasurements();
   const FittedModel fitted =
       MakeRecipe("poly:stepwise:degree=4")->Fit(dataset, kExplain);
-  const RegressionReport& report = *fitted.regression;
-  EXPECT_EQ(report.terms.size() + 1,
+  const RegressionRecord& report = *fitted.regression;
+  const LeastSquaresRecord& fit = LeastSquaresOf(fitted);
+  EXPECT_EQ(report.coefficients.size(),
             static_cast<std::size_t>(fitted.model->num_parameters()));
-  EXPECT_EQ(report.bootstrap, 200);
-  EXPECT_EQ(report.bootstrap_unit, "cycle");
-  EXPECT_EQ(report.terms.size() + report.excluded.size(), 14U);
-  for (const ReportTerm& term : report.terms) {
-    EXPECT_GE(term.inclusion, 0.0);
-    EXPECT_LE(term.inclusion, 1.0);
+  EXPECT_EQ(fit.bootstrap.repetitions, 200);
+  EXPECT_EQ(fit.bootstrap.unit, "cycle");
+  EXPECT_EQ(report.coefficients.size() + fit.excluded.size(), 15U);
+  for (const double inclusion : InclusionsOf(fitted)) {
+    EXPECT_GE(inclusion, 0.0);
+    EXPECT_LE(inclusion, 1.0);
   }
   // Table and centres alone give the first row's prediction.
   ASSERT_EQ(report.centres.size(), 2U);
-  double sum = report.intercept.numbers.estimate;
+  double sum = 0.0;
   const double x = dataset.input_values()(0, 0) - report.centres[0].second;
   const double c = dataset.input_values()(0, 1) - report.centres[1].second;
-  for (const ReportTerm& term : report.terms) {
-    double value = term.numbers.estimate;
+  for (const CoefficientRecord& term : report.coefficients) {
+    double value = term.estimate;
     for (int i = 0; i <= 4; ++i) {
       for (int j = 0; i + j <= 4; ++j) {
         if (i + j > 0 &&
-            TermName({i, j}, {"position_mm", "elapsed_cycles"}) == term.name) {
+            TermName({i, j}, {"position_mm", "elapsed_cycles"}) == term.term) {
           value *= std::pow(x, i) * std::pow(c, j);
         }
       }
@@ -399,15 +412,10 @@ TEST(SelectionRecipe, SameSeedAndAnyThreadsGiveTheSameReport) {
   const data::Dataset dataset = ShippedMeasurements();
   const auto recipe = MakeRecipe("poly:stepwise:degree=4:bootstrap=40");
   const auto inclusion = [&](std::uint64_t seed, int threads) {
-    std::vector<double> shares;
     FitContext context = kExplain;
     context.seed = seed;
     context.threads = threads;
-    const FittedModel fitted = recipe->Fit(dataset, context);
-    for (const ReportTerm& term : fitted.regression->terms) {
-      shares.push_back(term.inclusion);
-    }
-    return shares;
+    return InclusionsOf(recipe->Fit(dataset, context));
   };
   EXPECT_EQ(inclusion(1, 1), inclusion(1, 2));
   EXPECT_NE(inclusion(1, 1), inclusion(2, 1));
@@ -417,7 +425,7 @@ TEST(SelectionRecipe, BestSubsetIsNotWorseThanStepwise) {
   const data::Dataset dataset = ShippedMeasurements();
   const auto bic = [&](const std::string& spec) {
     const auto fitted = MakeRecipe(spec)->Fit(dataset, kExplain);
-    return fitting::Bic(fitted.regression->fit.residual_sum_of_squares,
+    return fitting::Bic(LeastSquaresOf(fitted).anova.residual_ss,
                         397.0,
                         static_cast<double>(fitted.model->num_parameters()));
   };
@@ -455,8 +463,9 @@ TEST(SelectionRecipe, RidgeAndLassoShrinkAndStayNearTheData) {
   const data::Dataset dataset = ShippedMeasurements();
   for (const char* spec : {"poly:ridge", "poly:lasso", "poly:lasso:rule=1se"}) {
     const FittedModel fitted = MakeRecipe(spec)->Fit(dataset, kExplain);
-    EXPECT_TRUE(fitted.regression->penalised);
-    EXPECT_EQ(fitted.regression->cross_validation, "groups:5 of cycle");
+    ASSERT_TRUE(fitted.regression->penalised.value);
+    EXPECT_EQ(fitted.regression->penalised.value->cross_validation.holdout,
+              "groups:5 of cycle");
     EXPECT_LT((fitted.Predict(dataset) - dataset.target_values()).norm(),
               0.5 * dataset.target_values().norm());
   }
@@ -515,9 +524,9 @@ TEST(SelectionRecipe, NamesAliasedTerms) {
       MakeRecipe("poly:stepwise:degree=2")
           ->Fit(data::Dataset(std::move(parts)), kExplain);
   bool named = false;
-  for (const AliasReport& alias : fitted.regression->aliased) {
+  for (const AliasedRecord& alias : LeastSquaresOf(fitted).aliased) {
     named =
-        named || (alias.name == "t2_degC" && alias.why == "repeats t1_degC");
+        named || (alias.term == "t2_degC" && alias.why == "repeats t1_degC");
   }
   EXPECT_TRUE(named);
 }

@@ -11,7 +11,6 @@
 #include <Eigen/Core>
 
 #include "models/study/judgement/confidence.h"
-#include "stats/normality/monte_carlo.h"
 #include "stats/random.h"
 
 namespace errmap::testing {

@@ -76,7 +76,7 @@ TEST(GivenPredictions, OfAllRowsServeEveryHoldout) {
       MakeHoldouts(dataset, {"every:3", "kfold:5"}));
   for (const HoldoutResult& result : given.holdouts) {
     EXPECT_NEAR(result.test.rmse, 0.001, 1e-12) << result.holdout;
-    EXPECT_NEAR(result.train.residuals.mean, 0.001, 1e-12);
+    EXPECT_NEAR(result.train.mean, 0.001, 1e-12);
   }
 }
 

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "models/study/judgement/judgement.h"
-#include "models/study/session_cut.h"
+#include "models/study/study.h"
 #include "models/study/study_defaults.h"
 #include "tests/models/history/history_data.h"
 #include "tests/models/study/study_test_tools.h"

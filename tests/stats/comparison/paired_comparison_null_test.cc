@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include "stats/comparison/paired_comparison.h"
-#include "stats/normality/monte_carlo.h"
 #include "stats/random.h"
 
 namespace errmap::stats {

@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "stats/comparison/holm.h"
-#include "stats/normality/monte_carlo.h"
 #include "stats/random.h"
 
 namespace errmap::stats {

@@ -7,7 +7,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "stats/normality/monte_carlo.h"
 #include "stats/random.h"
 
 namespace errmap::stats {

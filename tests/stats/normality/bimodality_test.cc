@@ -6,7 +6,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "stats/normality/monte_carlo.h"
 #include "stats/random.h"
 #include "tests/models/serial_reference.h"
 #include "tests/stats/golden_samples.h"

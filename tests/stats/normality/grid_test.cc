@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "stats/normality/monte_carlo.h"
 #include "stats/normality/normality.h"
 #include "stats/random.h"
 

@@ -13,7 +13,6 @@
 #include "stats/kolmogorov_smirnov.h"
 #include "stats/normality/bimodality.h"
 #include "stats/normality/kolmogorov_exact.h"
-#include "stats/normality/monte_carlo.h"
 #include "stats/normality/normality.h"
 #include "stats/random.h"
 #include "stats/randomness.h"

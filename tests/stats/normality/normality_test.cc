@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include "stats/normality/lilliefors.h"
-#include "stats/normality/monte_carlo.h"
 #include "stats/random.h"
 #include "tests/numbers.h"
 #include "tests/places.h"

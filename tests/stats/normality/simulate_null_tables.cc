@@ -16,7 +16,6 @@
 
 #include "stats/kolmogorov_smirnov.h"
 #include "stats/normality/bimodality.h"
-#include "stats/normality/monte_carlo.h"
 #include "stats/normality/ordered_sample.h"
 #include "stats/normality/probability_plot.h"
 #include "stats/normality/simulated_quantiles_data.h"

@@ -16,6 +16,7 @@
 #include "models/study/judgement/goal.h"
 #include "models/study/judgement/recommendation.h"
 #include "models/study/judgement/units_of_analysis.h"
+#include "stats/error_metrics.h"
 
 namespace errmap::report {
 namespace {
@@ -257,7 +258,7 @@ Remarks HeldAgainstGoal(const Numbers& of) {
                                          of.record.goal * display.scale,
                                          display.unit.empty() ? "" : " ",
                                          display.unit);
-  const models::MetricsRecord& found =
+  const stats::ErrorMetrics& found =
       of.Result(advice.model, advice.holdout).test;
   switch (advice.goal_standing) {
     case GoalStanding::kMet: {

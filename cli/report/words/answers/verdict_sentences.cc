@@ -165,19 +165,19 @@ std::string VerdictSentence(const ComponentNumbers& component,
 }
 
 std::string GapSentence(const ComponentNumbers& component) {
-  const models::GapRecord& gap = There(component.record.gap);
-  std::vector<models::GapModelRecord> flattered;
+  const models::InterpolationGap& gap = There(component.record.gap);
+  std::vector<models::InterpolationGap::Row> flattered;
   std::ranges::copy_if(
       gap.models, std::back_inserter(flattered), [&](const auto& row) {
         return row.flatters && !component.Model(row.model).baseline;
       });
   if (flattered.empty()) return "";
   std::ranges::stable_sort(
-      flattered, std::greater(), &models::GapModelRecord::ratio);
+      flattered, std::greater(), &models::InterpolationGap::Row::ratio);
   constexpr std::size_t kMostNamed = 3;
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < std::min(flattered.size(), kMostNamed); ++i) {
-    const models::GapModelRecord& row = flattered[i];
+    const models::InterpolationGap::Row& row = flattered[i];
     parts.push_back(fmt::format("{} ({} against {}, {} times)",
                                 row.model,
                                 component.error(row.neighbours_rmse),

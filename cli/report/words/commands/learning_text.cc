@@ -57,7 +57,7 @@ std::string CurvesText(const models::LearningCurvesRecord& curves,
   return text;
 }
 
-std::string SensorsText(const models::SensorCurveRecord& curve,
+std::string SensorsText(const models::SensorCurve& curve,
                         const data::Unit& unit) {
   constexpr std::size_t kMostSubstitutes = 4;
   const ErrorText error = ErrorTextOf(curve, unit);
@@ -66,7 +66,7 @@ std::string SensorsText(const models::SensorCurveRecord& curve,
                   error.symbol(),
                   curve.held_out,
                   ViewWords(curve.view));
-  for (const models::SensorPointRecord& point : curve.points) {
+  for (const models::SensorCurve::Point& point : curve.points) {
     text += fmt::format("  {:4}  {:>9}{}\n",
                         point.sensors,
                         error(point.rmse),
@@ -76,7 +76,7 @@ std::string SensorsText(const models::SensorCurveRecord& curve,
       fmt::format("  all {}  {}\n", curve.all.sensors, error(curve.all.rmse));
   text +=
       EnoughWords(curve) + (curve.enough ? ":\n" : "; the best of so many:\n");
-  for (const models::ChosenSensorRecord& chosen : curve.chosen) {
+  for (const models::SensorCurve::Chosen& chosen : curve.chosen) {
     text += "  " + data::Printable(chosen.sensor, chosen.sensor.size());
     if (std::isfinite(chosen.replaced_cost)) {
       text += fmt::format(" ({:+.0f} % with another in its place)",
@@ -95,11 +95,11 @@ std::string SensorsText(const models::SensorCurveRecord& curve,
   return text;
 }
 
-std::string NextText(const std::vector<models::NextStateRecord>& chosen) {
+std::string NextText(const std::vector<models::NextState>& chosen) {
   std::string text =
       "Measure next, in this order (data rows of the candidates; mean variance "
       "of predictions left, and distance to the nearest measured state):\n";
-  for (const models::NextStateRecord& state : chosen) {
+  for (const models::NextState& state : chosen) {
     text += fmt::format("  row {:4}  {:3.0f} %  {:.1f}\n",
                         state.row,
                         kPercent * state.variance_left,

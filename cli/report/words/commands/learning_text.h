@@ -11,8 +11,8 @@ namespace errmap::report {
 
 std::string CurvesText(const models::LearningCurvesRecord& curves,
                        const data::Unit& unit);
-std::string SensorsText(const models::SensorCurveRecord& curve,
+std::string SensorsText(const models::SensorCurve& curve,
                         const data::Unit& unit);
-std::string NextText(const std::vector<models::NextStateRecord>& chosen);
+std::string NextText(const std::vector<models::NextState>& chosen);
 
 }  // namespace errmap::report

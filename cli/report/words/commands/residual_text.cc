@@ -194,27 +194,27 @@ std::string SampleText(const stats::ErrorMetrics& metrics,
                        const Eigen::VectorXd& values,
                        const stats::ShapeMoments& shape,
                        const data::Unit& unit) {
-  const stats::SampleSummary& sample = metrics.residuals;
   Eigen::VectorXd sorted = values;
   std::sort(sorted.begin(), sorted.end());
   const auto line = [](const char* label, const std::string& text) {
     return fmt::format("  {:<10} {}\n", label, text);
   };
   std::string text;
-  text += line("mean",
-               fmt::format("{}  +- {} (standard error of independent values)",
-                           InUnit(sample.mean, unit),
-                           InUnit(stats::StandardError(sample), unit)));
+  text += line(
+      "mean",
+      fmt::format("{}  +- {} (standard error of independent values)",
+                  InUnit(metrics.mean, unit),
+                  InUnit(stats::StandardError(metrics.sd, metrics.n), unit)));
   text += line("sd",
                fmt::format("{}  (n - 1);  rmse {}  (n);  mae {}",
-                           InUnit(sample.sd, unit),
+                           InUnit(metrics.sd, unit),
                            InUnit(metrics.rmse, unit),
                            InUnit(metrics.mae, unit)));
   text += line("min .. max",
                fmt::format("{} .. {}, range {}",
-                           InUnit(sample.min, unit),
-                           InUnit(sample.max, unit),
-                           InUnit(sample.range, unit)));
+                           InUnit(metrics.min, unit),
+                           InUnit(metrics.max, unit),
+                           InUnit(metrics.range, unit)));
   text += line("quartiles",
                fmt::format("{}, {}, {}  (type 7)",
                            InUnit(stats::Quantile(sorted, 0.25), unit),

@@ -98,7 +98,7 @@ std::string ModesSentence(const stats::Normality& normality) {
 }
 
 std::string Report1995Sentence(const stats::Normality& normality,
-                               const stats::SampleSummary& summary,
+                               const stats::ErrorMetrics& summary,
                                const stats::Report1995Statistics& printed) {
   if (!normality.ks.ok() || !normality.lilliefors.ok() || !(printed.sd > 0.0)) {
     return "";
@@ -154,7 +154,7 @@ std::string TestsThatShowMemory(const stats::SerialTests& tests) {
 }
 
 std::string MemorySentence(const models::ResidualReport& report,
-                           const stats::SampleSummary& summary) {
+                           const stats::ErrorMetrics& summary) {
   const stats::SerialTests& whole = report.whole;
   if (!whole.lag1.ok()) return "";
   const std::string shown_by = TestsThatShowMemory(whole);
@@ -232,7 +232,7 @@ std::string SpreadSentence(const models::ResidualReport& report) {
 }  // namespace
 
 std::string ResidualSentences(const models::ResidualReport& report,
-                              const stats::SampleSummary& summary,
+                              const stats::ErrorMetrics& summary,
                               const stats::Report1995Statistics& printed,
                               const data::Unit& unit) {
   std::vector<std::string> sentences = {

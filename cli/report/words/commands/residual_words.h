@@ -4,6 +4,7 @@
 
 #include "data/units.h"
 #include "models/study/judgement/residual_assessment.h"
+#include "stats/error_metrics.h"
 #include "stats/report_1995.h"
 
 namespace errmap::report {
@@ -12,7 +13,7 @@ namespace errmap::report {
 /// them and from nothing else: their shape, how the 1995 program would have
 /// judged them, whether they are independent, where they are biased.
 std::string ResidualSentences(const models::ResidualReport& report,
-                              const stats::SampleSummary& summary,
+                              const stats::ErrorMetrics& summary,
                               const stats::Report1995Statistics& printed,
                               const data::Unit& unit);
 

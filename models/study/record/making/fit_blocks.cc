@@ -1,8 +1,7 @@
-#include "models/study/record/making/fit_blocks.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "models/study/record/making/parts.h"
 #include "stats/summary.h"
 
 namespace errmap::models {
@@ -31,92 +30,7 @@ CostSpreadRecord SpreadOf(const std::vector<StartResult>& starts) {
   return spread;
 }
 
-StepRecord StepOf(const ReportStep& step) {
-  const fitting::SelectionStep& numbers = step.numbers;
-  return {.term = step.term.empty() ? std::optional<std::string>()
-                                    : std::optional(step.term),
-          .entered = numbers.entered,
-          .terms = numbers.terms,
-          .f = numbers.f,
-          .p = numbers.p,
-          .rss = numbers.residual_sum_of_squares,
-          .aic = numbers.aic,
-          .aicc = numbers.aicc,
-          .bic = numbers.bic,
-          .adjusted_r2 = numbers.adjusted_r2,
-          .press = numbers.press,
-          .cp = numbers.cp,
-          .cv = numbers.cv};
-}
-
-CoefficientRecord CoefficientOf(const ReportTerm& term, bool is_intercept) {
-  const fitting::CoefficientEstimate& numbers = term.numbers;
-  CoefficientRecord record{.term = term.name,
-                           .estimate = numbers.estimate,
-                           .standard_error = numbers.standard_error,
-                           .t = numbers.t,
-                           .p = numbers.p,
-                           .ci95 = {numbers.lower, numbers.upper},
-                           .of_term = {}};
-  if (!is_intercept) {
-    record.of_term.value = TermRecord{.standardised = numbers.standardised,
-                                      .vif = numbers.vif,
-                                      .bootstrap_inclusion = term.inclusion};
-  }
-  return record;
-}
-
-LeastSquaresRecord LeastSquaresOf(const RegressionReport& report) {
-  const fitting::RegressionDiagnostics& fit = report.fit;
-  LeastSquaresRecord record;
-  record.anova = {.regression_df = fit.regression_degrees_of_freedom(),
-                  .regression_ss = fit.regression_sum_of_squares,
-                  .residual_df = fit.residual_degrees_of_freedom,
-                  .residual_ss = fit.residual_sum_of_squares,
-                  .total_ss = fit.total_sum_of_squares,
-                  .f = fit.f,
-                  .p = fit.f_p};
-  record.s = fit.s;
-  record.r2 = fit.r2;
-  record.adjusted_r2 = fit.adjusted_r2;
-  record.press = report.rows.press;
-  record.predicted_r2 = report.rows.PredictedR2(fit);
-  record.rows_of_leverage_1 = report.rows.leverage_one;
-  record.largest_residual = report.rows.largest_residual;
-  record.largest_residual_row = report.rows.largest_residual_row;
-  record.largest_leverage = report.rows.largest_leverage;
-  record.condition = fit.condition;
-  record.effective_rank = fit.effective_rank;
-  record.bits = fit.bits;
-  for (const ExcludedReport& term : report.excluded) {
-    record.excluded.push_back({.term = term.name,
-                               .f = term.f,
-                               .p = term.p,
-                               .bootstrap_inclusion = term.inclusion});
-  }
-  for (const AliasReport& term : report.aliased) {
-    record.aliased.push_back({.term = term.name, .why = term.why});
-  }
-  record.after_selection = report.selected;
-  record.bootstrap = {.repetitions = report.bootstrap,
-                      .unit = report.bootstrap_unit};
-  record.notes = report.notes;
-  return record;
-}
-
 }  // namespace
-
-MetricsRecord MakeRecord(const stats::ErrorMetrics& metrics) {
-  return {.n = metrics.residuals.n,
-          .mean = metrics.residuals.mean,
-          .sd = metrics.residuals.sd,
-          .rmse = metrics.rmse,
-          .mae = metrics.mae,
-          .min = metrics.residuals.min,
-          .max = metrics.residuals.max,
-          .range = metrics.residuals.range,
-          .r2 = metrics.r2};
-}
 
 SummaryRecord MakeRecord(const fitting::FitSummary& summary) {
   SummaryRecord record{.stop = summary.termination,
@@ -144,40 +58,6 @@ SummaryRecord MakeRecord(const fitting::FitSummary& summary) {
 
 StartsRecord MakeRecord(const std::vector<StartResult>& starts) {
   return {.table = starts, .spread = SpreadOf(starts)};
-}
-
-RegressionRecord MakeRecord(const RegressionReport& report) {
-  RegressionRecord record{
-      .method = report.method,
-      .candidates = report.candidates,
-      .steps = {},
-      .chosen_step = static_cast<std::int64_t>(report.chosen_step),
-      .ended = report.ended,
-      .coefficients = {},
-      .centres = report.centres,
-      .penalised = {},
-      .least_squares = {}};
-  for (const ReportStep& step : report.steps) {
-    record.steps.push_back(StepOf(step));
-  }
-  if (report.fit.has_intercept) {
-    record.coefficients.push_back(CoefficientOf(report.intercept, true));
-  }
-  for (const ReportTerm& term : report.terms) {
-    record.coefficients.push_back(CoefficientOf(term, false));
-  }
-  if (report.penalised) {
-    record.penalised.value = PenaltyRecord{
-        .penalty = report.strength,
-        .effective_parameters = report.degrees_of_freedom,
-        .cross_validation = {.holdout = report.cross_validation,
-                             .penalty = report.strengths,
-                             .mse = report.mean_squared_errors,
-                             .standard_error = report.standard_errors}};
-  } else {
-    record.least_squares.value = LeastSquaresOf(report);
-  }
-  return record;
 }
 
 ByName<OptionValue> MakeRecord(const std::vector<EffectiveOption>& options) {

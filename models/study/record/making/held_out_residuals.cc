@@ -1,56 +1,60 @@
-#include "models/study/record/making/held_out_residuals.h"
+#include <cmath>
+#include <vector>
 
-#include <map>
+#include "models/study/record/making/parts.h"
 
 namespace errmap::models {
+
+using Eigen::Index;
+
+Eigen::VectorXd HeldOutPredictions(const Holdout& holdout,
+                                   const HoldoutResult& result,
+                                   Index num_rows) {
+  Eigen::VectorXd predicted = Eigen::VectorXd::Constant(num_rows, kNotKnown);
+  for (std::size_t fold = 0; fold < result.folds.size(); ++fold) {
+    const Eigen::VectorXd& values = result.folds[fold].test_predictions;
+    for (Index i = 0; i < values.size(); ++i) {
+      const Index row =
+          holdout.test_data != nullptr
+              ? i
+              : holdout.folds[fold].test[static_cast<std::size_t>(i)];
+      if (std::isnan(predicted[row])) predicted[row] = values[i];
+    }
+  }
+  return predicted;
+}
 
 ResidualInputs HeldOutResiduals(const ComponentStudy& comparison,
                                 std::size_t model,
                                 std::size_t holdout_index) {
-  const HoldoutResult& result =
-      comparison.study.models[model].holdouts[holdout_index];
   const Holdout& holdout = comparison.holdouts[holdout_index];
-  const bool elsewhere = holdout.test_data != nullptr;
-  const data::Dataset& source =
-      elsewhere ? *holdout.test_data : comparison.data.dataset;
-  std::map<Eigen::Index, double> predicted;  // by index into source
-  for (std::size_t fold = 0; fold < result.folds.size(); ++fold) {
-    const Eigen::VectorXd& predictions = result.folds[fold].test_predictions;
-    for (Eigen::Index i = 0; i < predictions.size(); ++i) {
-      const Eigen::Index index =
-          elsewhere ? i : holdout.folds[fold].test[static_cast<std::size_t>(i)];
-      predicted.emplace(index, predictions[i]);
-    }
+  const data::Dataset& source = holdout.test_data != nullptr
+                                    ? *holdout.test_data
+                                    : comparison.data.dataset;
+  const Eigen::VectorXd predicted =
+      HeldOutPredictions(holdout,
+                         comparison.study.models[model].holdouts[holdout_index],
+                         source.num_rows());
+  std::vector<Index> rows;
+  for (Index row = 0; row < predicted.size(); ++row) {
+    if (!std::isnan(predicted[row])) rows.push_back(row);
   }
   ResidualInputs inputs;
-  const auto size = static_cast<Eigen::Index>(predicted.size());
-  inputs.values.resize(size);
-  inputs.fitted.resize(size);
+  inputs.fitted = predicted(rows);
+  inputs.values = source.target_values()(rows) - inputs.fitted;
   inputs.fitted_column = "predicted";
   if (source.has_groups()) {
     inputs.group_column = source.groups().column;
     inputs.group_labels = source.groups().labels;
-  }
-  Eigen::Index position = -1;
-  for (Eigen::Index i = 0; i < source.num_inputs() && position < 0; ++i) {
-    const auto& input = source.inputs()[static_cast<std::size_t>(i)];
-    if (!data::IsPosition(input)) continue;
-    position = i;
-    inputs.position_column = input.name;
-    inputs.positions.resize(size);
-  }
-  Eigen::Index at = 0;
-  for (const auto& [index, value] : predicted) {
-    inputs.fitted[at] = value;
-    inputs.values[at] = source.target_values()[index] - value;
-    if (source.has_groups()) {
+    for (const Index row : rows) {
       inputs.group_codes.push_back(
-          source.groups().codes[static_cast<std::size_t>(index)]);
+          source.groups().codes[static_cast<std::size_t>(row)]);
     }
-    if (position >= 0) {
-      inputs.positions[at] = source.input_values()(index, position);
-    }
-    ++at;
+  }
+  if (const Index position = FindPosition(source, ""); position >= 0) {
+    inputs.position_column =
+        source.inputs()[static_cast<std::size_t>(position)].name;
+    inputs.positions = source.input_values().col(position)(rows);
   }
   return inputs;
 }

@@ -1,5 +1,3 @@
-#include "models/study/record/making/make_figure_record.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -7,6 +5,7 @@
 #include <set>
 
 #include "models/study/judgement/extrapolated_rows.h"
+#include "models/study/record/making/parts.h"
 #include "stats/indices.h"
 
 namespace errmap::models {
@@ -91,21 +90,6 @@ Eigen::Index RowOf(const Holdout& holdout, std::size_t fold, Eigen::Index i) {
   return holdout.test_data != nullptr
              ? i
              : holdout.folds[fold].test[static_cast<std::size_t>(i)];
-}
-
-// Held-out prediction of every row of the source, NaN where it is in no test.
-Eigen::VectorXd HeldOutPredictions(const Holdout& holdout,
-                                   const HoldoutResult& result,
-                                   Eigen::Index num_rows) {
-  Eigen::VectorXd predicted = Eigen::VectorXd::Constant(num_rows, kNotKnown);
-  for (std::size_t fold = 0; fold < result.folds.size(); ++fold) {
-    const Eigen::VectorXd& values = result.folds[fold].test_predictions;
-    for (Eigen::Index i = 0; i < values.size(); ++i) {
-      const Eigen::Index row = RowOf(holdout, fold, i);
-      if (std::isnan(predicted[row])) predicted[row] = values[i];
-    }
-  }
-  return predicted;
 }
 
 FigureHoldoutRecord MakeFigureHoldout(const ComponentStudy& study,

@@ -1,15 +1,15 @@
-#include "models/study/record/making/make_judgement_record.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <utility>
 
+#include "data/text.h"
 #include "models/history/history.h"
 #include "models/history/view.h"
 #include "models/study/judgement/extrapolated_rows.h"
 #include "models/study/judgement/units_of_analysis.h"
+#include "models/study/record/making/parts.h"
 
 namespace errmap::models {
 namespace {
@@ -27,7 +27,6 @@ class JudgementRecord {
   explicit JudgementRecord(const ComponentStudy& study)
       : study_(study), judgement_(study.judgement) {}
 
-  std::optional<GapRecord> Gap() const;
   std::vector<PairRecord> Pairs() const;
   ByName<std::vector<std::vector<std::string>>> Tiers() const;
   std::vector<StabilityRecord> Stability() const;
@@ -75,23 +74,6 @@ double JudgementRecord::RemovedShare(std::size_t holdout,
   const double about_mean = TestRmseOf("mean", holdout);
   if (!may_err && without > kFarFromZero * about_mean) without = about_mean;
   return without > 0.0 ? 1.0 - of_map.test.rmse / without : kNotKnown;
-}
-
-std::optional<GapRecord> JudgementRecord::Gap() const {
-  const auto& gap = judgement_.gap;
-  if (!gap) return std::nullopt;
-  GapRecord record{.neighbours = study_.holdouts[gap->neighbours].name,
-                   .unseen = study_.holdouts[gap->unseen].name,
-                   .warning = {},
-                   .models = {}};
-  for (const InterpolationGap::Row& row : gap->rows) {
-    record.models.push_back({.model = Name(row.model),
-                             .neighbours_rmse = row.neighbours_rmse,
-                             .unseen_rmse = row.unseen_rmse,
-                             .ratio = row.ratio(),
-                             .flatters = row.flatters()});
-  }
-  return record;
 }
 
 MeanTestRecord MeanTestOf(const stats::MeanDifferenceTest& test) {
@@ -176,13 +158,9 @@ std::vector<StabilityRecord> JudgementRecord::Stability() const {
   for (std::size_t h = 0; h < study_.holdouts.size(); ++h) {
     const HoldoutComparison& tests = judgement_.comparisons[h];
     if (tests.wins.empty()) continue;
-    StabilityRecord& record = stability.emplace_back(
-        StabilityRecord{.holdout = tests.holdout,
-                        .repeats = study_.holdouts[h].repeats,
-                        .wins = {}});
-    for (const WinShare& win : tests.wins) {
-      record.wins.push_back({.model = Name(win.model), .share = win.share});
-    }
+    stability.push_back({.holdout = tests.holdout,
+                         .repeats = study_.holdouts[h].repeats,
+                         .wins = tests.wins});
   }
   return stability;
 }
@@ -381,15 +359,9 @@ std::optional<RecommendationRecord> JudgementRecord::Advice() const {
 }
 
 std::string_view WordOf(RezeroKind kind) {
-  switch (kind) {
-    case RezeroKind::kEvery:
-      return "interval";
-    case RezeroKind::kSession:
-      return "session";
-    case RezeroKind::kProbe:
-      return "probe";
-  }
-  return "";
+  constexpr auto kNames =
+      std::to_array<std::string_view>({"interval", "session", "probe"});
+  return data::NameOf(kNames, kind);
 }
 
 double FiniteOrNothing(double value) {
@@ -437,7 +409,7 @@ PromiseRecord MakeRecord(const PredictionInterval& interval) {
 
 void AddJudgement(const ComponentStudy& study, ComponentRecord* record) {
   const JudgementRecord judgement(study);
-  record->gap = judgement.Gap();
+  record->gap = study.judgement.gap;
   record->comparisons = judgement.Pairs();
   record->tiers = judgement.Tiers();
   record->stability = judgement.Stability();

@@ -1,4 +1,4 @@
-#include "models/study/record/making/make_residual_record.h"
+#include "models/study/record/making/parts.h"
 
 namespace errmap::models {
 namespace {

@@ -9,11 +9,7 @@
 #include "models/export/program_cost.h"
 #include "models/history/with_history.h"
 #include "models/inner_folds.h"
-#include "models/study/record/making/fit_blocks.h"
-#include "models/study/record/making/held_out_residuals.h"
-#include "models/study/record/making/make_figure_record.h"
-#include "models/study/record/making/make_judgement_record.h"
-#include "models/study/record/making/make_residual_record.h"
+#include "models/study/record/making/parts.h"
 
 namespace errmap::models {
 namespace {
@@ -126,8 +122,8 @@ ResultRecord MakeResult(const ComponentStudy& study,
                         std::size_t h) {
   const HoldoutResult& result = study.study.models[model].holdouts[h];
   ResultRecord record;
-  record.train = MakeRecord(result.train);
-  record.test = MakeRecord(result.test);
+  record.train = result.train;
+  record.test = result.test;
   for (const FoldResult& fold : result.folds) {
     record.folds.push_back({.train_rmse = fold.train_rmse,
                             .test_rmse = fold.test_rmse,
@@ -209,7 +205,7 @@ ModelRecord MakeModel(const ComponentStudy& study, std::size_t index) {
                                  map.choices,
                                  map.starts);
     if (map.regression != nullptr) {
-      record.regression = MakeRecord(*map.regression);
+      record.regression = *map.regression;
     }
   }
   if (model.memorisation) {

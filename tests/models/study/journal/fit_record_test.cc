@@ -16,7 +16,7 @@
 #include "models/history/history.h"
 #include "models/polynomial/polynomial_model.h"
 #include "models/recipe_catalog.h"
-#include "models/regression_report.h"
+#include "models/regression_record.h"
 #include "tests/models/model_test_data.h"
 #include "tests/numbers.h"
 
@@ -58,13 +58,14 @@ FitOutcome FullOutcome() {
   fitted.remarks = {"one"};
   fitted.choices = {{"wfactor", 1.5}};
   fitted.starts.resize(1);
-  auto report = std::make_shared<RegressionReport>();
+  auto report = std::make_shared<RegressionRecord>();
   report->steps.resize(1);
-  report->excluded.resize(1);
-  report->aliased.resize(1);
-  report->terms.resize(1);
-  report->fit.coefficients.resize(1);
-  report->fit.triangle = Eigen::MatrixXd::Identity(2, 3);
+  report->coefficients.resize(1);
+  report->coefficients[0].of_term.value.emplace();
+  report->penalised.value.emplace();
+  LeastSquaresRecord& fit = report->least_squares.value.emplace();
+  fit.excluded.resize(1);
+  fit.aliased.resize(1);
   fitted.regression = report;
   fitted.history = std::make_shared<History>(
       History{.time_unit = "s",
@@ -77,11 +78,15 @@ FitOutcome FullOutcome() {
   return outcome;
 }
 
-RegressionReport& Report(FitOutcome* outcome) {
-  auto copy = std::make_shared<RegressionReport>(*outcome->fitted->regression);
-  RegressionReport& report = *copy;
+RegressionRecord& Report(FitOutcome* outcome) {
+  auto copy = std::make_shared<RegressionRecord>(*outcome->fitted->regression);
+  RegressionRecord& report = *copy;
   outcome->fitted->regression = std::move(copy);
   return report;
+}
+
+LeastSquaresRecord& Fit(FitOutcome* outcome) {
+  return *Report(outcome).least_squares.value;
 }
 
 History& Memory(FitOutcome* outcome) {
@@ -264,37 +269,29 @@ std::vector<Mutation> MutationsOfTheReport() {
       [](auto* o) { Report(o).method = "x"; },
       [](auto* o) { Report(o).candidates = 1; },
       [](auto* o) { Report(o).steps[0].term = "x"; },
-      [](auto* o) { Report(o).steps[0].numbers.entered = false; },
-      [](auto* o) { Report(o).steps[0].numbers.cv = 1.0; },
+      [](auto* o) { Report(o).steps[0].entered = true; },
+      [](auto* o) { Report(o).steps[0].cv = 1.0; },
       [](auto* o) { Report(o).chosen_step = 1; },
       [](auto* o) { Report(o).ended = "x"; },
-      [](auto* o) { Report(o).selected = true; },
-      [](auto* o) { Report(o).bootstrap = 1; },
-      [](auto* o) { Report(o).bootstrap_unit = "x"; },
-      [](auto* o) { Report(o).cross_validation = "x"; },
-      [](auto* o) { Report(o).excluded[0].f = 1.0; },
-      [](auto* o) { Report(o).aliased[0].why = "x"; },
-      [](auto* o) { Report(o).fit.aliased = {1}; },
-      [](auto* o) { Report(o).fit.coefficients[0].vif = 1.0; },
-      [](auto* o) { Report(o).fit.triangle(1, 2) = kNaN; },
-      [](auto* o) { Report(o).fit.triangle.transposeInPlace(); },
-      [](auto* o) { Report(o).fit.means = Eigen::VectorXd::Ones(1); },
-      [](auto* o) { Report(o).fit.sum_of_weights = 1.0; },
-      [](auto* o) { Report(o).rows.press = kInf; },
-      [](auto* o) { Report(o).rows.largest_residual_row = 1; },
-      [](auto* o) { Report(o).intercept.inclusion = 1.0; },
-      [](auto* o) { Report(o).terms[0].numbers.t = 1.0; },
+      [](auto* o) { Report(o).coefficients[0].t = 1.0; },
+      [](auto* o) { Report(o).coefficients[0].ci95[1] = 1.0; },
+      [](auto* o) { Report(o).coefficients[0].of_term.value->vif = 1.0; },
+      [](auto* o) { Report(o).coefficients[0].of_term.value.reset(); },
       [](auto* o) {
         Report(o).centres = {{"x", 1.0}};
       },
-      [](auto* o) { Report(o).weighted = true; },
-      [](auto* o) { Report(o).penalised = true; },
-      [](auto* o) { Report(o).strength = 1.0; },
-      [](auto* o) { Report(o).degrees_of_freedom = 1.0; },
-      [](auto* o) { Report(o).strengths = {1.0}; },
-      [](auto* o) { Report(o).mean_squared_errors = {1.0}; },
-      [](auto* o) { Report(o).standard_errors = {1.0}; },
-      [](auto* o) { Report(o).notes = {"x"}; },
+      [](auto* o) { Report(o).penalised.value.reset(); },
+      [](auto* o) { Report(o).penalised.value->penalty = 1.0; },
+      [](auto* o) { Report(o).penalised.value->cross_validation.mse = {1.0}; },
+      [](auto* o) { Fit(o).after_selection = true; },
+      [](auto* o) { Fit(o).bootstrap.repetitions = 1; },
+      [](auto* o) { Fit(o).bootstrap.unit = "x"; },
+      [](auto* o) { Fit(o).excluded[0].f = 1.0; },
+      [](auto* o) { Fit(o).aliased[0].why = "x"; },
+      [](auto* o) { Fit(o).anova.p = 1.0; },
+      [](auto* o) { Fit(o).anova.total_ss = kInf; },
+      [](auto* o) { Fit(o).largest_residual_row = 1; },
+      [](auto* o) { Fit(o).notes = {"x"}; },
   };
 }
 

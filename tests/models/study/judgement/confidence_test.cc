@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "stats/normality/monte_carlo.h"
 #include "stats/random.h"
 
 namespace errmap::models {

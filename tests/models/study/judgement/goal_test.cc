@@ -10,9 +10,9 @@ namespace {
 // Residuals of sd `sd` about `offset`, n large.
 stats::ErrorMetrics Metrics(double offset, double sd) {
   stats::ErrorMetrics metrics;
-  metrics.residuals.n = 1000;
-  metrics.residuals.mean = offset;
-  metrics.residuals.sd = sd;
+  metrics.n = 1000;
+  metrics.mean = offset;
+  metrics.sd = sd;
   metrics.rmse = std::hypot(offset, sd);
   return metrics;
 }
@@ -41,9 +41,9 @@ TEST(Goal, IsMissedByAMapThatIsRezeroedAlready) {
 
 TEST(Goal, IsNotJudgedOnFewRows) {
   stats::ErrorMetrics metrics = Metrics(0.0, 0.1);
-  metrics.residuals.n = kFewestRowsForGoal - 1;
+  metrics.n = kFewestRowsForGoal - 1;
   EXPECT_EQ(JudgeGoal(0.5, metrics, true).standing, GoalStanding::kNotJudged);
-  metrics.residuals.n = kFewestRowsForGoal;
+  metrics.n = kFewestRowsForGoal;
   EXPECT_EQ(JudgeGoal(0.5, metrics, true).standing, GoalStanding::kMet);
 }
 

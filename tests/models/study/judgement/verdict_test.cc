@@ -93,12 +93,11 @@ TEST(Verdict, FollowsTheUnseenCyclesOfTheShippedMeasurements) {
   EXPECT_EQ(unseen.confidence, Confidence::kUnitsCorrelated);
   EXPECT_FALSE(unseen.established());
   ASSERT_TRUE(judgement.gap);
-  for (const InterpolationGap::Row& row : judgement.gap->rows) {
-    if (study.models[row.model].name != "poly:full:degree=6:clip=none")
-      continue;
+  for (const InterpolationGap::Row& row : judgement.gap->models) {
+    if (row.model != "poly:full:degree=6:clip=none") continue;
     EXPECT_NEAR(1e3 * row.neighbours_rmse, 0.487, 5e-4);
     EXPECT_NEAR(1e3 * row.unseen_rmse, 10.254, 5e-4);
-    EXPECT_TRUE(row.flatters());
+    EXPECT_TRUE(row.flatters);
   }
   ASSERT_TRUE(judgement.recommendation);
   const Recommendation& advice = *judgement.recommendation;
@@ -230,7 +229,7 @@ TEST(Verdict, CallsNoGoalMetByRezeroingWhereMapsAreRezeroed) {
   const data::Dataset dataset = GroupedLine(12, 6, 0.01);
   const auto holdouts = MakeHoldouts(dataset, {"groups:4"});
   StudyResult study = RunStudy(dataset, holdouts, MakeRecipes({"mean"}), {});
-  study.models[0].holdouts[0].test.residuals.sd = 1e-3;
+  study.models[0].holdouts[0].test.sd = 1e-3;
   const auto standing = [&](bool rezeroed) {
     return JudgeStudy(
                dataset, holdouts, study, {.goal = 2e-3, .rezeroed = rezeroed})
@@ -382,7 +381,7 @@ TEST(Verdict, CountsTheCutsThatEachModelWins) {
   double sum = 0.0;
   for (const WinShare& win : wins) sum += win.share;
   EXPECT_DOUBLE_EQ(sum, 1.0);
-  EXPECT_EQ(study.models[wins.front().model].name, "poly:full:degree=3");
+  EXPECT_EQ(wins.front().model, "poly:full:degree=3");
   // Each cycle is one unit however often it was held out.
   EXPECT_EQ(judgement.comparisons[0].tests.num_units, 35);
 }

@@ -104,7 +104,7 @@ TEST(Same, SeesADifferenceAnywhereAndTakesNanForNan) {
   other = record;
   other.components[0].figures.position.reset();
   EXPECT_FALSE(Same(other, record));
-  EXPECT_TRUE(Same(MetricsRecord(), MetricsRecord()));
+  EXPECT_TRUE(Same(stats::ErrorMetrics(), stats::ErrorMetrics()));
 }
 
 TEST(StudyRecord, ReadsWhatIsMissingAndRefusesWhatIsOfAnotherType) {

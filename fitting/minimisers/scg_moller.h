@@ -1,3 +1,5 @@
+#pragma once
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -5,13 +7,13 @@
 
 #include "fitting/minimisers/cost_resolution.h"
 #include "fitting/minimisers/run_monitor.h"
-#include "fitting/minimisers/scg_variants.h"
+#include "fitting/minimisers/scaled_conjugate_gradient.h"
 #include "fitting/minimisers/vector_passes.h"
 
 namespace errmap::fitting {
-namespace {
 
-// One run. Members carry the symbols of section 6.5, equations are its own.
+/// One run of ScgVariant::kMoller. Members carry the symbols of section 6.5,
+/// equations are its own.
 template <typename Scalar>
 class MollerRun {
  public:
@@ -247,24 +249,5 @@ class MollerRun {
   bool is_new_direction_ = true;
   bool is_anew_ = false;  // cost and r are evaluated at w, not kept by the path
 };
-
-}  // namespace
-
-template <typename Scalar>
-Minimum MinimizeByMoller(const ScaledConjugateGradientOptions& options,
-                         const BasicObjective<Scalar>& f,
-                         const VectorOf<Scalar>& x0,
-                         const RunControl& run) {
-  return MollerRun<Scalar>(options, f, x0, run).Minimize();
-}
-
-template Minimum MinimizeByMoller(const ScaledConjugateGradientOptions&,
-                                  const BasicObjective<double>&,
-                                  const VectorOf<double>&,
-                                  const RunControl&);
-template Minimum MinimizeByMoller(const ScaledConjugateGradientOptions&,
-                                  const BasicObjective<float>&,
-                                  const VectorOf<float>&,
-                                  const RunControl&);
 
 }  // namespace errmap::fitting

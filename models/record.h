@@ -1,10 +1,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <concepts>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -14,6 +18,9 @@
 #include "models/members.h"
 
 namespace errmap::models {
+
+/// The value for unknown.
+inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 // Member types of a record, besides numbers, texts, truths, enumerators with
 // ToString, records, and vectors and optionals (null) of them.
@@ -27,6 +34,26 @@ struct LeftOut : std::optional<T> {
 /// An object whose keys are data, in order.
 template <typename T>
 using ByName = std::vector<std::pair<std::string, T>>;
+
+/// Returns the entry of `list` with this `name`, or null.
+template <typename T>
+requires requires(const T& entry) { entry.name; }
+const T* FindNamed(const std::vector<T>& list, std::string_view name) {
+  const auto found = std::ranges::find(list, name, &T::name);
+  return found == list.end() ? nullptr : &*found;
+}
+template <typename T>
+const T* FindNamed(const ByName<T>& list, std::string_view name) {
+  const auto found =
+      std::ranges::find(list, name, &std::pair<std::string, T>::first);
+  return found == list.end() ? nullptr : &found->second;
+}
+
+/// Value of an option.
+using OptionValue = std::variant<std::int64_t, double, std::string>;
+
+/// A 95 % interval; NaN if there is none.
+using IntervalRecord = std::array<double, 2>;
 
 /// A record whose keys are stored among those of the enclosing record; the keys
 /// of an empty optional one are left out.
@@ -49,8 +76,6 @@ template <typename T>
 struct IsInline : std::false_type {};
 template <typename T>
 struct IsInline<Inline<T>> : std::true_type {};
-template <typename T>
-inline constexpr bool kIsRecord<Inline<T>> = false;
 
 /// True if two records hold the same values; NaN equals NaN.
 template <typename T>
@@ -64,8 +89,6 @@ bool Same(const T& a, const T& b) {
     (std::make_index_sequence<members::kCount<T>>{});
   } else if constexpr (std::floating_point<T>) {
     return a == b || (std::isnan(a) && std::isnan(b));
-  } else if constexpr (IsInline<T>::value) {
-    return Same(a.value, b.value);
   } else if constexpr (requires { a.has_value(); }) {
     return a.has_value() == b.has_value() && (!a || Same(*a, *b));
   } else if constexpr (requires { std::tuple_size<T>::value; }) {

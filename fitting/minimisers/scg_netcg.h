@@ -1,15 +1,17 @@
+#pragma once
+
 #include <cmath>
 #include <limits>
 
 #include "fitting/minimisers/ordered_sums.h"
 #include "fitting/minimisers/run_monitor.h"
-#include "fitting/minimisers/scg_variants.h"
+#include "fitting/minimisers/scaled_conjugate_gradient.h"
 
 namespace errmap::fitting {
-namespace {
 
-// One run. Members carry the symbols of section 6.5, steps are numbered as
-// there. Scalars are kept in the precision of the vectors, as the program does.
+/// One run of ScgVariant::kNetcg. Members carry the symbols of section 6.5,
+/// steps are numbered as there. Scalars are kept in the precision of the
+/// vectors, as the program does.
 template <typename Scalar>
 class NetcgRun {
  public:
@@ -227,24 +229,5 @@ class NetcgRun {
   int infeasible_ = 0;
   bool accepted_ = true;  // a new direction: curvature is to be estimated
 };
-
-}  // namespace
-
-template <typename Scalar>
-Minimum MinimizeByNetcg(const ScaledConjugateGradientOptions& options,
-                        const BasicObjective<Scalar>& f,
-                        const VectorOf<Scalar>& x0,
-                        const RunControl& run) {
-  return NetcgRun<Scalar>(options, f, x0, run).Minimize();
-}
-
-template Minimum MinimizeByNetcg(const ScaledConjugateGradientOptions&,
-                                 const BasicObjective<double>&,
-                                 const VectorOf<double>&,
-                                 const RunControl&);
-template Minimum MinimizeByNetcg(const ScaledConjugateGradientOptions&,
-                                 const BasicObjective<float>&,
-                                 const VectorOf<float>&,
-                                 const RunControl&);
 
 }  // namespace errmap::fitting

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "models/study/record/record.h"
-#include "models/study/record/record_values.h"
+#include "models/record.h"
 
-// A regression: its selection steps, its coefficients and their
-// statistics.
+// The regression results of a fitted polynomial, for a statistician, as they
+// are in results.json: selection steps, coefficients and their statistics.
 
 namespace errmap::models {
 
+/// fitting::SelectionStep
 struct StepRecord {
   std::optional<std::string> term;  // empty at the start
   bool entered = false;
@@ -36,6 +36,8 @@ struct TermRecord {
   double bootstrap_inclusion = kNotKnown;  // 0 to 1
 };
 
+/// A line of the coefficient table, in the inputs' own units;
+/// fitting::CoefficientEstimate.
 struct CoefficientRecord {
   std::string term;
   double estimate = kNotKnown;
@@ -55,11 +57,11 @@ struct ExcludedRecord {
 
 struct AliasedRecord {
   std::string term;
-  std::string why;
+  std::string why;  // "is constant", "repeats t1_degC", "follows from ..."
 };
 
 struct PenaltyChoiceRecord {
-  std::string holdout;
+  std::string holdout;  // "groups:5 of cycle"; "" if there is none
   std::vector<double> penalty;
   std::vector<double> mse;
   std::vector<double> standard_error;
@@ -84,10 +86,10 @@ struct AnovaRecord {
 
 struct BootstrapRecord {
   std::int64_t repetitions = 0;
-  std::string unit;
+  std::string unit;  // "cycle" or "row"
 };
 
-/// For a least-squares fit.
+/// For a least-squares fit: fitting::RegressionDiagnostics, RowDiagnostics.
 struct LeastSquaresRecord {
   AnovaRecord anova;
   double s = kNotKnown;
@@ -101,22 +103,24 @@ struct LeastSquaresRecord {
   double largest_leverage = kNotKnown;
   double condition = kNotKnown;
   std::int64_t effective_rank = 0;
-  std::int64_t bits = 0;  // of the arithmetic of the estimates
-  std::vector<ExcludedRecord> excluded;
+  std::int64_t bits = 0;                 // of the arithmetic of the estimates
+  std::vector<ExcludedRecord> excluded;  // falling F
   std::vector<AliasedRecord> aliased;
-  bool after_selection = false;
+  bool after_selection = false;  // p-values are
   BootstrapRecord bootstrap;
-  std::vector<std::string> notes;
+  std::vector<std::string> notes;  // one line each
 };
 
 struct RegressionRecord {
-  std::string method;
+  std::string method;  // one line
+  // How terms were chosen; empty if they were given.
   std::int64_t candidates = 0;
   std::vector<StepRecord> steps;
   std::int64_t chosen_step = 0;
   std::string ended;
   /// The intercept is first, if there is one.
   std::vector<CoefficientRecord> coefficients;
+  /// The table's terms use each of these inputs minus this centre.
   ByName<double> centres;
   Inline<std::optional<PenaltyRecord>> penalised;
   Inline<std::optional<LeastSquaresRecord>> least_squares;
