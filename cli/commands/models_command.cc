@@ -1,4 +1,3 @@
-#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -51,24 +50,30 @@ std::string ModelText(const std::string& type, std::size_t width) {
   return text;
 }
 
+struct ModelsArguments {
+  std::string model;
+};
+
+int RunModels(const ModelsArguments& arguments) {
+  const std::size_t width = OutputTerminal().columns;
+  try {
+    PrintResult(arguments.model.empty() ? ListText(width)
+                                        : ModelText(arguments.model, width));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+  return kDone;
+}
+
 }  // namespace
 
 void AddModelsCommand(CLI::App* app, Run* run) {
-  auto model = std::make_shared<std::string>();
-  CLI::App* command =
-      AddCommand(app, "models", "List the models, or a model's options");
-  AddOption(command, "MODEL", *model, "Its options with their ranges")
+  const Command<ModelsArguments> command(
+      app, run, "models", "List the models, or a model's options");
+  AddOption(command, "MODEL", command->model, "Its options with their ranges")
       .Value("");
   SetFooter(command, "Example: errmap models net:scg");
-  OnRun(command, [model, run] {
-    const std::size_t width = OutputTerminal().columns;
-    try {
-      PrintResult(model->empty() ? ListText(width) : ModelText(*model, width));
-    } catch (const std::invalid_argument& error) {
-      throw UsageError(error.what());
-    }
-    run->status = kDone;
-  });
+  command.Runs(RunModels);
 }
 
 }  // namespace errmap::cli

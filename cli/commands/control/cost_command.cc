@@ -1,4 +1,3 @@
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -8,6 +7,7 @@
 #include "cli/command.h"
 #include "cli/commands/control/map_for_control.h"
 #include "cli/commands/format_option.h"
+#include "cli/commands/maps/map_command.h"
 #include "cli/json_blocks.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
@@ -128,17 +128,15 @@ int RunCost(const CostArguments& arguments) {
 }  // namespace
 
 void AddCostCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<CostArguments>();
-  CLI::App* command =
-      AddCommand(app, "cost", "Count and time what a map asks of a controller");
-  AddOption(command, "MODEL FILE.json", arguments->model, "Model file")
-      .Required();
+  const Command<CostArguments> command(
+      app, run, "cost", "Count and time what a map asks of a controller");
+  AddModelArgument(command, &command->model);
   AddFlag(command,
           "--float",
-          arguments->single,
+          command->single,
           "In single precision, but for the state");
-  AddEveryOption(command, &arguments->every);
-  AddFormatOption(command, &arguments->format);
+  AddEveryOption(command, &command->every);
+  AddFormatOption(command, &command->format);
   SetFooter(
       command,
       "Operations are counted from the program that errmap export writes; "
@@ -146,7 +144,7 @@ void AddCostCommand(CLI::App* app, Run* run) {
       "10 terms takes some 10 ns, a net with\n37 inputs and 10 hidden nodes "
       "some 200 ns: both fit a servo period of 1 ms.\n"
       "Example: errmap cost map.json");
-  OnRun(command, [arguments, run] { run->status = RunCost(*arguments); });
+  command.Runs(RunCost);
 }
 
 }  // namespace errmap::cli

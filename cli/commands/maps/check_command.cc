@@ -2,7 +2,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
@@ -326,28 +325,28 @@ int RunCheck(const ProbeArguments& arguments, const std::string& command_line) {
 }  // namespace
 
 void AddCheckCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<ProbeArguments>();
-  CLI::App* command = AddMapCommand(
+  const Command<ProbeArguments> command(
       app,
+      run,
       "check",
-      "Tell from a few probes whether a map holds in this session",
-      &arguments->model);
+      "Tell from a few probes whether a map holds in this session");
+  AddModelArgument(command, &command->model);
   AddOption(command,
             "PROBES PROBES.csv",
-            arguments->files,
+            command->files,
             "CSV file of a few measurements, inputs and target, or several: "
             "the last session is judged")
       .Required();
   AddOption(command,
             "--goal X",
-            arguments->goal,
+            command->goal,
             "Also say how often to probe to keep 90 % of the errors "
             "within this: 2um\n(errmap when has more)");
-  AddRowOptions(command, &arguments->rows.missing, &arguments->rows.faults);
-  AddFormatOption(command, &arguments->format);
-  AddMapLogArguments(command, &arguments->rows.log);
-  AddFromRest(command, &arguments->rows.log);
-  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  AddRowOptions(command, &command->rows.missing, &command->rows.faults);
+  AddFormatOption(command, &command->format);
+  AddMapLogArguments(command, &command->rows.log);
+  AddFromRest(command, &command->rows.log);
+  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(
       command,
       "Answers three questions and stops at the first that has an answer.\n"
@@ -367,9 +366,7 @@ void AddCheckCommand(CLI::App* app, Run* run) {
       "fault; 5\n"
       "not known, or not for the rest of the session.\n"
       "Example: errmap check map.json probes.csv --after today.csv");
-  OnRun(command, [arguments, run] {
-    run->status = RunCheck(*arguments, run->command_line);
-  });
+  command.Runs(RunCheck);
 }
 
 }  // namespace errmap::cli

@@ -1,4 +1,3 @@
-#include <memory>
 #include <optional>
 
 #include <fmt/format.h>
@@ -242,27 +241,25 @@ int RunEvaluate(const EvaluateArguments& arguments,
 }  // namespace
 
 void AddEvaluateCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<EvaluateArguments>();
-  CLI::App* command =
-      AddMapCommand(app,
-                    "evaluate",
-                    "Judge a fitted map on measurements it may not know",
-                    &arguments->model);
+  const Command<EvaluateArguments> command(
+      app,
+      run,
+      "evaluate",
+      "Judge a fitted map on measurements it may not know");
+  AddModelArgument(command, &command->model);
   AddOption(command,
             "DATA FILE.csv",
-            arguments->files,
+            command->files,
             "CSV file with inputs and target, or several: days of one "
             "component")
       .Required();
-  AddRowOptions(command, &arguments->rows.missing, &arguments->rows.faults);
-  AddFormatOption(command, &arguments->format);
-  AddMapLogArguments(command, &arguments->rows.log);
-  AddFromRest(command, &arguments->rows.log);
-  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  AddRowOptions(command, &command->rows.missing, &command->rows.faults);
+  AddFormatOption(command, &command->format);
+  AddMapLogArguments(command, &command->rows.log);
+  AddFromRest(command, &command->rows.log);
+  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(command, "Example: errmap evaluate map.json tuesday.csv");
-  OnRun(command, [arguments, run] {
-    run->status = RunEvaluate(*arguments, run->command_line);
-  });
+  command.Runs(RunEvaluate);
 }
 
 }  // namespace errmap::cli

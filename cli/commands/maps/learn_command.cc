@@ -268,6 +268,12 @@ std::string Stem(const LearnArguments& arguments) {
 }
 
 int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
+  if (arguments.by.empty() && arguments.candidates.empty()) {
+    throw UsageError("learn: say --by sessions|cycles|sensors or --next FILE");
+  }
+  if (arguments.resume && arguments.out.empty()) {
+    throw UsageError("--resume needs --out DIR");
+  }
   std::optional<ClaimedFolder> folder;
   if (!arguments.out.empty()) {
     folder.emplace(
@@ -325,61 +331,61 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
 }  // namespace
 
 void AddLearnCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<LearnArguments>();
-  CLI::App* command = AddCommand(
+  const Command<LearnArguments> command(
       app,
+      run,
       "learn",
       "What more days, cycles or fewer sensors would do to the error");
-  AddDataArguments(command, &arguments->data);
+  AddDataArguments(command, &command->data);
   AddOption(command,
             "--by",
-            arguments->by,
+            command->by,
             "What is learnt from one after another: sessions, cycles "
             "(the groups) or sensors")
       .OneOf(std::vector<std::string>(models::kLearntBy.begin(),
                                       models::kLearntBy.end()));
   AddOption(command,
             "--models LIST",
-            arguments->model_list,
+            command->model_list,
             "Models, separated by commas, whose curves are drawn (default: "
             "baselines, a plane, ridge and blend)");
   AddOption(command,
             "--next CANDIDATES.csv",
-            arguments->candidates,
+            command->candidates,
             "States that could be measured next, a row each with the "
             "inputs: which of them lower the predicted error most");
   AddOption(command,
             "--repeats",
-            arguments->repeats,
+            command->repeats,
             "Draws of the units learnt from, per size and fold")
       .Range(1, 100)
       .ShowDefault();
-  AddOption(command, "--sensors", arguments->sensors, "Sensors chosen at most")
+  AddOption(command, "--sensors", command->sensors, "Sensors chosen at most")
       .Range(1, 100)
       .ShowDefault();
   AddOption(command,
             "--goal X",
-            arguments->goal,
+            command->goal,
             "RMSE wanted: 2um (default: no goal)");
-  AddSeedOption(command, &arguments->seed);
+  AddSeedOption(command, &command->seed);
   AddOption(command,
             "--jobs N",
-            arguments->jobs,
+            command->jobs,
             "Fits at the same time (default: one per core)")
       .Positive();
   AddOption(command,
             "--out DIR",
-            arguments->out,
+            command->out,
             "Folder for learn-*.json, learn-*.svg and the journal of "
             "fits\nerrmap report puts the curves of a study's folder on its "
             "page");
   AddFlag(command,
           "--resume",
-          arguments->resume,
+          command->resume,
           "Go on with the fits of an earlier run in --out");
-  AddForceFlag(command, &arguments->force);
-  AddFormatOption(command, &arguments->format);
-  AddCacheFlag(command, &arguments->cache);
+  AddForceFlag(command, &command->force);
+  AddFormatOption(command, &command->format);
+  AddCacheFlag(command, &command->cache);
   MarkSeldom(command, {"--repeats", "--sensors", "--seed", "--resume"});
   SetFooter(
       command,
@@ -387,16 +393,7 @@ void AddLearnCommand(CLI::App* app, Run* run) {
       "are held out, others learnt from; a power law through the curve tells\n"
       "how many more would reach the goal, or that none would. Sensors are "
       "chosen inside\nthe folds, by a map linear in each.");
-  OnRun(command, [arguments, run] {
-    if (arguments->by.empty() && arguments->candidates.empty()) {
-      throw UsageError(
-          "learn: say --by sessions|cycles|sensors or --next FILE");
-    }
-    if (arguments->resume && arguments->out.empty()) {
-      throw UsageError("--resume needs --out DIR");
-    }
-    run->status = RunLearn(*arguments, run->command_line);
-  });
+  command.Runs(RunLearn);
 }
 
 }  // namespace errmap::cli

@@ -5,13 +5,8 @@
 
 namespace errmap::cli {
 
-CLI::App* AddMapCommand(CLI::App* app,
-                        const char* name,
-                        const char* about,
-                        std::string* model) {
-  CLI::App* command = AddCommand(app, name, about);
+void AddModelArgument(CLI::App* command, std::string* model) {
   AddOption(command, "MODEL FILE.json", *model, "Model file").Required();
-  return command;
 }
 
 Json MapAnswerJson(const char* schema,

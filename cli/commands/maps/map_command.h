@@ -12,11 +12,8 @@ class App;
 
 namespace errmap::cli {
 
-/// Adds a command whose first argument is a model file, MODEL, as `model`.
-CLI::App* AddMapCommand(CLI::App* app,
-                        const char* name,
-                        const char* about,
-                        std::string* model);
+/// Adds MODEL, a model file that a command must be given.
+void AddModelArgument(CLI::App* command, std::string* model);
 
 /// What the JSON of a map that is judged on measurements begins with: schema,
 /// model, file, target and unit.

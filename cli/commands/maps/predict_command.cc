@@ -1,6 +1,5 @@
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -319,30 +318,27 @@ int RunPredict(const PredictArguments& arguments) {
 }  // namespace
 
 void AddPredictCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<PredictArguments>();
-  CLI::App* command =
-      AddMapCommand(app,
-                    "predict",
-                    "Predict the error of every row with a fitted map",
-                    &arguments->model);
+  const Command<PredictArguments> command(
+      app, run, "predict", "Predict the error of every row with a fitted map");
+  AddModelArgument(command, &command->model);
   AddOption(command,
             "DATA FILE.csv",
-            arguments->files,
+            command->files,
             "CSV file with its inputs, or several: days of one component")
       .Required();
   AddOption(command,
             "-o,--output FILE.csv",
-            arguments->out,
+            command->out,
             "File to write (default: stdout)");
   AddOption(command,
             "--probes PROBES.csv",
-            arguments->probes,
+            command->probes,
             "Measurements of the same session: the map is moved by the "
             "offset that they show up to each row; the interval "
             "narrows, or widens where they contradict an offset");
-  AddMapLogArguments(command, &arguments->log);
-  AddFromRest(command, &arguments->log);
-  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  AddMapLogArguments(command, &command->log);
+  AddFromRest(command, &command->log);
+  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(
       command,
       "Columns: record, cycle, time and position if the data have them, "
@@ -359,7 +355,7 @@ void AddPredictCommand(CLI::App* app, Run* run) {
       "- where: the map is not made for such rows\n"
       "Exit status 4 if a prediction is not finite: its cell stays empty.\n"
       "Example: errmap predict map.json today.csv -o predicted.csv");
-  OnRun(command, [arguments, run] { run->status = RunPredict(*arguments); });
+  command.Runs(RunPredict);
 }
 
 }  // namespace errmap::cli

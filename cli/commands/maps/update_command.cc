@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -285,39 +284,39 @@ int RunUpdate(const UpdateArguments& arguments,
 }  // namespace
 
 void AddUpdateCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<UpdateArguments>();
-  CLI::App* command = AddMapCommand(
+  const Command<UpdateArguments> command(
       app,
+      run,
       "update",
-      "Fit a map again with new sessions, if that makes it better",
-      &arguments->model);
+      "Fit a map again with new sessions, if that makes it better");
+  AddModelArgument(command, &command->model);
   AddOption(command,
             "NEW NEW.csv",
-            arguments->file,
+            command->file,
             "CSV file of new sessions, two at least: inputs and target")
       .Required();
   AddOption(
-      command, "-o,--output FILE.json", arguments->out, "Model file to write")
+      command, "-o,--output FILE.json", command->out, "Model file to write")
       .Required();
   AddOption(command,
             "--known DATA.csv",
-            arguments->known,
+            command->known,
             "Rows that the map was fitted to, may be repeated (default: "
             "the files that it names, if unchanged: here, beside NEW or beside "
             "the map)")
       .OneAtATime();
   AddOption(command,
             "--time COL",
-            arguments->time,
+            command->time,
             "Column of times (default: the only time* or zeit*)");
   AddOption(command,
             "--session COL",
-            arguments->session,
+            command->session,
             "Column of sessions (default: session, day, run or tag)");
-  AddRowOptions(command, &arguments->missing, &arguments->faults);
-  AddSeedOption(command, &arguments->seed);
-  AddFormatOption(command, &arguments->format);
-  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  AddRowOptions(command, &command->missing, &command->faults);
+  AddSeedOption(command, &command->seed);
+  AddFormatOption(command, &command->format);
+  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(command,
             "Fits the same type of model, with the same inputs, to old and new "
             "sessions.\n"
@@ -329,9 +328,7 @@ void AddUpdateCommand(CLI::App* app, Run* run) {
             "is the old\n"
             "map.\n"
             "Example: errmap update map.json tuesday.csv -o new.json");
-  OnRun(command, [arguments, run] {
-    run->status = RunUpdate(*arguments, run->command_line);
-  });
+  command.Runs(RunUpdate);
 }
 
 }  // namespace errmap::cli

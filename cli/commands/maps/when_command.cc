@@ -1,5 +1,4 @@
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -178,17 +177,17 @@ int RunWhen(const WhenArguments& arguments, const std::string& command_line) {
 }  // namespace
 
 void AddWhenCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<WhenArguments>();
-  CLI::App* command = AddMapCommand(
-      app, "when", "Tell when a map wants its next probe", &arguments->model);
+  const Command<WhenArguments> command(
+      app, run, "when", "Tell when a map wants its next probe");
+  AddModelArgument(command, &command->model);
   AddOption(command,
             "--goal X",
-            arguments->goal,
+            command->goal,
             "What 90 % of the errors are to stay within: 2um\n"
             "(default: no goal, the table alone)");
-  AddMapLogArguments(command, &arguments->log);
+  AddMapLogArguments(command, &command->log);
   FindOption(command, "--after").About("Readings from the last probe to now");
-  AddFormatOption(command, &arguments->format);
+  AddFormatOption(command, &command->format);
   SetFooter(command,
             "Plays probes through on the held-out sessions of the map. A "
             "session's first\n"
@@ -201,9 +200,7 @@ void AddWhenCommand(CLI::App* app, Run* run) {
             "interval keeps to\n"
             "the goal.\n"
             "Example: errmap when map.json --goal 2um");
-  OnRun(command, [arguments, run] {
-    run->status = RunWhen(*arguments, run->command_line);
-  });
+  command.Runs(RunWhen);
 }
 
 }  // namespace errmap::cli

@@ -372,46 +372,42 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
 }  // namespace
 
 void AddFitCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<FitArguments>();
-  CLI::App* command =
-      AddCommand(app, "fit", "Fit one map to all rows and write it");
-  AddDataArguments(command, &arguments->data);
-  AddOption(
-      command, "--model SPEC", arguments->model, "The model, e.g. poly:eq8")
+  const Command<FitArguments> command(
+      app, run, "fit", "Fit one map to all rows and write it");
+  AddDataArguments(command, &command->data);
+  AddOption(command, "--model SPEC", command->model, "The model, e.g. poly:eq8")
       .Required();
   AddOption(
       command,
       "-o,--output FILE.json",
-      arguments->out,
+      command->out,
       "Model file to write, or a folder: a map for each way along the axis")
       .Required();
-  AddSeedOption(command, &arguments->seed);
+  AddSeedOption(command, &command->seed);
   AddOption(command,
             "--jobs N",
-            arguments->jobs,
+            command->jobs,
             "Threads (default: one per core)\nThey change no figure")
       .Range(1, 1024);
   AddFlag(command,
           "--correlations",
-          arguments->correlations,
+          command->correlations,
           "Also print the correlations of inputs and target");
   AddFlag(command,
           "--no-interval",
-          arguments->no_interval,
+          command->no_interval,
           "Do not fit again with days, cycles or blocks held out to "
           "find what the map may promise there");
   AddFlag(command,
           "--details",
-          arguments->details,
+          command->details,
           "Print the equation and tables whatever their size");
   AddKeepPathsFlag(command);
-  AddFormatOption(command, &arguments->format);
+  AddFormatOption(command, &command->format);
   SetFooter(
       command,
       "Example: errmap fit xdown.csv --model poly:full:degree=3 -o map.json");
-  OnRun(command, [arguments, run] {
-    run->status = RunFit(*arguments, run->command_line);
-  });
+  command.Runs(RunFit);
 }
 
 }  // namespace errmap::cli

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -257,21 +256,20 @@ int RunDeploy(const DeployArguments& arguments) {
 }  // namespace
 
 void AddDeployCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<DeployArguments>();
-  CLI::App* command = AddCommand(
-      app, "deploy", "Write down which map a machine has from now on");
+  const Command<DeployArguments> command(
+      app, run, "deploy", "Write down which map a machine has from now on");
   AddOption(
-      command, "STORE DIR", arguments->store, "Folder with an errmap.sqlite")
+      command, "STORE DIR", command->store, "Folder with an errmap.sqlite")
       .Required();
   AddOption(
-      command, "COMPONENT NAME", arguments->components, "Names of components");
+      command, "COMPONENT NAME", command->components, "Names of components");
   AddFlag(command,
           "--all",
-          arguments->all,
+          command->all,
           "Every component that has a recommended map");
   AddOption(command,
             "--model FILE.json",
-            arguments->model,
+            command->model,
             "Map to deploy in place of the recommended one");
   SetFooter(
       command,
@@ -280,7 +278,7 @@ void AddDeployCommand(CLI::App* app, Run* run) {
       "is ended. Several are deployed\nall or none.\nExit status: 0 done, 2 no "
       "such component, 3 no map, no store, or one of a newer errmap.\nExample: "
       "errmap deploy fleet \"m01/x, down\"");
-  OnRun(command, [arguments, run] { run->status = RunDeploy(*arguments); });
+  command.Runs(RunDeploy);
 }
 
 }  // namespace errmap::cli

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <spawn.h>
 #include <string>
 #include <system_error>
@@ -187,24 +186,26 @@ int RunSubmit(const SubmitArguments& arguments,
 }  // namespace
 
 void AddSubmitCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<SubmitArguments>();
-  CLI::App* command = AddCommand(
-      app, "submit", "Write the scripts that have a cluster do a fleet study");
-  AddOption(command, "SCHEDULER", arguments->scheduler, "slurm: a job array")
+  const Command<SubmitArguments> command(
+      app,
+      run,
+      "submit",
+      "Write the scripts that have a cluster do a fleet study");
+  AddOption(command, "SCHEDULER", command->scheduler, "slurm: a job array")
       .Required()
       .OneOf({"slurm"})
       .Value("NAME");
-  AddOption(command, "--config FILE.toml", arguments->config, "Study file")
+  AddOption(command, "--config FILE.toml", command->config, "Study file")
       .Required();
-  AddOption(command, "--out DIR", arguments->store, "Store to fill").Required();
-  AddOption(command, "--tasks N", arguments->tasks, "Tasks of the array")
+  AddOption(command, "--out DIR", command->store, "Store to fill").Required();
+  AddOption(command, "--tasks N", command->tasks, "Tasks of the array")
       .Required()
       .Range(1, 100000);
-  AddOption(command, "--cpus N", arguments->cpus, "Processors of each task")
+  AddOption(command, "--cpus N", command->cpus, "Processors of each task")
       .Range(1, 1024)
       .ShowDefault();
-  AddFlag(command, "--now", arguments->now, "Submit them, too");
-  AddForceFlag(command, &arguments->force);
+  AddFlag(command, "--now", command->now, "Submit them, too");
+  AddForceFlag(command, &command->force);
   SetFooter(
       command,
       "Writes STORE/slurm/shards.sh, a job array, merge.sh, which runs after "
@@ -213,9 +214,7 @@ void AddSubmitCommand(CLI::App* app, Run* run) {
       "for where a node says\nthat it has so much.\nExit status: 0 "
       "done, 1 sbatch refused, 3 unusable study file.\nExample: errmap submit "
       "slurm --config fleet.toml --out fleet --tasks 64 --cpus 4");
-  OnRun(command, [arguments, run] {
-    run->status = RunSubmit(*arguments, run->command_line);
-  });
+  command.Runs(RunSubmit);
 }
 
 }  // namespace errmap::cli

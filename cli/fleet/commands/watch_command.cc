@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -188,22 +187,21 @@ int RunWatch(const WatchArguments& arguments) {
 }  // namespace
 
 void AddWatchCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<WatchArguments>();
-  CLI::App* command =
-      AddCommand(app, "watch", "Check deployed maps against new measurements");
+  const Command<WatchArguments> command(
+      app, run, "watch", "Check deployed maps against new measurements");
   AddOption(
-      command, "STORE DIR", arguments->store, "Folder with an errmap.sqlite")
+      command, "STORE DIR", command->store, "Folder with an errmap.sqlite")
       .Required();
   AddOption(command,
             "DATA FILE|DIR",
-            arguments->data,
+            command->data,
             "New measurements: CSV files named as those of the study, "
             "folders of such, or COMPONENT=FILE")
       .Required();
   AddTableFormatOption(command,
                        "What to print; all but table have every component",
-                       &arguments->format);
-  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+                       &command->format);
+  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(
       command,
       "Each session's offset and RMS are held against the sessions held out "
@@ -219,7 +217,7 @@ void AddWatchCommand(CLI::App* app, Run* run) {
       "data that cannot be read, 4 some map is worse than promised, 5 nothing "
       "could be\njudged, or some map is doubtful.\n"
       "Example: errmap watch fleet september/");
-  OnRun(command, [arguments, run] { run->status = RunWatch(*arguments); });
+  command.Runs(RunWatch);
 }
 
 }  // namespace errmap::cli

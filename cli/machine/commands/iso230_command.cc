@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -464,40 +463,40 @@ int RunIso230(const Iso230Arguments& arguments,
 }  // namespace
 
 void AddIso230Command(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<Iso230Arguments>();
-  CLI::App* command = AddCommand(
+  const Command<Iso230Arguments> command(
       app,
+      run,
       "iso230",
       "Figures of a positioning test (ISO 230-2), with a map or without");
   AddOption(command,
             "DATA FILE.csv",
-            arguments->files,
+            command->files,
             "CSV files with the error at each approach to a position: "
             "of both directions, or one of each")
       .Required();
   AddOption(command,
             "--map MODEL.json",
-            arguments->maps,
+            command->maps,
             "Map to compensate by: one for all files, or one per file "
             "in their order")
       .OneAtATime();
   AddOption(command,
             "--target COL",
-            arguments->target,
+            command->target,
             "Column of the error (default: the only one named error*)");
   AddOption(command,
             "--position COL",
-            arguments->position,
+            command->position,
             "Column of the target positions (default: the first named "
             "position*)");
   AddOption(command,
             "--direction COL",
-            arguments->direction,
+            command->direction,
             "Column of the direction of approach: up or down, + or - "
             "(default: direction, else the order of the positions)");
-  AddOption(command, "--figure FILE.svg", arguments->figure, "Draw it");
-  AddTableFormatOption(command, "What to print", &arguments->format);
-  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  AddOption(command, "--figure FILE.svg", command->figure, "Draw it");
+  AddTableFormatOption(command, "What to print", &command->format);
+  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(
       command,
       "Each row is one run to one position. ISO 230-2:2014: A accuracy, R "
@@ -507,9 +506,7 @@ void AddIso230Command(CLI::App* app, Run* run) {
       "The standard's test is short and of a settled machine: rows of a "
       "warm-up show its drift in R and A.\n"
       "Example: errmap iso230 down.csv up.csv --map down.json --map up.json");
-  OnRun(command, [arguments, run] {
-    run->status = RunIso230(*arguments, run->command_line);
-  });
+  command.Runs(RunIso230);
 }
 
 }  // namespace errmap::cli
