@@ -429,14 +429,12 @@ void AddExportCommand(CLI::App* app, Run* run) {
               "--resolution"});
   SetFooter(
       command,
-      "Every file states inputs, their order and units, and the sign: "
-      "compensation = -error.\nWhat is written is checked against errmap "
-      "predict first, and tests itself:\n"
-      "  cc -DNAME_SELF_TEST NAME.c -lm && ./a.out\n"
-      "LinuxCNC's forward column holds where the position increases.\n"
-      "Examples: errmap export map.json --c -o controller\n"
-      "  errmap export --linuxcnc --increasing up.json --decreasing down.json "
-      "-o x.comp.txt");
+      R"(Every file states inputs, their order and units, and the sign: compensation = -error.
+What is written is checked against errmap predict first, and tests itself:
+  cc -DNAME_SELF_TEST NAME.c -lm && ./a.out
+LinuxCNC's forward column holds where the position increases.
+Examples: errmap export map.json --c -o controller
+  errmap export --linuxcnc --increasing up.json --decreasing down.json -o x.comp.txt)");
   command.Runs(RunExport);
 }
 

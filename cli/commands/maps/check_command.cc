@@ -349,23 +349,17 @@ void AddCheckCommand(CLI::App* app, Run* run) {
   AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(
       command,
-      "Answers three questions and stops at the first that has an answer.\n"
-      "- The readings: is a sensor dead, frozen, swapped, off or in another "
-      "unit?\n"
-      "- The start: are the first rows of the session there, for a map with a "
-      "memory?\n"
-      "- The probes: is the RMSE at most 1.5 times the promised one, so far "
-      "and for\n"
-      "the rest of the session, as the held-out days went on?\n"
-      "Rows without a target are readings between the probes; the memory of a "
-      "map\n"
-      "runs through them. Readings before the first row come by --after, which "
-      "needs\n"
-      "no positions.\n"
-      "Exit status: 0 the map holds; 4 it does not hold, or a sensor is at "
-      "fault; 5\n"
-      "not known, or not for the rest of the session.\n"
-      "Example: errmap check map.json probes.csv --after today.csv");
+      R"(Answers three questions and stops at the first that has an answer.
+- The readings: is a sensor dead, frozen, swapped, off or in another unit?
+- The start: are the first rows of the session there, for a map with a memory?
+- The probes: is the RMSE at most 1.5 times the promised one, so far and for
+the rest of the session, as the held-out days went on?
+Rows without a target are readings between the probes; the memory of a map
+runs through them. Readings before the first row come by --after, which needs
+no positions.
+Exit status: 0 the map holds; 4 it does not hold, or a sensor is at fault; 5
+not known, or not for the rest of the session.
+Example: errmap check map.json probes.csv --after today.csv)");
   command.Runs(RunCheck);
 }
 

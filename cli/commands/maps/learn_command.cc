@@ -387,12 +387,10 @@ void AddLearnCommand(CLI::App* app, Run* run) {
   AddFormatOption(command, &command->format);
   AddCacheFlag(command, &command->cache);
   MarkSeldom(command, {"--repeats", "--sensors", "--seed", "--resume"});
-  SetFooter(
-      command,
-      "Example: errmap learn days.csv --by sessions --goal 2um\nWhole units "
-      "are held out, others learnt from; a power law through the curve tells\n"
-      "how many more would reach the goal, or that none would. Sensors are "
-      "chosen inside\nthe folds, by a map linear in each.");
+  SetFooter(command, R"(Example: errmap learn days.csv --by sessions --goal 2um
+Whole units are held out, others learnt from; a power law through the curve tells
+how many more would reach the goal, or that none would. Sensors are chosen inside
+the folds, by a map linear in each.)");
   command.Runs(RunLearn);
 }
 

@@ -341,20 +341,17 @@ void AddPredictCommand(CLI::App* app, Run* run) {
   AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(
       command,
-      "Columns: record, cycle, time and position if the data have them, "
-      "predicted,\n"
-      "lower_90 to upper_95 (empty without an interval), inside, why, offender "
-      "and\n"
-      "unit. inside is 1 as in training and 0 elsewhere; why says what is not "
-      "as\n"
-      "there.\n"
-      "- range: a column (offender) leaves its trained range\n"
-      "- relation: it does not go with the other columns\n"
-      "- distance, leverage: the thermal state is far from all trained ones\n"
-      "- start, gap: rows are missing that the memory of the map needs\n"
-      "- where: the map is not made for such rows\n"
-      "Exit status 4 if a prediction is not finite: its cell stays empty.\n"
-      "Example: errmap predict map.json today.csv -o predicted.csv");
+      R"(Columns: record, cycle, time and position if the data have them, predicted,
+lower_90 to upper_95 (empty without an interval), inside, why, offender and
+unit. inside is 1 as in training and 0 elsewhere; why says what is not as
+there.
+- range: a column (offender) leaves its trained range
+- relation: it does not go with the other columns
+- distance, leverage: the thermal state is far from all trained ones
+- start, gap: rows are missing that the memory of the map needs
+- where: the map is not made for such rows
+Exit status 4 if a prediction is not finite: its cell stays empty.
+Example: errmap predict map.json today.csv -o predicted.csv)");
   command.Runs(RunPredict);
 }
 

@@ -317,17 +317,14 @@ void AddUpdateCommand(CLI::App* app, Run* run) {
   AddSeedOption(command, &command->seed);
   AddFormatOption(command, &command->format);
   AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
-  SetFooter(command,
-            "Fits the same type of model, with the same inputs, to old and new "
-            "sessions.\n"
-            "Each new session is predicted by the old map, and by one that has "
-            "not seen\n"
-            "it. The new map is taken if it errs less by more than makes a "
-            "difference, in\n"
-            "RMSE and in the geometric mean over the sessions. Else FILE.json "
-            "is the old\n"
-            "map.\n"
-            "Example: errmap update map.json tuesday.csv -o new.json");
+  SetFooter(
+      command,
+      R"(Fits the same type of model, with the same inputs, to old and new sessions.
+Each new session is predicted by the old map, and by one that has not seen
+it. The new map is taken if it errs less by more than makes a difference, in
+RMSE and in the geometric mean over the sessions. Else FILE.json is the old
+map.
+Example: errmap update map.json tuesday.csv -o new.json)");
   command.Runs(RunUpdate);
 }
 

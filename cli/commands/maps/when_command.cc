@@ -188,18 +188,15 @@ void AddWhenCommand(CLI::App* app, Run* run) {
   AddMapLogArguments(command, &command->log);
   FindOption(command, "--after").About("Readings from the last probe to now");
   AddFormatOption(command, &command->format);
-  SetFooter(command,
-            "Plays probes through on the held-out sessions of the map. A "
-            "session's first\n"
-            "row is a probe, and each later row is judged by the last probe "
-            "before it. A\n"
-            "rule with a temperature is advised if it errs at least 5 % less "
-            "than the best\n"
-            "clock with no more probes, in two sessions of three.\n"
-            "Exit status: 0; 4 if a probe is due now (--after), or if no "
-            "interval keeps to\n"
-            "the goal.\n"
-            "Example: errmap when map.json --goal 2um");
+  SetFooter(
+      command,
+      R"(Plays probes through on the held-out sessions of the map. A session's first
+row is a probe, and each later row is judged by the last probe before it. A
+rule with a temperature is advised if it errs at least 5 % less than the best
+clock with no more probes, in two sessions of three.
+Exit status: 0; 4 if a probe is due now (--after), or if no interval keeps to
+the goal.
+Example: errmap when map.json --goal 2um)");
   command.Runs(RunWhen);
 }
 

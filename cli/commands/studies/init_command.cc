@@ -100,10 +100,8 @@ void AddInitCommand(CLI::App* app, Run* run) {
           "Replace a file that is there already");
   SetFooter(
       command,
-      "A column such as direction with few values becomes one component per "
-      "value.\n"
-      "Example: errmap init xdown.csv -o study.toml && errmap compare --config "
-      "study.toml");
+      R"(A column such as direction with few values becomes one component per value.
+Example: errmap init xdown.csv -o study.toml && errmap compare --config study.toml)");
   command.Runs(RunInit);
 }
 

@@ -273,11 +273,11 @@ void AddDeployCommand(CLI::App* app, Run* run) {
             "Map to deploy in place of the recommended one");
   SetFooter(
       command,
-      "The map is kept in the store's maps/ with what it promised, and errmap "
-      "watch holds new\nmeasurements against it. What the component had before "
-      "is ended. Several are deployed\nall or none.\nExit status: 0 done, 2 no "
-      "such component, 3 no map, no store, or one of a newer errmap.\nExample: "
-      "errmap deploy fleet \"m01/x, down\"");
+      R"(The map is kept in the store's maps/ with what it promised, and errmap watch holds new
+measurements against it. What the component had before is ended. Several are deployed
+all or none.
+Exit status: 0 done, 2 no such component, 3 no map, no store, or one of a newer errmap.
+Example: errmap deploy fleet "m01/x, down")");
   command.Runs(RunDeploy);
 }
 

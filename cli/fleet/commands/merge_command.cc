@@ -53,10 +53,10 @@ void AddMergeCommand(CLI::App* app, Run* run) {
                        &command->format);
   SetFooter(
       command,
-      "Reads the components' summaries and writes errmap.sqlite and "
-      "report.html there, whole or\nnot at all; others may read the database "
-      "meanwhile.\nExit status: 0 done, 3 no store, or one of a newer errmap, "
-      "4 components are missing.\nExample: errmap merge fleet");
+      R"(Reads the components' summaries and writes errmap.sqlite and report.html there, whole or
+not at all; others may read the database meanwhile.
+Exit status: 0 done, 3 no store, or one of a newer errmap, 4 components are missing.
+Example: errmap merge fleet)");
   command.Runs(RunMerge);
 }
 

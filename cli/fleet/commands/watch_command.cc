@@ -204,19 +204,16 @@ void AddWatchCommand(CLI::App* app, Run* run) {
   AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(
       command,
-      "Each session's offset and RMS are held against the sessions held out "
-      "when the map was made\n(t statistics; part of a session against the "
-      "same part of those), each sensor against what\nthe others tell of it. "
-      "A map is worse where p is below 0.0025 and it errs 20 % more than\n"
-      "promised, whoever else is watched, doubtful where p is below 0.02 or it "
-      "errs 3 times\nas much: measure one more session. Sessions are kept in "
-      "the store, "
-      "watch.html draws them.\nA file is of the component whose data have its "
-      "name and the most of its folders.\nExit status: 0 none is worse, 3 no "
-      "store, one of a newer errmap, nothing deployed, no data of\nwhat is or "
-      "data that cannot be read, 4 some map is worse than promised, 5 nothing "
-      "could be\njudged, or some map is doubtful.\n"
-      "Example: errmap watch fleet september/");
+      R"(Each session's offset and RMS are held against the sessions held out when the map was made
+(t statistics; part of a session against the same part of those), each sensor against what
+the others tell of it. A map is worse where p is below 0.0025 and it errs 20 % more than
+promised, whoever else is watched, doubtful where p is below 0.02 or it errs 3 times
+as much: measure one more session. Sessions are kept in the store, watch.html draws them.
+A file is of the component whose data have its name and the most of its folders.
+Exit status: 0 none is worse, 3 no store, one of a newer errmap, nothing deployed, no data of
+what is or data that cannot be read, 4 some map is worse than promised, 5 nothing could be
+judged, or some map is doubtful.
+Example: errmap watch fleet september/)");
   command.Runs(RunWatch);
 }
 

@@ -499,13 +499,11 @@ void AddIso230Command(CLI::App* app, Run* run) {
   AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(
       command,
-      "Each row is one run to one position. ISO 230-2:2014: A accuracy, R "
-      "repeatability, E systematic\nerror, M mean bidirectional error, B "
-      "reversal error, from the means and standard deviations\nof the runs at "
-      "each position and direction; A, R and E also of one direction alone.\n"
-      "The standard's test is short and of a settled machine: rows of a "
-      "warm-up show its drift in R and A.\n"
-      "Example: errmap iso230 down.csv up.csv --map down.json --map up.json");
+      R"(Each row is one run to one position. ISO 230-2:2014: A accuracy, R repeatability, E systematic
+error, M mean bidirectional error, B reversal error, from the means and standard deviations
+of the runs at each position and direction; A, R and E also of one direction alone.
+The standard's test is short and of a settled machine: rows of a warm-up show its drift in R and A.
+Example: errmap iso230 down.csv up.csv --map down.json --map up.json)");
   command.Runs(RunIso230);
 }
 

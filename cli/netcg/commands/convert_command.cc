@@ -54,10 +54,9 @@ void AddConvertCommand(CLI::App* app, Run* run) {
   AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(
       command,
-      "Of a CSV file that convert did not write, the column error* is the "
-      "target; inputs\nare the position and the other numeric columns, dead "
-      "ones too.\n"
-      "Example: errmap convert x_displacement_down.csv down.pat");
+      R"(Of a CSV file that convert did not write, the column error* is the target; inputs
+are the position and the other numeric columns, dead ones too.
+Example: errmap convert x_displacement_down.csv down.pat)");
   command.Runs(RunConvert);
 }
 
