@@ -9,6 +9,7 @@
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
+#include "data/throwing_as.h"
 #include "models/recipe_catalog.h"
 
 namespace errmap::cli {
@@ -56,12 +57,10 @@ struct ModelsArguments {
 
 int RunModels(const ModelsArguments& arguments) {
   const std::size_t width = OutputTerminal().columns;
-  try {
-    PrintResult(arguments.model.empty() ? ListText(width)
-                                        : ModelText(arguments.model, width));
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(error.what());
-  }
+  PrintResult(data::ThrowingAs<UsageError>("", [&] {
+    return arguments.model.empty() ? ListText(width)
+                                   : ModelText(arguments.model, width);
+  }));
   return kDone;
 }
 

@@ -14,6 +14,7 @@
 #include "cli/shell/terminal.h"
 #include "data/input_error.h"
 #include "data/text.h"
+#include "data/throwing_as.h"
 #include "models/export/export_map.h"
 #include "models/export/measured_cost.h"
 #include "models/export/program_cost.h"
@@ -32,15 +33,14 @@ struct CostArguments {
 models::MapExport PrepareToMeasure(const CostArguments& arguments) {
   const models::FittedModel fitted =
       LoadForControl(arguments.model, arguments.every, false);
-  try {
-    return models::PrepareExport({&fitted},
-                                 "map",
-                                 arguments.single ? models::Precision::kSingle
-                                                  : models::Precision::kDouble);
-  } catch (const std::invalid_argument& error) {
-    throw data::InputError(fmt::format(
-        "{}: {}", data::PrintablePath(arguments.model), error.what()));
-  }
+  return data::ThrowingAs<data::InputError>(
+      data::PrintablePath(arguments.model) + ": ", [&] {
+        return models::PrepareExport({&fitted},
+                                     "map",
+                                     arguments.single
+                                         ? models::Precision::kSingle
+                                         : models::Precision::kDouble);
+      });
 }
 
 Json CostJson(const models::MapExport& map,

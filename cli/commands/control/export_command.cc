@@ -18,6 +18,7 @@
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
 #include "data/text.h"
+#include "data/throwing_as.h"
 #include "models/export/c_code.h"
 #include "models/export/compensation_table.h"
 #include "models/export/export_map.h"
@@ -56,11 +57,9 @@ std::optional<double> LimitOf(const char* flag,
                               const std::string& text,
                               const data::Unit& target) {
   if (text.empty()) return std::nullopt;
-  try {
+  return data::ThrowingAs<UsageError>(flag + std::string(" "), [&] {
     return desk::InUnitOf(target, ErrorOfFlag(flag, text, false));
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("{} {}", flag, error.what()));
-  }
+  });
 }
 
 models::LimitOptions LimitsOf(const ExportArguments& arguments,
@@ -124,15 +123,13 @@ models::MapExport Prepare(const ExportArguments& arguments,
 
 std::vector<models::ExportedFile> HalFiles(const ExportArguments& arguments,
                                            const models::MapExport& map) {
-  try {
+  return data::ThrowingAs<data::InputError>(map.name + ": ", [&] {
     return models::HalComponent(
                map,
                {.unit = data::UnitOfSymbol(arguments.tables.units),
                 .joint = arguments.joint})
         .files;
-  } catch (const std::invalid_argument& error) {
-    throw data::InputError(fmt::format("{}: {}", map.name, error.what()));
-  }
+  });
 }
 
 std::vector<models::ExportedFile> FilesOf(const ExportArguments& arguments,

@@ -30,12 +30,12 @@
 #include "cli/shell/terminal.h"
 #include "data/files/atomic_file.h"
 #include "data/files/prepare_folder.h"
+#include "data/throwing_as.h"
 #include "fitting/interruption.h"
 #include "models/learning/learning_curve.h"
 #include "models/learning/learning_record.h"
 #include "models/learning/next_states.h"
 #include "models/learning/sensor_curve.h"
-#include "models/model_spec.h"
 #include "models/study/journal/fit_label.h"
 #include "models/study/journal/kept_fits.h"
 #include "models/study/record/record_json.h"
@@ -67,13 +67,7 @@ struct LearnArguments {
 std::vector<std::unique_ptr<models::ModelRecipe>> RecipesOf(
     const LearnArguments& arguments, const data::Dataset& dataset) {
   std::vector<std::unique_ptr<models::ModelRecipe>> recipes;
-  std::vector<std::string> specs;
-  try {
-    specs = models::SplitList(arguments.model_list);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("--models: {}", error.what()));
-  }
-  for (const std::string& spec : specs) {
+  for (const std::string& spec : SplitFlag("--models", arguments.model_list)) {
     auto recipe = RecipeFromArgument(spec);
     if (const auto missing = recipe->WhatIsMissing(dataset)) {
       Say(fmt::format("{} is left out: it needs {}", spec, *missing));
@@ -176,17 +170,15 @@ void LearnCurves(const LearnArguments& arguments,
                  const data::Dataset& dataset,
                  double goal,
                  Learned* learned) {
-  models::LearningPlan plan;
-  try {
-    plan = models::PlanLearning(dataset,
-                                arguments.by == "sessions"
-                                    ? models::LearnBy::kSessions
-                                    : models::LearnBy::kGroups,
-                                arguments.repeats,
-                                arguments.seed);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("--by {}: {}", arguments.by, error.what()));
-  }
+  const auto plan =
+      data::ThrowingAs<UsageError>("--by " + arguments.by + ": ", [&] {
+        return models::PlanLearning(dataset,
+                                    arguments.by == "sessions"
+                                        ? models::LearnBy::kSessions
+                                        : models::LearnBy::kGroups,
+                                    arguments.repeats,
+                                    arguments.seed);
+      });
   const auto recipes = RecipesOf(arguments, dataset);
   const models::StudyResult study =
       RunLearning(arguments, dataset, plan, recipes);

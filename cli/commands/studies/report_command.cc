@@ -18,6 +18,7 @@
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
+#include "data/throwing_as.h"
 #include "models/study/record/study_record.h"
 
 namespace errmap::cli {
@@ -36,13 +37,12 @@ models::StudyRecord ReadResults(const std::string& folder) {
         data::PrintablePath(folder)));
   }
   const std::string text = data::ReadFile(path, data::kMostTextOfPrograms);
-  try {
-    models::StudyRecord record = models::FromJsonText(text);
-    report::PartsOf(record);  // refuses what a slice did not write
-    return record;
-  } catch (const data::InputError& error) {
-    throw data::InputError(data::PrintablePath(path) + ": " + error.what());
-  }
+  return data::ThrowingAs<data::InputError, data::InputError>(
+      data::PrintablePath(path) + ": ", [&] {
+        models::StudyRecord record = models::FromJsonText(text);
+        report::PartsOf(record);  // refuses what a slice did not write
+        return record;
+      });
 }
 
 // The study of that component alone.

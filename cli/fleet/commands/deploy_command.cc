@@ -22,6 +22,7 @@
 #include "data/sha256.h"
 #include "data/tables/gzip.h"
 #include "data/text.h"
+#include "data/throwing_as.h"
 #include "fitting/parallel_for.h"
 #include "models/fleet/session_measures.h"
 #include "models/model_file.h"
@@ -43,11 +44,10 @@ std::string Unpacked(const fleet::StorePaths& paths,
   const std::string path = paths.InFolder(component, file);
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return "";
-  try {
-    return data::Gunzip(data::ReadFile(path), data::kMostTextOfPrograms);
-  } catch (const data::InputError& error) {
-    throw data::InputError(data::PrintablePath(path) + ": " + error.what());
-  }
+  return data::ThrowingAs<data::InputError, data::InputError>(
+      data::PrintablePath(path) + ": ", [&] {
+        return data::Gunzip(data::ReadFile(path), data::kMostTextOfPrograms);
+      });
 }
 
 // What a component's map is by the store: its target and its file's hash.

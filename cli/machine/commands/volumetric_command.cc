@@ -25,6 +25,7 @@
 #include "data/files/atomic_file.h"
 #include "data/formula_text.h"
 #include "data/text.h"
+#include "data/throwing_as.h"
 #include "models/history/map_log.h"
 #include "models/kinematics/machine.h"
 #include "models/kinematics/volumetric.h"
@@ -269,11 +270,7 @@ std::vector<std::string> InputsOf(const VolumetricArguments& arguments,
 }
 
 int RunVolumetric(const VolumetricArguments& arguments) {
-  try {
-    arguments.options.Validate();
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(error.what());
-  }
+  data::ThrowingAs<UsageError>("", [&] { arguments.options.Validate(); });
   const machine::MachineFile file = machine::ReadMachineFile(arguments.machine);
   CheckOutputName("-o", arguments.out, InputsOf(arguments, file.machine));
   const data::CsvTable points = data::ReadCsv(arguments.points);

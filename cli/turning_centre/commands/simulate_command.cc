@@ -12,6 +12,7 @@
 #include "cli/slice.h"
 #include "cli/turning_centre/simulation.h"
 #include "cli/turning_centre/simulation_files.h"
+#include "data/throwing_as.h"
 
 namespace errmap::cli {
 namespace {
@@ -32,11 +33,7 @@ struct SimulateArguments {
 
 int RunSimulate(const SimulateArguments& arguments) {
   const SimulationOptions& options = arguments.simulation;
-  try {
-    options.Validate();
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(error.what());
-  }
+  data::ThrowingAs<UsageError>("", [&] { options.Validate(); });
   const std::vector<std::string> names = turning_centre::SimulationFileNames();
   // Before the work, not after it.
   ClaimedFolder folder(arguments.folder, names, {}, arguments.force);
