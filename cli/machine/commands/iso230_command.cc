@@ -233,63 +233,39 @@ struct Judged {
 struct Figure {
   const char* key;
   const char* words;
-  double (*of)(const PositioningFigures&);
+  double value;
 };
 
-constexpr Figure kFigures[] = {
-    {"A",
-     "bidirectional accuracy",
-     [](const PositioningFigures& f) { return f.accuracy; }},
-    {"A_up",
-     "accuracy, upwards",
-     [](const PositioningFigures& f) { return f.up.accuracy; }},
-    {"A_down",
-     "accuracy, downwards",
-     [](const PositioningFigures& f) { return f.down.accuracy; }},
-    {"R",
-     "bidirectional repeatability",
-     [](const PositioningFigures& f) { return f.repeatability; }},
-    {"R_up",
-     "repeatability, upwards",
-     [](const PositioningFigures& f) { return f.up.repeatability; }},
-    {"R_down",
-     "repeatability, downwards",
-     [](const PositioningFigures& f) { return f.down.repeatability; }},
-    {"E",
-     "bidirectional systematic error",
-     [](const PositioningFigures& f) { return f.systematic; }},
-    {"E_up",
-     "systematic error, upwards",
-     [](const PositioningFigures& f) { return f.up.systematic; }},
-    {"E_down",
-     "systematic error, downwards",
-     [](const PositioningFigures& f) { return f.down.systematic; }},
-    {"M",
-     "mean bidirectional error",
-     [](const PositioningFigures& f) { return f.mean_bidirectional; }},
-    {"B",
-     "reversal error",
-     [](const PositioningFigures& f) { return f.reversal; }},
-    {"B_mean", "mean reversal, up less down", [](const PositioningFigures& f) {
-       return f.mean_reversal;
-     }}};
+std::vector<Figure> FiguresOf(const std::vector<PositioningPoint>& points) {
+  const PositioningFigures f = PositioningFiguresOf(points);
+  return {{"A", "bidirectional accuracy", f.accuracy},
+          {"A_up", "accuracy, upwards", f.up.accuracy},
+          {"A_down", "accuracy, downwards", f.down.accuracy},
+          {"R", "bidirectional repeatability", f.repeatability},
+          {"R_up", "repeatability, upwards", f.up.repeatability},
+          {"R_down", "repeatability, downwards", f.down.repeatability},
+          {"E", "bidirectional systematic error", f.systematic},
+          {"E_up", "systematic error, upwards", f.up.systematic},
+          {"E_down", "systematic error, downwards", f.down.systematic},
+          {"M", "mean bidirectional error", f.mean_bidirectional},
+          {"B", "reversal error", f.reversal},
+          {"B_mean", "mean reversal, up less down", f.mean_reversal}};
+}
 
 report::Table FiguresTable(const Judged& judged, const data::Unit& unit) {
   report::Table table;
-  const auto number_in = [&](const std::vector<PositioningPoint>& points,
-                             const Figure& figure) {
-    return report::Number{
-        figure.of(PositioningFiguresOf(points)), 4, unit.display_scale};
-  };
-  for (const Figure& figure : kFigures) {
-    std::vector<report::Table::Named> row = {
-        {{"figure", false}, figure.key},
-        {{"measured"}, number_in(judged.before, figure)}};
-    if (!judged.after.empty()) {
-      row.push_back({{"with the map"}, number_in(judged.after, figure)});
-    }
+  const std::vector<Figure> before = FiguresOf(judged.before);
+  const std::vector<Figure> after =
+      judged.after.empty() ? std::vector<Figure>() : FiguresOf(judged.after);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const auto number = [&](const Figure& figure) {
+      return report::Number{figure.value, 4, unit.display_scale};
+    };
+    std::vector<report::Table::Named> row = {{{"figure", false}, before[i].key},
+                                             {{"measured"}, number(before[i])}};
+    if (!after.empty()) row.push_back({{"with the map"}, number(after[i])});
     row.push_back({{"unit", false}, std::string_view(unit.display_symbol)});
-    row.push_back({{"what", false}, figure.words});
+    row.push_back({{"what", false}, before[i].words});
     table.Add(std::move(row));
   }
   return table;
@@ -339,9 +315,10 @@ std::string TestText(const Approached& all, const Judged& judged) {
 
 Json FiguresJson(const std::vector<PositioningPoint>& points) {
   if (points.empty()) return nullptr;
-  const PositioningFigures figures = PositioningFiguresOf(points);
   Json json;
-  for (const Figure& figure : kFigures) json[figure.key] = figure.of(figures);
+  for (const Figure& figure : FiguresOf(points)) {
+    json[figure.key] = figure.value;
+  }
   return json;
 }
 
