@@ -33,6 +33,7 @@
 #include "models/session/map_rows.h"
 #include "models/session/session_check.h"
 #include "models/session/zero_schedule.h"
+#include "models/study/record/record_json.h"
 
 namespace errmap::cli {
 namespace {
@@ -47,18 +48,6 @@ struct ProbeArguments {
   bool quiet = false;
 };
 
-Json SitesJson(const std::vector<models::ProbeSite>& sites) {
-  Json json = Json::array();
-  for (const models::ProbeSite& site : sites) {
-    json.push_back({{"from", site.from},
-                    {"until", site.until},
-                    {"position_from", site.position_from},
-                    {"position_until", site.position_until},
-                    {"factor", site.factor}});
-  }
-  return json;
-}
-
 // When to probe next: an interval of the clock, or null.
 Json NextProbeJson(const models::ZeroSchedule& schedule, double goal) {
   const auto& clock = schedule.clock;
@@ -68,10 +57,6 @@ Json NextProbeJson(const models::ZeroSchedule& schedule, double goal) {
        clock && std::isfinite(clock->trigger.time) ? Json(clock->trigger.time)
                                                    : Json()},
       {"kept", clock.has_value()}};
-}
-
-Json NumberOrNull(const std::optional<double>& value) {
-  return value ? Json(*value) : Json();
 }
 
 Json ForecastJson(const models::RmseForecast& forecast) {
@@ -101,7 +86,7 @@ Json CheckJson(const models::SessionCheck& check) {
           {"remedy", ToString(check.remedy)},
           {"gain", check.gain},
           {"left", check.left},
-          {"next_probe_s", NumberOrNull(check.next_probe)},
+          {"next_probe_s", models::ToJson(check.next_probe)},
           {"promised", check.promised},
           {"probes",
            {{"n", check.probes},
@@ -286,7 +271,7 @@ int RunCheck(const ProbeArguments& arguments, const std::string& command_line) {
     document["other_sessions"] = last.others;
     document["learnt_from"] = LearntJson(learnt);
     document.update(CheckJson(check));
-    document["sites"] = SitesJson(sites);
+    document["sites"] = models::ToJson(sites);
     if (schedule) document["next_probe"] = NextProbeJson(*schedule, goal);
     document["provenance"] =
         ProvenanceJson(command_line,

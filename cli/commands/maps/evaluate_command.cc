@@ -68,18 +68,6 @@ Json OutsideJson(const std::vector<models::TrainedInput>& trained,
   return {{"rows", rows}, {"inputs", std::move(inputs)}};
 }
 
-Json PromiseJson(const models::KeptPromise& kept) {
-  return {{"promised", kept.promised},
-          {"found", kept.found},
-          {"within_90", kept.within_90},
-          {"within_95", kept.within_95},
-          {"uncompensated", kept.uncompensated},
-          {"constant", kept.constant},
-          {"mean", kept.mean},
-          {"offset_share", kept.offset_share},
-          {"shape", kept.shape ? Json(ToString(*kept.shape)) : Json()}};
-}
-
 // Rows unlike training, by what they are unlike in, and the worst.
 Json UnlikeJson(const std::vector<models::RowFlag>& flags,
                 const std::vector<Eigen::Index>& rows) {
@@ -143,7 +131,7 @@ Json EvaluationJson(const Evaluation& found,
       {"clipped", found.clipped},
       {"learnt_from", LearntJson(found.learnt)},
       {"summary", models::ToJson(models::MakeRecord(found.metrics))},
-      {"promise", PromiseJson(found.kept)},
+      {"promise", models::ToJson(found.kept)},
       {"outside", OutsideJson(fitted.inputs, dataset.input_values())},
       {"unlike", UnlikeJson(found.judged.flags, dataset.rows())},
       {"sensor_fault", SensorJson(found.sensor)},

@@ -25,6 +25,7 @@
 #include "data/measurements/column_checks.h"
 #include "data/text.h"
 #include "models/model_file.h"
+#include "models/study/record/record_json.h"
 #include "models/study/study_defaults.h"
 #include "models/uncertainty/learnt_rows.h"
 #include "models/uncertainty/map_update.h"
@@ -146,16 +147,6 @@ std::optional<data::Dataset> ReadKnown(
   return known;
 }
 
-Json TrialJson(const models::UpdateTrial& trial) {
-  Json sessions = Json::array();
-  for (const auto& session : trial.sessions) {
-    sessions.push_back({{"session", session.label},
-                        {"old_rmse", session.old_rmse},
-                        {"new_rmse", session.new_rmse}});
-  }
-  return sessions;
-}
-
 Json UpdateJson(const UpdateArguments& arguments,
                 const models::FittedModel& old_map,
                 const models::UpdateTrial& trial,
@@ -173,7 +164,7 @@ Json UpdateJson(const UpdateArguments& arguments,
           {"not_at_hand", known.lost},
           {"old_rmse", trial.old_rmse},
           {"new_rmse", trial.new_rmse},
-          {"sessions", TrialJson(trial)},
+          {"sessions", models::ToJson(trial.sessions)},
           {"provenance", provenance}};
 }
 
