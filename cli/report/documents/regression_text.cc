@@ -1,6 +1,5 @@
 #include "cli/report/documents/regression_text.h"
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -23,27 +22,6 @@ std::string Paragraph(const std::string& text, const Terminal& room) {
          "\n";
 }
 
-// Takes the last columns off until the lines fit; returns their names.
-std::vector<std::string> TakeColumns(std::size_t width, Table* table) {
-  std::vector<std::string> taken;
-  const auto widest = [&] {
-    std::size_t most = 0;
-    for (const std::string& line : TerminalLines(*table, std::string::npos)) {
-      most = std::max(most, WidthOf(line));
-    }
-    return most;
-  };
-  while (table->columns.size() > 2 && widest() > width) {
-    const std::string& name = table->columns.back().name;
-    taken.insert(taken.begin(), data::Printable(name, name.size()));
-    table->columns.pop_back();
-    for (std::vector<Cell>& row : table->rows) {
-      if (row.size() > table->columns.size()) row.pop_back();
-    }
-  }
-  return taken;
-}
-
 // The title and as much of a table as there is room for: lines are not broken,
 // and the terminal is not scrolled away. "" without rows.
 std::string InRoom(const Table& whole, const Terminal& room) {
@@ -55,7 +33,7 @@ std::string InRoom(const Table& whole, const Terminal& room) {
     more.push_back(Count(hidden, "more row"));
     table.rows.resize(room.rows);
   }
-  const std::vector<std::string> taken = TakeColumns(room.columns, &table);
+  const std::vector<std::string> taken = TakeColumns(room.columns, 2, &table);
   if (!taken.empty()) more.push_back(data::JoinWords(taken, ", "));
   std::string text = table.title.empty() ? "" : table.title + "\n";
   text += TerminalTable(table, room.columns);
