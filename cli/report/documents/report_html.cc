@@ -357,24 +357,27 @@ std::string Fits(const ReportView& view, const ComponentFigures& figures) {
 
 std::string Polynomials(const ReportView& view, bool brief) {
   std::string html;
-  for (const PolynomialTables& model : PolynomialTablesOf(view)) {
-    const bool best = model.model == view.recommended;
+  for (const ModelRecord* model : PolynomialsOf(view)) {
+    const bool best = model->name == view.recommended;
     if (brief && !best) continue;
-    std::string content = Paragraph(model.method);
-    if (!model.equation.empty()) {
+    const auto regression =
+        model->regression.value_or(models::RegressionRecord());
+    std::string content = Paragraph(regression.method);
+    if (model->equation && !model->equation->empty()) {
       content += Paragraph("In physical units, complete:", "small") +
                  "<div class=\"equation\" tabindex=\"0\" role=\"region\" "
                  "aria-label=\"equation\">" +
-                 HtmlText(model.equation) + "</div>\n";
+                 HtmlText(*model->equation) + "</div>\n";
     }
-    content += Paragraph(model.summary);
+    content += Paragraph(RegressionSummary(regression, ErrorTextOf(view)));
     if (!brief) {
-      content += HtmlTable(model.coefficients) + HtmlTable(model.excluded) +
-                 HtmlTable(model.aliased);
+      content += HtmlTable(CoefficientTable(regression)) +
+                 HtmlTable(ExcludedTerms(regression)) +
+                 HtmlTable(AliasedTerms(regression));
     }
     html += fmt::format("<details{}><summary>{}</summary>\n{}</details>\n",
                         best ? " open" : "",
-                        HtmlName(model.model),
+                        HtmlName(model->name),
                         content);
   }
   return html;
