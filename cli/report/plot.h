@@ -98,6 +98,6 @@ bool HasPoints(const Plot& plot);
 std::string WithUnit(std::string_view what, std::string_view unit);
 
 /// Cuts to `most` characters (not bytes); "…" replaces the middle.
-std::string Shortened(std::string_view text, std::size_t most);
+std::string Shortened(const std::string& text, std::size_t most);
 
 }  // namespace errmap::report

@@ -15,6 +15,7 @@
 #include "cli/fleet/commands/compare_fleet.h"
 #include "cli/fleet/run/fleet_plan.h"
 #include "cli/fleet/run/fleet_run.h"
+#include "cli/report/shell_word.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/terminal.h"
 #include "data/files/atomic_file.h"
@@ -49,12 +50,6 @@ struct SlurmJob {
   int cpus = 1;
   fleet::FleetPlan plan;
 };
-
-std::string Quoted(const std::string& word) {
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + "'";
-}
 
 // hours:minutes:seconds. The estimate is good to a factor of three.
 std::string TimeLimit(const SlurmJob& job) {
@@ -91,14 +86,14 @@ std::string ShardsScript(const SlurmJob& job) {
       "#SBATCH --output=\"{5}/%x-%A_%a.log\"\n"
       "exec {0} compare --config {6} --out {7} \\\n"
       "  --shard \"$SLURM_ARRAY_TASK_ID/{8}\" --jobs {3}\n",
-      Quoted(job.program),
+      report::ShellQuoted(job.program),
       job.plan.components,
       job.tasks - 1,
       job.cpus,
       TimeLimit(job),
       job.folder,
-      Quoted(job.config),
-      Quoted(job.store),
+      report::ShellQuoted(job.config),
+      report::ShellQuoted(job.store),
       job.tasks);
 }
 
@@ -114,8 +109,8 @@ std::string MergeScript(const SlurmJob& job) {
       "#SBATCH --output=\"{}/%x-%j.log\"\n"
       "exec {} merge {}\n",
       job.folder,
-      Quoted(job.program),
-      Quoted(job.store));
+      report::ShellQuoted(job.program),
+      report::ShellQuoted(job.store));
 }
 
 std::string SubmitScript(const SlurmJob& job) {
@@ -133,7 +128,7 @@ std::string SubmitScript(const SlurmJob& job) {
       "merge=$(sbatch --parsable --dependency=\"afterany:${{shards%%;*}}\" "
       "{0}/merge.sh)\n"
       "echo \"shares: job ${{shards%%;*}}, merge: job ${{merge%%;*}}\"\n",
-      Quoted(job.folder),
+      report::ShellQuoted(job.folder),
       Mebibytes(job));
 }
 
