@@ -9,22 +9,6 @@
 namespace errmap::report {
 namespace {
 
-std::size_t NumColumns(Mark mark) {
-  switch (mark) {
-    case Mark::kPoints:
-    case Mark::kLine:
-      return 2;
-    case Mark::kBars:
-    case Mark::kBand:
-      return 3;
-    case Mark::kSpan:
-      return 4;
-    case Mark::kCells:
-      return 5;
-  }
-  return 0;
-}
-
 void CheckColumns(const Series& series) {
   if (series.columns.size() != NumColumns(series.mark)) {
     throw std::invalid_argument("Plot: a series has not the columns it needs");

@@ -358,7 +358,6 @@ void AddSeries(const std::vector<PositioningPoint>& points,
   for (const double times : {0.0, -2.0, 2.0}) {
     report::Series series{.label = times == 0.0 ? label : "",
                           .mark = report::Mark::kLine,
-                          .columns = {{}, {}},
                           .colour = colour,
                           .dashed = times != 0.0};
     for (const PositioningPoint& point : points) {

@@ -189,7 +189,6 @@ class MachinePictures {
     Strokes arrows;
     Series origins{.label = "",
                    .mark = Mark::kPoints,
-                   .columns = {{}, {}},
                    .colour = report::kGrey,
                    .size = 1.0};
     for (const models::PlaneCell& at : choice.cells) {
@@ -246,7 +245,7 @@ class MachinePictures {
                  const MachineChoiceRecord& choice,
                  double highest) const {
     Figure figure = Begin("grid-" + name, title);
-    Series cells{.mark = Mark::kCells, .columns = {{}, {}, {}, {}, {}}};
+    Series cells{.mark = Mark::kCells};
     for (const models::PlaneCell& at : choice.cells) {
       const std::array<double, 5> row = {at.across,
                                          at.up,

@@ -49,10 +49,7 @@ Series Intervals(const ReportView& view,
                  const std::vector<const ModelRecord*>& models,
                  const std::string& holdout,
                  const std::string& colour) {
-  Series series{.mark = Mark::kSpan,
-                .columns = {{}, {}, {}, {}},
-                .colour = colour,
-                .size = 1.6};
+  Series series{.mark = Mark::kSpan, .colour = colour, .size = 1.6};
   for (std::size_t i = 0; i < models.size(); ++i) {
     const ResultRecord* result = ResultOf(*models[i], holdout);
     if (result == nullptr || !(result->ci95[0] > 0.0) ||
@@ -128,7 +125,6 @@ std::vector<Series> HoldoutMarks(const ReportView& view,
   for (std::size_t h = 0; h < holdouts.size(); ++h) {
     Series points{.label = HoldoutLabel(view, holdouts[h]),
                   .mark = Mark::kPoints,
-                  .columns = {{}, {}},
                   .colour = kHoldoutColours[h],
                   .size = 2.1,
                   .shape = kShapes[h]};
@@ -158,7 +154,7 @@ std::vector<Series> HoldoutMarks(const ReportView& view,
 Series LinksOf(const ReportView& view,
                const std::vector<const ModelRecord*>& models,
                const std::vector<std::string>& holdouts) {
-  Series links{.mark = Mark::kLine, .columns = {{}, {}}, .colour = "#AAAAAA"};
+  Series links{.mark = Mark::kLine, .colour = "#AAAAAA"};
   for (std::size_t i = 0; i < models.size(); ++i) {
     for (const std::string& holdout : holdouts) {
       links.Add(
@@ -272,7 +268,6 @@ std::vector<Figure> TrainingFigures(const ReportView& view,
          ++i) {
       Series series{.label = Shortened(iterated[i]->name, 34),
                     .mark = Mark::kLine,
-                    .columns = {{}, {}},
                     .colour = kLineColours[i - first],
                     .size = 1.8};
       for (const auto& [iteration, rms, gradient] :

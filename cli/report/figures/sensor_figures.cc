@@ -46,16 +46,12 @@ void AddRow(const ReportView& view,
 }
 
 Series Lines(const char* colour) {
-  return {.mark = Mark::kSpan,
-          .columns = {{}, {}, {}, {}},
-          .colour = colour,
-          .size = 3.0};
+  return {.mark = Mark::kSpan, .colour = colour, .size = 3.0};
 }
 
 Series Dots(const char* label, const char* colour, Shape shape) {
   return {.label = label,
           .mark = Mark::kPoints,
-          .columns = {{}, {}},
           .colour = colour,
           .size = 2.1,
           .shape = shape};
