@@ -7,7 +7,7 @@
 #include "cli/command.h"
 #include "cli/commands/control/map_for_control.h"
 #include "cli/commands/format_option.h"
-#include "cli/commands/maps/map_command.h"
+#include "cli/commands/maps/map_warnings.h"
 #include "cli/json_blocks.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"

@@ -17,7 +17,6 @@
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/documents/fit_text.h"
-#include "cli/report/number_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
