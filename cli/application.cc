@@ -323,13 +323,8 @@ std::string MadeWith() {
 void AdviseOwnOptions(const CLI::App& app, const std::string& command) {
   for (const CLI::App* const one : app.get_subcommands(nullptr)) {
     if (one->get_name() != command) continue;
-    std::set<std::string, std::less<>> names;
-    for (const CLI::Option* option : one->get_options()) {
-      for (const std::string& name : option->get_lnames()) {
-        names.insert("--" + name);
-      }
-    }
-    AdviseOnly(std::move(names));
+    const std::vector<std::string> names = OptionNames(*one);
+    AdviseOnly({names.begin(), names.end()});
   }
 }
 

@@ -1,4 +1,3 @@
-#include <memory>
 #include <string>
 
 #include <fmt/format.h>
@@ -71,14 +70,14 @@ int RunCertify(const CertifyArguments& arguments,
 }  // namespace
 
 void AddCertifyCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<CertifyArguments>();
-  CLI::App* command = AddCommand(
+  const Command<CertifyArguments> command(
       app,
+      run,
       "certify",
       "Prove solvers and statistics on problems whose answers are known");
   AddOption(command,
             "PART",
-            arguments->part,
+            command->part,
             "nist: NIST's reference data sets; gradients: derivatives "
             "against extrapolated differences; agreement: every solver "
             "on one net")
@@ -86,15 +85,13 @@ void AddCertifyCommand(CLI::App* app, Run* run) {
       .ShowDefault();
   AddFlag(command,
           "--details",
-          arguments->details,
+          command->details,
           "Every run of every solver, with its own words");
-  AddFormatOption(command, &arguments->format);
+  AddFormatOption(command, &command->format);
   SetFooter(command,
             "Exit status: 0 every floor is reached, 4 one is missed.\n"
             "Example: errmap certify nist --format json");
-  OnRun(command, [arguments, run] {
-    run->status = RunCertify(*arguments, run->command_line);
-  });
+  command.Runs(RunCertify);
 }
 
 }  // namespace errmap::cli

@@ -19,6 +19,7 @@
 #include "data/files/shown_path.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/reading/reading.h"
+#include "data/throwing_as.h"
 #include "models/model_spec.h"
 #include "models/recipe_catalog.h"
 #include "models/record.h"
@@ -31,13 +32,8 @@ namespace {
 // Splits "A,B" at commas outside double quotes and takes the quotes off.
 std::vector<std::string> SplitNames(const std::string& flag,
                                     const std::string& list) {
-  std::vector<std::string> names;
-  if (list.empty()) return names;
-  try {
-    names = models::SplitList(list);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("{}: {}", flag, error.what()));
-  }
+  if (list.empty()) return {};
+  std::vector<std::string> names = SplitFlag(flag, list);
   for (std::string& name : names) {
     if (name.size() >= 2 && name.front() == '"' && name.back() == '"') {
       name = name.substr(1, name.size() - 2);
@@ -51,6 +47,12 @@ std::vector<std::string> SplitNames(const std::string& flag,
 }
 
 }  // namespace
+
+std::vector<std::string> SplitFlag(const std::string& flag,
+                                   const std::string& list) {
+  return data::ThrowingAs<UsageError>(flag + ": ",
+                                      [&] { return models::SplitList(list); });
+}
 
 std::string FlagOf(std::string_view key) {
   std::string flag = "--" + std::string(key);
@@ -68,11 +70,7 @@ void FlagAdder::operator()(const desk::StudyOption& option,
         FlagOf(option.key),
         [&text, flag = FlagOf(option.key), check = option.check](
             const std::string& given) {
-          try {
-            check(given);
-          } catch (const std::invalid_argument& error) {
-            throw UsageError(fmt::format("{} {}", flag, error.what()));
-          }
+          data::ThrowingAs<UsageError>(flag + " ", [&] { check(given); });
           text = given;
         },
         option.help);
@@ -208,22 +206,17 @@ desk::GivenError ErrorOfFlag(const char* flag,
                              const std::optional<std::string>& text,
                              bool may_be_zero) {
   if (!text) return {};
-  try {
+  return data::ThrowingAs<UsageError>(flag + std::string(" "), [&] {
     return desk::ParseGivenError(*text, may_be_zero);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("{} {}", flag, error.what()));
-  }
+  });
 }
 
 double GoalOrNone(const std::optional<std::string>& goal,
                   const data::Unit& target) {
   const desk::GivenError given = ErrorOfFlag("--goal", goal, false);
   if (!given.is_given()) return models::kNotKnown;
-  try {
-    return desk::InUnitOf(target, given);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("--goal {}", error.what()));
-  }
+  return data::ThrowingAs<UsageError>(
+      "--goal ", [&] { return desk::InUnitOf(target, given); });
 }
 
 int JobsOf(int jobs) {
@@ -233,11 +226,8 @@ int JobsOf(int jobs) {
 
 std::unique_ptr<models::ModelRecipe> RecipeFromArgument(
     const std::string& spec) {
-  try {
-    return models::MakeRecipe(spec);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(error.what());
-  }
+  return data::ThrowingAs<UsageError>("",
+                                      [&] { return models::MakeRecipe(spec); });
 }
 
 void Say(const std::string& line) { WriteMessage(line); }

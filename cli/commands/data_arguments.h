@@ -89,6 +89,11 @@ desk::GivenError ErrorOfFlag(const char* flag,
 double GoalOrNone(const std::optional<std::string>& goal,
                   const data::Unit& target);
 
+/// Returns models::SplitList of a flag's value. Throws UsageError naming
+/// `flag`.
+std::vector<std::string> SplitFlag(const std::string& flag,
+                                   const std::string& list);
+
 /// Returns --jobs, or the number of the machine's processors if it is 0.
 int JobsOf(int jobs);
 

@@ -1,4 +1,3 @@
-#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -10,6 +9,7 @@
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
+#include "data/throwing_as.h"
 #include "models/recipe_catalog.h"
 
 namespace errmap::cli {
@@ -51,24 +51,28 @@ std::string ModelText(const std::string& type, std::size_t width) {
   return text;
 }
 
+struct ModelsArguments {
+  std::string model;
+};
+
+int RunModels(const ModelsArguments& arguments) {
+  const std::size_t width = OutputTerminal().columns;
+  PrintResult(data::ThrowingAs<UsageError>("", [&] {
+    return arguments.model.empty() ? ListText(width)
+                                   : ModelText(arguments.model, width);
+  }));
+  return kDone;
+}
+
 }  // namespace
 
 void AddModelsCommand(CLI::App* app, Run* run) {
-  auto model = std::make_shared<std::string>();
-  CLI::App* command =
-      AddCommand(app, "models", "List the models, or a model's options");
-  AddOption(command, "MODEL", *model, "Its options with their ranges")
+  const Command<ModelsArguments> command(
+      app, run, "models", "List the models, or a model's options");
+  AddOption(command, "MODEL", command->model, "Its options with their ranges")
       .Value("");
   SetFooter(command, "Example: errmap models net:scg");
-  OnRun(command, [model, run] {
-    const std::size_t width = OutputTerminal().columns;
-    try {
-      PrintResult(model->empty() ? ListText(width) : ModelText(*model, width));
-    } catch (const std::invalid_argument& error) {
-      throw UsageError(error.what());
-    }
-    run->status = kDone;
-  });
+  command.Runs(RunModels);
 }
 
 }  // namespace errmap::cli

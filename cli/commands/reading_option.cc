@@ -9,20 +9,20 @@
 #include "data/files/shown_path.h"
 #include "data/input_error.h"
 #include "data/measurements/reading/reading.h"
+#include "data/throwing_as.h"
 #include "models/study/record/record_json.h"
 
 namespace errmap::cli {
 
 void TakeReading(const std::string& path, data::DatasetSelection* selection) {
-  data::Reading reading;
-  try {
-    reading = models::RecordFromText<data::Reading>(
-        data::ReadFile(path),
-        reading.schema,
-        "errmap read DATA.csv --format json > reading.json writes one");
-  } catch (const data::InputError& error) {
-    throw data::InputError(data::ShownPath(path) + ": " + error.what());
-  }
+  const data::Reading reading =
+      data::ThrowingAs<data::InputError, data::InputError>(
+          data::ShownPath(path) + ": ", [&] {
+            return models::RecordFromText<data::Reading>(
+                data::ReadFile(path),
+                data::Reading().schema,
+                "errmap read DATA.csv --format json > reading.json writes one");
+          });
   if (!reading.questions.empty()) {
     throw data::InputError(fmt::format("{}: is open: {}",
                                        data::ShownPath(path),

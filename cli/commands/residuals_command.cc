@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -348,44 +347,44 @@ void AddColumnOptions(CLI::App* command, ResidualsArguments* arguments) {
 }  // namespace
 
 void AddResidualsCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<ResidualsArguments>();
-  CLI::App* command = AddCommand(
-      app, "residuals", "Statistics of a column of residuals (or of anything)");
-  AddOption(command, "FILE FILE.csv", arguments->file, "CSV file").Required();
-  AddColumnOptions(command, arguments.get());
+  const Command<ResidualsArguments> command(
+      app,
+      run,
+      "residuals",
+      "Statistics of a column of residuals (or of anything)");
+  AddOption(command, "FILE FILE.csv", command->file, "CSV file").Required();
+  AddColumnOptions(command, &*command);
   AddOption(command,
             "--monte-carlo N",
-            arguments->monte_carlo,
+            command->monte_carlo,
             "Simulate p with this many normal samples (0: none)")
       .Range(0LL, 10'000'000LL)
       .ShowDefault();
-  AddSeedOption(command, &arguments->seed, "Of the simulation");
+  AddSeedOption(command, &command->seed, "Of the simulation");
   AddOption(command,
             "--bins N",
-            arguments->bins,
+            command->bins,
             "Bins of the histogram (0: by Freedman and Diaconis)")
       .Range(0LL, 10'000LL)
       .ShowDefault();
   AddOption(command,
             "--missing",
-            arguments->missing,
+            command->missing,
             "What empty, NA and NaN cells do: error or drop-rows")
       .OneOf({"error", "drop-rows"})
       .ShowDefault();
   AddFlag(command,
           "--details",
-          arguments->details,
+          command->details,
           "Also bias per group and position, histogram, PPCC curve");
   AddFlag(command,
           "--as-printed-1995",
-          arguments->as_printed_1995,
+          command->as_printed_1995,
           "Also what the program of NISTIR 5367 prints for them");
-  AddFormatOption(command, &arguments->format);
+  AddFormatOption(command, &command->format);
   SetFooter(command,
             "Example: errmap residuals study/residuals.csv --column blend");
-  OnRun(command, [arguments, run] {
-    run->status = RunResiduals(*arguments, run->command_line);
-  });
+  command.Runs(RunResiduals);
 }
 
 }  // namespace errmap::cli

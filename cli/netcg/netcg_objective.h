@@ -44,28 +44,20 @@ class NetcgObjective final : public fitting::BasicObjective<Scalar> {
     return {
         w.data() + hidden_ * patterns_.rows(), targets_.rows(), hidden_ + 1};
   }
-  // Patterns that are worked on together; each sum keeps its order.
-  static constexpr Eigen::Index kBlock = 4;
-
-  // Hidden outputs and outputs of pattern p, in column k of vhid_ and vout_.
-  void Forward(Eigen::Index p,
-               Eigen::Index k,
-               const Layer& w1,
-               const Layer& w2) const;
-  // Its deltas.
-  void Backward(Eigen::Index p, Eigen::Index k, const Layer& w2) const;
-  // Adds what a block gives to the negative gradients.
-  void AddBlock(Eigen::Index begin, Eigen::Index count) const;
+  // Hidden outputs and outputs of pattern p, in vhid_ and vout_.
+  void Forward(Eigen::Index p, const Layer& w1, const Layer& w2) const;
+  // Its deltas, and what they add to the negative gradients.
+  void Backward(Eigen::Index p, const Layer& w2) const;
 
   Eigen::Index hidden_;
   Scalar wfactor_;
   Matrix patterns_;  // ((I+1) x P), last row 1
   Matrix targets_;   // (J x P)
-  // Scratch of a block, named as in the program.
-  mutable Matrix vhid_;    // ((H+1) x kBlock)
-  mutable Matrix vout_;    // (J x kBlock)
-  mutable Matrix delta1_;  // (H x kBlock)
-  mutable Matrix delta2_;  // (J x kBlock)
+  // Scratch of a pattern, named as in the program.
+  mutable Vector vhid_;    // (H+1), last 1
+  mutable Vector vout_;    // (J)
+  mutable Vector delta1_;  // (H)
+  mutable Vector delta2_;  // (J)
   mutable Matrix gm1_;
   mutable Matrix gm2_;
 };

@@ -1,5 +1,9 @@
 #include "cli/report/html.h"
 
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
 #include "data/text.h"
 
 namespace errmap::report {
@@ -19,27 +23,16 @@ std::string Plain(std::string_view text) {
 }  // namespace
 
 std::string HtmlText(std::string_view text) {
+  static constexpr std::pair<char, const char*> kEntities[] = {{'&', "&amp;"},
+                                                               {'<', "&lt;"},
+                                                               {'>', "&gt;"},
+                                                               {'"', "&quot;"},
+                                                               {'\'', "&#39;"}};
   std::string html;
   for (const char c : Plain(text)) {
-    switch (c) {
-      case '&':
-        html += "&amp;";
-        break;
-      case '<':
-        html += "&lt;";
-        break;
-      case '>':
-        html += "&gt;";
-        break;
-      case '"':
-        html += "&quot;";
-        break;
-      case '\'':
-        html += "&#39;";
-        break;
-      default:
-        html += c;
-    }
+    const auto entity =
+        std::ranges::find(kEntities, c, &std::pair<char, const char*>::first);
+    html += entity == std::end(kEntities) ? std::string(1, c) : entity->second;
   }
   return html;
 }

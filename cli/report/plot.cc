@@ -4,24 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "cli/report/wrap_text.h"
+
 namespace errmap::report {
 namespace {
-
-std::size_t NumColumns(Mark mark) {
-  switch (mark) {
-    case Mark::kPoints:
-    case Mark::kLine:
-      return 2;
-    case Mark::kBars:
-    case Mark::kBand:
-      return 3;
-    case Mark::kSpan:
-      return 4;
-    case Mark::kCells:
-      return 5;
-  }
-  return 0;
-}
 
 void CheckColumns(const Series& series) {
   if (series.columns.size() != NumColumns(series.mark)) {
@@ -77,21 +63,8 @@ std::string WithUnit(std::string_view what, std::string_view unit) {
   return text;
 }
 
-std::string Shortened(std::string_view text, std::size_t most) {
-  const auto begins = [](char c) {
-    constexpr unsigned kContinuation = 0x80;
-    constexpr unsigned kMask = 0xC0;
-    return (static_cast<unsigned char>(c) & kMask) != kContinuation;
-  };
-  std::vector<std::size_t> starts;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (begins(text[i])) starts.push_back(i);
-  }
-  if (starts.size() <= most || most < 2) return std::string(text);
-  const std::size_t front = most / 2;
-  const std::size_t back = most - front - 1;
-  return std::string(text.substr(0, starts[front])) + "…" +
-         std::string(text.substr(starts[starts.size() - back]));
+std::string Shortened(const std::string& text, std::size_t most) {
+  return Squeezed(text, most, "…");
 }
 
 }  // namespace errmap::report

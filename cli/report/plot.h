@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <initializer_list>
 #include <limits>
 #include <string>
@@ -20,6 +21,22 @@ enum class Mark {
   kCells,   // x, y, half width, half height, value: a map in colours
 };
 
+constexpr std::size_t NumColumns(Mark mark) {
+  switch (mark) {
+    case Mark::kPoints:
+    case Mark::kLine:
+      return 2;
+    case Mark::kBars:
+    case Mark::kBand:
+      return 3;
+    case Mark::kSpan:
+      return 4;
+    case Mark::kCells:
+      return 5;
+  }
+  return 0;
+}
+
 enum class Shape { kDot, kCircle, kSquare, kDiamond };
 
 /// One series of a plot.
@@ -28,7 +45,8 @@ struct Series {
   Mark mark = Mark::kPoints;
   /// (columns x n) equal lengths. A point with a value that is not finite is
   /// left out, and interrupts a line.
-  std::vector<std::vector<double>> columns = {};
+  std::vector<std::vector<double>> columns =
+      std::vector<std::vector<double>>(NumColumns(mark));
   std::string colour = "#0072B2";  // #rrggbb
   double size = 1.0;  // of points in diameters of 4.4 px, of lines in pixels
   Shape shape = Shape::kDot;
@@ -36,7 +54,7 @@ struct Series {
   /// The browser's tooltip for each point or bar; or empty.
   std::vector<std::string> hints = {};
 
-  /// Adds a point: one value for each of the first columns.
+  /// Adds a point: a value for each column.
   void Add(std::initializer_list<double> point) {
     auto column = columns.begin();
     for (const double value : point) (column++)->push_back(value);
@@ -98,6 +116,6 @@ bool HasPoints(const Plot& plot);
 std::string WithUnit(std::string_view what, std::string_view unit);
 
 /// Cuts to `most` characters (not bytes); "…" replaces the middle.
-std::string Shortened(std::string_view text, std::size_t most);
+std::string Shortened(const std::string& text, std::size_t most);
 
 }  // namespace errmap::report

@@ -6,6 +6,8 @@
 
 namespace errmap::report {
 
+/// Returns the word in single quotes.
+std::string ShellQuoted(const std::string& word);
 /// Quotes a word so that a shell reads it back, if it needs quotes.
 std::string ShellWord(const std::string& word);
 

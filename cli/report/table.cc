@@ -218,6 +218,26 @@ std::vector<std::string> TerminalLines(const Table& table, std::size_t width) {
   return text;
 }
 
+std::vector<std::string> TakeColumns(std::size_t width,
+                                     std::size_t fewest,
+                                     Table* table) {
+  std::vector<std::string> taken;
+  const auto is_wide = [&] {
+    return std::ranges::any_of(
+        TerminalLines(*table, std::string::npos),
+        [&](const std::string& line) { return WidthOf(line) > width; });
+  };
+  while (table->columns.size() > fewest && is_wide()) {
+    const std::string& name = table->columns.back().name;
+    taken.insert(taken.begin(), data::Printable(name, name.size()));
+    table->columns.pop_back();
+    for (std::vector<Cell>& row : table->rows) {
+      if (row.size() > table->columns.size()) row.pop_back();
+    }
+  }
+  return taken;
+}
+
 std::string TerminalTable(const Table& table, std::size_t width) {
   std::string text;
   for (const std::string& line : TerminalLines(table, width)) {

@@ -126,6 +126,12 @@ struct Table {
 /// Drops the columns in which no row has anything, but for the first.
 Table WithoutEmptyColumns(Table table);
 
+/// Takes the last columns off, all but the first `fewest`, until no line of the
+/// table exceeds `width`; returns their names.
+std::vector<std::string> TakeColumns(std::size_t width,
+                                     std::size_t fewest,
+                                     Table* table);
+
 /// Aligns columns, numbers to the right. Cuts words in the middle if a line
 /// would exceed `width`. The order is: text above the names, if any, the names,
 /// the rows.

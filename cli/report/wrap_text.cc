@@ -83,15 +83,18 @@ std::string WrapText(std::string_view text, std::size_t width) {
   return wrapped;
 }
 
-std::string Squeezed(const std::string& text, std::size_t most) {
-  constexpr std::size_t kDots = 3;
+std::string Squeezed(const std::string& text,
+                     std::size_t most,
+                     std::string_view dots) {
+  const std::size_t width = WidthOf(dots);
   const std::size_t all = WidthOf(text);
   if (all <= most) return text;
-  if (most <= kDots) return text.substr(0, BytesOf(text, most));
-  const std::size_t tail = (most - kDots) / 2;
-  const std::size_t head = most - kDots - tail;
-  return text.substr(0, BytesOf(text, head)) + "..." +
-         text.substr(BytesOf(text, all - tail));
+  if (most <= width) return text.substr(0, BytesOf(text, most));
+  const std::size_t tail = (most - width) / 2;
+  const std::size_t head = most - width - tail;
+  return text.substr(0, BytesOf(text, head))
+      .append(dots)
+      .append(text.substr(BytesOf(text, all - tail)));
 }
 
 }  // namespace errmap::report

@@ -22,7 +22,9 @@ std::string WrapText(std::string_view text, std::size_t width);
 /// Number of characters, not bytes: a text may not be ASCII.
 std::size_t WidthOf(std::string_view text);
 
-/// Cuts to `most` characters; "..." replaces the middle.
-std::string Squeezed(const std::string& text, std::size_t most);
+/// Cuts to `most` characters; `dots` replace the middle.
+std::string Squeezed(const std::string& text,
+                     std::size_t most,
+                     std::string_view dots = "...");
 
 }  // namespace errmap::report

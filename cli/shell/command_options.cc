@@ -7,7 +7,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/command.h"
 #include "cli/shell/command_reference.h"
 #include "data/text.h"
 
@@ -94,10 +93,14 @@ const Option& Option::About(const std::string& text) const {
   return *this;
 }
 
-CLI::App* AddCommand(CLI::App* app,
-                     const std::string& name,
-                     const std::string& about) {
+CLI::App* AddSubcommand(CLI::App* app,
+                        const std::string& name,
+                        const std::string& about) {
   return app->add_subcommand(name, about);
+}
+
+void OnRun(CLI::App* command, std::function<void()> act) {
+  command->callback(std::move(act));
 }
 
 template <typename T>
@@ -179,10 +182,6 @@ void MarkSeldom(CLI::App* command, const std::vector<const char*>& names) {
 
 void SetFooter(CLI::App* command, const std::string& text) {
   command->footer(text);
-}
-
-void OnRun(CLI::App* command, std::function<void()> run) {
-  command->callback(std::move(run));
 }
 
 std::set<std::string> GivenOptions(const CLI::App& command) {

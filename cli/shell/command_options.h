@@ -1,21 +1,66 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "cli/command.h"
 
 namespace CLI {
 class App;
 class Option;
 }  // namespace CLI
 
-// Declares the arguments of commands. Only this room and cli/application.cc
+// Declares commands and their arguments. Only this room and cli/application.cc
 // include CLI11's headers: these take a compiler three seconds, used or
 // not.
 
 namespace errmap::cli {
+
+CLI::App* AddSubcommand(CLI::App* app,
+                        const std::string& name,
+                        const std::string& about);
+void OnRun(CLI::App* command, std::function<void()> act);
+
+/// A command of `app` that reads Arguments. It stands for its parser where
+/// options are added; `command->file` is an argument, which lives as long as
+/// the parser does.
+template <typename Arguments>
+class Command {
+ public:
+  Command(CLI::App* app,
+          Run* run,
+          const std::string& name,
+          const std::string& about)
+      : app_(AddSubcommand(app, name, about)), run_(run) {}
+
+  CLI::App* app() const { return app_; }
+  operator CLI::App*() const { return app_; }  // NOLINT: stands for it
+  Arguments* operator->() const { return arguments_.get(); }
+  Arguments& operator*() const { return *arguments_; }
+
+  /// Sets what the command does: act(arguments), or act(arguments, command
+  /// line), the latter as in Run. It returns the exit status.
+  template <typename Act>
+  void Runs(const Act& act) const {
+    OnRun(app_, [act, arguments = arguments_, run = run_] {
+      if constexpr (std::invocable<const Act&, Arguments&>) {
+        run->status = act(*arguments);
+      } else {
+        run->status = act(*arguments, run->command_line);
+      }
+    });
+  }
+
+ private:
+  CLI::App* app_;
+  Run* run_;
+  std::shared_ptr<Arguments> arguments_ = std::make_shared<Arguments>();
+};
 
 /// An option or a positional argument of a command, valid as long as the
 /// command is. Each call sets one property.
@@ -49,10 +94,6 @@ class Option {
  private:
   CLI::Option* option_;
 };
-
-CLI::App* AddCommand(CLI::App* app,
-                     const std::string& name,
-                     const std::string& about);
 
 /// `usage`: names and the value's placeholder in help, "-o,--output FILE.csv";
 /// for a positional argument its word instead of the names. T: a whole number,
@@ -115,9 +156,6 @@ void MarkSeldom(CLI::App* command, const std::vector<const char*>& names);
 
 /// Sets the last text of a command's help.
 void SetFooter(CLI::App* command, const std::string& text);
-
-/// Sets the action of a command.
-void OnRun(CLI::App* command, std::function<void()> run);
 
 /// Returns the names of the options among the parsed words.
 std::set<std::string> GivenOptions(const CLI::App& command);

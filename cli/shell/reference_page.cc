@@ -55,7 +55,7 @@ std::string OptionRow(const OptionReference& option) {
   return Row(name, text);
 }
 
-std::string Command(const CommandReference& command) {
+std::string SectionOf(const CommandReference& command) {
   std::string text =
       fmt::format("### errmap {}\n\n{}.\n\n```text\nerrmap {} {}\n```\n\n",
                   command.name,
@@ -102,7 +102,7 @@ std::string ReferencePage(const ProgramReference& program) {
       purpose = command.purpose;
       text += "## " + purpose + "\n\n";
     }
-    text += Command(command);
+    text += SectionOf(command);
   }
   text += "## Models\n\n";
   for (const std::string& type : models::ModelTypes()) text += Model(type);

@@ -32,7 +32,7 @@ std::string FileLabel(const std::string& path);
 
 /// A label of the session that each file is of: its date where the names differ
 /// in numbers alone and all have a date, else what stands before a number that
-/// begins anew with each session (PrefixesOfCounted: "day1" of "day1_run2"),
+/// begins anew with each session (SessionsOfCounted: "day1" of "day1_run2"),
 /// else FileLabel.
 std::vector<std::string> SessionsOfFiles(const std::vector<std::string>& paths);
 

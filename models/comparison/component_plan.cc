@@ -164,8 +164,7 @@ void RunComponent(ComponentPlan* plan,
                       *component.rezero,
                       options.seed,
                       *before,
-                      component.judgement.recommendation->holdout,
-                      component.judgement.recommendation->model);
+                      component.judgement.recommendation->holdout);
   }
   if (!keep_fold_maps) ForgetFoldMaps(&component.study);
 }

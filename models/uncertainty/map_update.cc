@@ -134,7 +134,7 @@ UpdateTrial TryUpdate(const FittedModel& old_map,
       return trial;
     }
     trial.sessions.push_back(
-        {.label =
+        {.session =
              fresh.log()->sessions.labels[static_cast<std::size_t>(session)],
          .old_rmse = stats::RootMeanSquare(old_residuals(test)),
          .new_rmse = stats::RootMeanSquare(new_residuals(test))});

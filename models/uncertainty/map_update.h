@@ -18,7 +18,7 @@ data::Dataset Joined(const data::Dataset& first, const data::Dataset& second);
 /// A map against its successor on new sessions that neither has seen.
 struct UpdateTrial {
   struct Session {
-    std::string label;
+    std::string session;
     double old_rmse = 0.0;  // target's unit
     double new_rmse = 0.0;
   };

@@ -47,9 +47,8 @@ def main():
                  for model in component["models"]}
         map_name = component["recommendation"]["model"]
         ratios.append(found[map_name] / found["zero"])
-        needs = component["rezero"]["needs"]
         print(f"{seed} {map_name} {found[map_name]:.3f} no map "
-              f"{found['zero']:.3f} ratio {ratios[-1]:.3f} needs {needs}",
+              f"{found['zero']:.3f} ratio {ratios[-1]:.3f}",
               flush=True)
     print(f"median {statistics.median(ratios):.3f} worst {max(ratios):.3f}")
 

@@ -1,4 +1,3 @@
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -8,12 +7,14 @@
 #include "cli/command.h"
 #include "cli/commands/control/map_for_control.h"
 #include "cli/commands/format_option.h"
+#include "cli/commands/maps/map_warnings.h"
 #include "cli/json_blocks.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/input_error.h"
 #include "data/text.h"
+#include "data/throwing_as.h"
 #include "models/export/export_map.h"
 #include "models/export/measured_cost.h"
 #include "models/export/program_cost.h"
@@ -32,15 +33,14 @@ struct CostArguments {
 models::MapExport PrepareToMeasure(const CostArguments& arguments) {
   const models::FittedModel fitted =
       LoadForControl(arguments.model, arguments.every, false);
-  try {
-    return models::PrepareExport({&fitted},
-                                 "map",
-                                 arguments.single ? models::Precision::kSingle
-                                                  : models::Precision::kDouble);
-  } catch (const std::invalid_argument& error) {
-    throw data::InputError(fmt::format(
-        "{}: {}", data::PrintablePath(arguments.model), error.what()));
-  }
+  return data::ThrowingAs<data::InputError>(
+      data::PrintablePath(arguments.model) + ": ", [&] {
+        return models::PrepareExport({&fitted},
+                                     "map",
+                                     arguments.single
+                                         ? models::Precision::kSingle
+                                         : models::Precision::kDouble);
+      });
 }
 
 Json CostJson(const models::MapExport& map,
@@ -128,25 +128,22 @@ int RunCost(const CostArguments& arguments) {
 }  // namespace
 
 void AddCostCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<CostArguments>();
-  CLI::App* command =
-      AddCommand(app, "cost", "Count and time what a map asks of a controller");
-  AddOption(command, "MODEL FILE.json", arguments->model, "Model file")
-      .Required();
+  const Command<CostArguments> command(
+      app, run, "cost", "Count and time what a map asks of a controller");
+  AddModelArgument(command, &command->model);
   AddFlag(command,
           "--float",
-          arguments->single,
+          command->single,
           "In single precision, but for the state");
-  AddEveryOption(command, &arguments->every);
-  AddFormatOption(command, &arguments->format);
+  AddEveryOption(command, &command->every);
+  AddFormatOption(command, &command->format);
   SetFooter(
       command,
-      "Operations are counted from the program that errmap export writes; "
-      "bytes and times are\nmeasured on its C, compiled here. A polynomial of "
-      "10 terms takes some 10 ns, a net with\n37 inputs and 10 hidden nodes "
-      "some 200 ns: both fit a servo period of 1 ms.\n"
-      "Example: errmap cost map.json");
-  OnRun(command, [arguments, run] { run->status = RunCost(*arguments); });
+      R"(Operations are counted from the program that errmap export writes; bytes and times are
+measured on its C, compiled here. A polynomial of 10 terms takes some 10 ns, a net with
+37 inputs and 10 hidden nodes some 200 ns: both fit a servo period of 1 ms.
+Example: errmap cost map.json)");
+  command.Runs(RunCost);
 }
 
 }  // namespace errmap::cli

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -19,6 +18,7 @@
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
 #include "data/text.h"
+#include "data/throwing_as.h"
 #include "models/export/c_code.h"
 #include "models/export/compensation_table.h"
 #include "models/export/export_map.h"
@@ -57,11 +57,9 @@ std::optional<double> LimitOf(const char* flag,
                               const std::string& text,
                               const data::Unit& target) {
   if (text.empty()) return std::nullopt;
-  try {
+  return data::ThrowingAs<UsageError>(flag + std::string(" "), [&] {
     return desk::InUnitOf(target, ErrorOfFlag(flag, text, false));
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("{} {}", flag, error.what()));
-  }
+  });
 }
 
 models::LimitOptions LimitsOf(const ExportArguments& arguments,
@@ -125,15 +123,13 @@ models::MapExport Prepare(const ExportArguments& arguments,
 
 std::vector<models::ExportedFile> HalFiles(const ExportArguments& arguments,
                                            const models::MapExport& map) {
-  try {
+  return data::ThrowingAs<data::InputError>(map.name + ": ", [&] {
     return models::HalComponent(
                map,
                {.unit = data::UnitOfSymbol(arguments.tables.units),
                 .joint = arguments.joint})
         .files;
-  } catch (const std::invalid_argument& error) {
-    throw data::InputError(fmt::format("{}: {}", map.name, error.what()));
-  }
+  });
 }
 
 std::vector<models::ExportedFile> FilesOf(const ExportArguments& arguments,
@@ -359,18 +355,17 @@ void AddTableOptions(CLI::App* command, TableArguments* tables) {
 }  // namespace
 
 void AddExportCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<ExportArguments>();
-  CLI::App* command = AddCommand(
-      app, "export", "Write a map as a program that a controller runs");
-  AddOption(command, "MODEL FILE.json", arguments->model, "Model file");
-  AddFlag(command, "--c", arguments->c, "NAME.h and NAME.c in C99");
-  AddFlag(command, "--python", arguments->python, "NAME.py in plain Python 3");
+  const Command<ExportArguments> command(
+      app, run, "export", "Write a map as a program that a controller runs");
+  AddOption(command, "MODEL FILE.json", command->model, "Model file");
+  AddFlag(command, "--c", command->c, "NAME.h and NAME.c in C99");
+  AddFlag(command, "--python", command->python, "NAME.py in plain Python 3");
   const auto add_text =
       [&](const char* flag, models::TextForm form, const char* what) {
         AddFlag(
             command,
             flag,
-            [arguments, form] { arguments->text.push_back(form); },
+            [command, form] { command->text.push_back(form); },
             what);
       };
   add_text("--st",
@@ -384,43 +379,43 @@ void AddExportCommand(CLI::App* app, Run* run) {
            "NAME.xml, the same as PLCopen exchanges it");
   AddFlag(command,
           "--float",
-          arguments->single,
+          command->single,
           "Single precision: C but for the state, text with REAL alone");
-  AddOption(command, "-o,--output DIR", arguments->out, "Folder to write into")
+  AddOption(command, "-o,--output DIR", command->out, "Folder to write into")
       .Required();
   AddOption(command,
             "--name NAME",
-            arguments->name,
+            command->name,
             "What symbols begin with (default: the file's name)");
   AddFlag(command,
           "--hal",
-          arguments->hal,
+          command->hal,
           "A LinuxCNC component (.comp), its wiring (.hal)");
-  AddOption(command, "--joint", arguments->joint, "--hal: joint to compensate")
+  AddOption(command, "--joint", command->joint, "--hal: joint to compensate")
       .Range(0, 8)
       .ShowDefault();
   AddFlag(command,
           "--table",
-          arguments->table,
+          command->table,
           "NAME.csv over position and one other input");
   AddFlag(command,
           "--linuxcnc",
-          arguments->linuxcnc,
+          command->linuxcnc,
           "A COMP_FILE of type 0 for a joint of LinuxCNC");
   AddOption(
       command,
       "--max-offset X",
-      arguments->max_offset,
+      command->max_offset,
       "Largest compensation: 20um (default: 1.3 times the trained errors)");
   AddOption(command,
             "--max-rate X",
-            arguments->max_rate,
+            command->max_rate,
             "Its largest change per second: 1um (default: 10um)\nor 10 urad "
             "of angles");
-  AddEveryOption(command, &arguments->every);
-  AddTableOptions(command, &arguments->tables);
-  AddForceFlag(command, &arguments->force);
-  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  AddEveryOption(command, &command->every);
+  AddTableOptions(command, &command->tables);
+  AddForceFlag(command, &command->force);
+  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   MarkSeldom(command,
              {"--float",
               "--joint",
@@ -431,15 +426,13 @@ void AddExportCommand(CLI::App* app, Run* run) {
               "--resolution"});
   SetFooter(
       command,
-      "Every file states inputs, their order and units, and the sign: "
-      "compensation = -error.\nWhat is written is checked against errmap "
-      "predict first, and tests itself:\n"
-      "  cc -DNAME_SELF_TEST NAME.c -lm && ./a.out\n"
-      "LinuxCNC's forward column holds where the position increases.\n"
-      "Examples: errmap export map.json --c -o controller\n"
-      "  errmap export --linuxcnc --increasing up.json --decreasing down.json "
-      "-o x.comp.txt");
-  OnRun(command, [arguments, run] { run->status = RunExport(*arguments); });
+      R"(Every file states inputs, their order and units, and the sign: compensation = -error.
+What is written is checked against errmap predict first, and tests itself:
+  cc -DNAME_SELF_TEST NAME.c -lm && ./a.out
+LinuxCNC's forward column holds where the position increases.
+Examples: errmap export map.json --c -o controller
+  errmap export --linuxcnc --increasing up.json --decreasing down.json -o x.comp.txt)");
+  command.Runs(RunExport);
 }
 
 }  // namespace errmap::cli

@@ -13,6 +13,7 @@
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
+#include "data/throwing_as.h"
 #include "models/export/compensation_table.h"
 #include "models/export/program/controller.h"
 #include "models/export/program/error_curve.h"
@@ -25,21 +26,11 @@ namespace {
 using models::ErrorCurve;
 using models::HeldReading;
 
-// What is wrong with the arguments is said of the command line.
-template <typename Action>
-auto AsArguments(const Action& action) {
-  try {
-    return action();
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(error.what());
-  }
-}
-
 // Every name of --at is an input of some map, and not the position.
 std::vector<HeldReading> HeldIn(
     const TableArguments& arguments,
     const std::vector<const models::MapProgram*>& programs) {
-  return AsArguments([&] {
+  return data::ThrowingAs<UsageError>("", [&] {
     std::vector<HeldReading> held = models::ParseHeldReadings(arguments.at);
     models::RequireHeldReadings(held, programs);
     return held;
@@ -58,14 +49,11 @@ TableMap LoadTableMap(const std::string& file,
                       const LimitsFor& limits) {
   TableMap map{.file = file, .fitted = models::LoadModel(file), .program = {}};
   const models::LimitOptions options = limits(map.fitted.target.unit);
-  try {
+  data::ThrowingAs<data::InputError>(data::PrintablePath(file) + ": ", [&] {
     models::RequireMadeFor(map.fitted, motion);
     map.program = models::MakeMapProgram(map.fitted);
     models::AddController({&map.fitted}, options, &map.program);
-  } catch (const std::invalid_argument& error) {
-    throw data::InputError(
-        fmt::format("{}: {}", data::PrintablePath(file), error.what()));
-  }
+  });
   return map;
 }
 
@@ -93,13 +81,11 @@ ErrorCurve CurveOf(const std::string& file,
                    const models::MapProgram& program,
                    const std::vector<HeldReading>& held,
                    const TableArguments& arguments) {
-  try {
-    return arguments.log.empty() ? ErrorCurve(program, fitted.inputs, held)
-                                 : AfterLog(fitted, program, arguments);
-  } catch (const std::invalid_argument& error) {
-    throw data::InputError(
-        fmt::format("{}: {}", data::PrintablePath(file), error.what()));
-  }
+  return data::ThrowingAs<data::InputError>(
+      data::PrintablePath(file) + ": ", [&] {
+        return arguments.log.empty() ? ErrorCurve(program, fitted.inputs, held)
+                                     : AfterLog(fitted, program, arguments);
+      });
 }
 
 // How large errors may be, and where they are.
@@ -231,18 +217,15 @@ void ExportLinuxcnc(const std::string& model,
   };
   const ErrorCurve increasing = curve_of(maps.forward);
   const ErrorCurve decreasing = curve_of(maps.reverse);
-  models::CompFile file;
-  try {
-    file =
-        models::LinuxcncCompFile(increasing,
-                                 decreasing,
-                                 {.unit = data::UnitOfSymbol(arguments.units),
-                                  .most_points = arguments.points,
-                                  .resolution = arguments.resolution});
-  } catch (const std::logic_error& error) {
-    throw data::InputError(fmt::format(
-        "{}: {}", data::PrintablePath(maps.forward.file), error.what()));
-  }
+  const auto file = data::ThrowingAs<data::InputError, std::logic_error>(
+      data::PrintablePath(maps.forward.file) + ": ", [&] {
+        return models::LinuxcncCompFile(
+            increasing,
+            decreasing,
+            {.unit = data::UnitOfSymbol(arguments.units),
+             .most_points = arguments.points,
+             .resolution = arguments.resolution});
+      });
   data::WriteFileAtomically(out, file.text);
   SayUnless(quiet, maps.forward.fitted.remarks);
   if (maps.reverse.file != maps.forward.file) {
@@ -263,14 +246,12 @@ models::ExportedFile ExportTable(const models::FittedModel& fitted,
                                    map.program,
                                    HeldIn(arguments, {&map.program}),
                                    arguments);
-  const models::GridOptions options = AsArguments(
-      [&] { return models::ParseGrid(arguments.grid, arguments.over, curve); });
-  models::GridTable table;
-  try {
-    table = models::CompensationGrid(curve, options);
-  } catch (const std::domain_error& error) {
-    throw data::InputError(fmt::format("{}: {}", map.name, error.what()));
-  }
+  const auto options = data::ThrowingAs<UsageError>("", [&] {
+    return models::ParseGrid(arguments.grid, arguments.over, curve);
+  });
+  const auto table = data::ThrowingAs<data::InputError, std::domain_error>(
+      map.name + ": ",
+      [&] { return models::CompensationGrid(curve, options); });
   *said = fmt::format(
       "{}.csv: compensation = -error, {}; {}{}; between its points it errs by "
       "up to {}",

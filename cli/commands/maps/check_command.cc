@@ -2,7 +2,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
@@ -12,7 +11,6 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
-#include "cli/commands/maps/map_command.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
@@ -34,6 +32,7 @@
 #include "models/session/map_rows.h"
 #include "models/session/session_check.h"
 #include "models/session/zero_schedule.h"
+#include "models/study/record/record_json.h"
 
 namespace errmap::cli {
 namespace {
@@ -48,18 +47,6 @@ struct ProbeArguments {
   bool quiet = false;
 };
 
-Json SitesJson(const std::vector<models::ProbeSite>& sites) {
-  Json json = Json::array();
-  for (const models::ProbeSite& site : sites) {
-    json.push_back({{"from", site.from},
-                    {"until", site.until},
-                    {"position_from", site.position_from},
-                    {"position_until", site.position_until},
-                    {"factor", site.factor}});
-  }
-  return json;
-}
-
 // When to probe next: an interval of the clock, or null.
 Json NextProbeJson(const models::ZeroSchedule& schedule, double goal) {
   const auto& clock = schedule.clock;
@@ -69,10 +56,6 @@ Json NextProbeJson(const models::ZeroSchedule& schedule, double goal) {
        clock && std::isfinite(clock->trigger.time) ? Json(clock->trigger.time)
                                                    : Json()},
       {"kept", clock.has_value()}};
-}
-
-Json NumberOrNull(const std::optional<double>& value) {
-  return value ? Json(*value) : Json();
 }
 
 Json ForecastJson(const models::RmseForecast& forecast) {
@@ -102,7 +85,7 @@ Json CheckJson(const models::SessionCheck& check) {
           {"remedy", ToString(check.remedy)},
           {"gain", check.gain},
           {"left", check.left},
-          {"next_probe_s", NumberOrNull(check.next_probe)},
+          {"next_probe_s", models::ToJson(check.next_probe)},
           {"promised", check.promised},
           {"probes",
            {{"n", check.probes},
@@ -287,7 +270,7 @@ int RunCheck(const ProbeArguments& arguments, const std::string& command_line) {
     document["other_sessions"] = last.others;
     document["learnt_from"] = LearntJson(learnt);
     document.update(CheckJson(check));
-    document["sites"] = SitesJson(sites);
+    document["sites"] = models::ToJson(sites);
     if (schedule) document["next_probe"] = NextProbeJson(*schedule, goal);
     document["provenance"] =
         ProvenanceJson(command_line,
@@ -326,50 +309,42 @@ int RunCheck(const ProbeArguments& arguments, const std::string& command_line) {
 }  // namespace
 
 void AddCheckCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<ProbeArguments>();
-  CLI::App* command = AddMapCommand(
+  const Command<ProbeArguments> command(
       app,
+      run,
       "check",
-      "Tell from a few probes whether a map holds in this session",
-      &arguments->model);
+      "Tell from a few probes whether a map holds in this session");
+  AddModelArgument(command, &command->model);
   AddOption(command,
             "PROBES PROBES.csv",
-            arguments->files,
+            command->files,
             "CSV file of a few measurements, inputs and target, or several: "
             "the last session is judged")
       .Required();
   AddOption(command,
             "--goal X",
-            arguments->goal,
+            command->goal,
             "Also say how often to probe to keep 90 % of the errors "
             "within this: 2um\n(errmap when has more)");
-  AddRowOptions(command, &arguments->rows.missing, &arguments->rows.faults);
-  AddFormatOption(command, &arguments->format);
-  AddMapLogArguments(command, &arguments->rows.log);
-  AddFromRest(command, &arguments->rows.log);
-  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  AddRowOptions(command, &command->rows.missing, &command->rows.faults);
+  AddFormatOption(command, &command->format);
+  AddMapLogArguments(command, &command->rows.log);
+  AddFromRest(command, &command->rows.log);
+  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(
       command,
-      "Answers three questions and stops at the first that has an answer.\n"
-      "- The readings: is a sensor dead, frozen, swapped, off or in another "
-      "unit?\n"
-      "- The start: are the first rows of the session there, for a map with a "
-      "memory?\n"
-      "- The probes: is the RMSE at most 1.5 times the promised one, so far "
-      "and for\n"
-      "the rest of the session, as the held-out days went on?\n"
-      "Rows without a target are readings between the probes; the memory of a "
-      "map\n"
-      "runs through them. Readings before the first row come by --after, which "
-      "needs\n"
-      "no positions.\n"
-      "Exit status: 0 the map holds; 4 it does not hold, or a sensor is at "
-      "fault; 5\n"
-      "not known, or not for the rest of the session.\n"
-      "Example: errmap check map.json probes.csv --after today.csv");
-  OnRun(command, [arguments, run] {
-    run->status = RunCheck(*arguments, run->command_line);
-  });
+      R"(Answers three questions and stops at the first that has an answer.
+- The readings: is a sensor dead, frozen, swapped, off or in another unit?
+- The start: are the first rows of the session there, for a map with a memory?
+- The probes: is the RMSE at most 1.5 times the promised one, so far and for
+the rest of the session, as the held-out days went on?
+Rows without a target are readings between the probes; the memory of a map
+runs through them. Readings before the first row come by --after, which needs
+no positions.
+Exit status: 0 the map holds; 4 it does not hold, or a sensor is at fault; 5
+not known, or not for the rest of the session.
+Example: errmap check map.json probes.csv --after today.csv)");
+  command.Runs(RunCheck);
 }
 
 }  // namespace errmap::cli

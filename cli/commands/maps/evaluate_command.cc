@@ -1,4 +1,3 @@
-#include <memory>
 #include <optional>
 
 #include <fmt/format.h>
@@ -7,7 +6,6 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
-#include "cli/commands/maps/map_command.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
@@ -66,18 +64,6 @@ Json OutsideJson(const std::vector<models::TrainedInput>& trained,
           found.looks_like.empty() ? Json() : Json(found.looks_like)}});
   }
   return {{"rows", rows}, {"inputs", std::move(inputs)}};
-}
-
-Json PromiseJson(const models::KeptPromise& kept) {
-  return {{"promised", kept.promised},
-          {"found", kept.found},
-          {"within_90", kept.within_90},
-          {"within_95", kept.within_95},
-          {"uncompensated", kept.uncompensated},
-          {"constant", kept.constant},
-          {"mean", kept.mean},
-          {"offset_share", kept.offset_share},
-          {"shape", kept.shape ? Json(ToString(*kept.shape)) : Json()}};
 }
 
 // Rows unlike training, by what they are unlike in, and the worst.
@@ -143,7 +129,7 @@ Json EvaluationJson(const Evaluation& found,
       {"clipped", found.clipped},
       {"learnt_from", LearntJson(found.learnt)},
       {"summary", models::ToJson(found.metrics)},
-      {"promise", PromiseJson(found.kept)},
+      {"promise", models::ToJson(found.kept)},
       {"outside", OutsideJson(fitted.inputs, dataset.input_values())},
       {"unlike", UnlikeJson(found.judged.flags, dataset.rows())},
       {"sensor_fault", SensorJson(found.sensor)},
@@ -240,27 +226,25 @@ int RunEvaluate(const EvaluateArguments& arguments,
 }  // namespace
 
 void AddEvaluateCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<EvaluateArguments>();
-  CLI::App* command =
-      AddMapCommand(app,
-                    "evaluate",
-                    "Judge a fitted map on measurements it may not know",
-                    &arguments->model);
+  const Command<EvaluateArguments> command(
+      app,
+      run,
+      "evaluate",
+      "Judge a fitted map on measurements it may not know");
+  AddModelArgument(command, &command->model);
   AddOption(command,
             "DATA FILE.csv",
-            arguments->files,
+            command->files,
             "CSV file with inputs and target, or several: days of one "
             "component")
       .Required();
-  AddRowOptions(command, &arguments->rows.missing, &arguments->rows.faults);
-  AddFormatOption(command, &arguments->format);
-  AddMapLogArguments(command, &arguments->rows.log);
-  AddFromRest(command, &arguments->rows.log);
-  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  AddRowOptions(command, &command->rows.missing, &command->rows.faults);
+  AddFormatOption(command, &command->format);
+  AddMapLogArguments(command, &command->rows.log);
+  AddFromRest(command, &command->rows.log);
+  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(command, "Example: errmap evaluate map.json tuesday.csv");
-  OnRun(command, [arguments, run] {
-    run->status = RunEvaluate(*arguments, run->command_line);
-  });
+  command.Runs(RunEvaluate);
 }
 
 }  // namespace errmap::cli

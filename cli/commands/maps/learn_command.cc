@@ -31,12 +31,12 @@
 #include "data/files/atomic_file.h"
 #include "data/files/prepare_folder.h"
 #include "data/measurements/column_match.h"
+#include "data/throwing_as.h"
 #include "fitting/interruption.h"
 #include "models/learning/learning_curve.h"
 #include "models/learning/learning_record.h"
 #include "models/learning/next_states.h"
 #include "models/learning/sensor_curve.h"
-#include "models/model_spec.h"
 #include "models/study/journal/fit_label.h"
 #include "models/study/journal/kept_fits.h"
 #include "models/study/record/record_json.h"
@@ -68,13 +68,7 @@ struct LearnArguments {
 std::vector<std::unique_ptr<models::ModelRecipe>> RecipesOf(
     const LearnArguments& arguments, const data::Dataset& dataset) {
   std::vector<std::unique_ptr<models::ModelRecipe>> recipes;
-  std::vector<std::string> specs;
-  try {
-    specs = models::SplitList(arguments.model_list);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("--models: {}", error.what()));
-  }
-  for (const std::string& spec : specs) {
+  for (const std::string& spec : SplitFlag("--models", arguments.model_list)) {
     auto recipe = RecipeFromArgument(spec);
     if (const auto missing = recipe->WhatIsMissing(dataset)) {
       Say(fmt::format("{} is left out: it needs {}", spec, *missing));
@@ -174,17 +168,15 @@ void LearnCurves(const LearnArguments& arguments,
                  const data::Dataset& dataset,
                  double goal,
                  Learned* learned) {
-  models::LearningPlan plan;
-  try {
-    plan = models::PlanLearning(dataset,
-                                arguments.by == "sessions"
-                                    ? models::LearnBy::kSessions
-                                    : models::LearnBy::kGroups,
-                                arguments.repeats,
-                                arguments.seed);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("--by {}: {}", arguments.by, error.what()));
-  }
+  const auto plan =
+      data::ThrowingAs<UsageError>("--by " + arguments.by + ": ", [&] {
+        return models::PlanLearning(dataset,
+                                    arguments.by == "sessions"
+                                        ? models::LearnBy::kSessions
+                                        : models::LearnBy::kGroups,
+                                    arguments.repeats,
+                                    arguments.seed);
+      });
   const auto recipes = RecipesOf(arguments, dataset);
   const models::StudyResult study =
       RunLearning(arguments, dataset, plan, recipes);
@@ -265,6 +257,12 @@ std::string Stem(const LearnArguments& arguments) {
 }
 
 int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
+  if (arguments.by.empty() && arguments.candidates.empty()) {
+    throw UsageError("learn: say --by sessions|cycles|sensors or --next FILE");
+  }
+  if (arguments.resume && arguments.out.empty()) {
+    throw UsageError("--resume needs --out DIR");
+  }
   std::optional<ClaimedFolder> folder;
   if (!arguments.out.empty()) {
     folder.emplace(
@@ -322,78 +320,67 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
 }  // namespace
 
 void AddLearnCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<LearnArguments>();
-  CLI::App* command = AddCommand(
+  const Command<LearnArguments> command(
       app,
+      run,
       "learn",
       "What more days, cycles or fewer sensors would do to the error");
-  AddDataArguments(command, &arguments->data);
+  AddDataArguments(command, &command->data);
   AddOption(command,
             "--by",
-            arguments->by,
+            command->by,
             "What is learnt from one after another: sessions, cycles "
             "(the groups) or sensors")
       .OneOf(std::vector<std::string>(models::kLearntBy.begin(),
                                       models::kLearntBy.end()));
   AddOption(command,
             "--models LIST",
-            arguments->model_list,
+            command->model_list,
             "Models, separated by commas, whose curves are drawn (default: "
             "baselines, a plane, ridge and blend)");
   AddOption(command,
             "--next CANDIDATES.csv",
-            arguments->candidates,
+            command->candidates,
             "States that could be measured next, a row each with the "
             "inputs: which of them lower the predicted error most");
   AddOption(command,
             "--repeats",
-            arguments->repeats,
+            command->repeats,
             "Draws of the units learnt from, per size and fold")
       .Range(1, 100)
       .ShowDefault();
-  AddOption(command, "--sensors", arguments->sensors, "Sensors chosen at most")
+  AddOption(command, "--sensors", command->sensors, "Sensors chosen at most")
       .Range(1, 100)
       .ShowDefault();
   AddOption(command,
             "--goal X",
-            arguments->goal,
+            command->goal,
             "RMSE wanted: 2um (default: no goal)");
-  AddSeedOption(command, &arguments->seed);
+  AddSeedOption(command, &command->seed);
   AddOption(command,
             "--jobs N",
-            arguments->jobs,
+            command->jobs,
             "Fits at the same time (default: one per core)")
       .Positive();
   AddOption(command,
             "--out DIR",
-            arguments->out,
+            command->out,
             "Folder for learn-*.json, learn-*.svg and the journal of "
             "fits\nerrmap report puts the curves of a study's folder on its "
             "page");
   AddFlag(command,
           "--resume",
-          arguments->resume,
+          command->resume,
           "Go on with the fits of an earlier run in --out");
-  AddForceFlag(command, &arguments->force);
-  AddFormatOption(command, &arguments->format);
-  AddCacheFlag(command, &arguments->cache);
+  AddForceFlag(command, &command->force);
+  AddFormatOption(command, &command->format);
+  AddCacheFlag(command, &command->cache);
   MarkSeldom(command, {"--repeats", "--sensors", "--seed", "--resume"});
-  SetFooter(
-      command,
-      "Example: errmap learn days.csv --by sessions --goal 2um\nWhole units "
-      "are held out, others learnt from; a power law through the curve tells\n"
-      "how many more would reach the goal, or that none would. Sensors are "
-      "chosen inside\nthe folds, by a map linear in each.");
-  OnRun(command, [arguments, run] {
-    if (arguments->by.empty() && arguments->candidates.empty()) {
-      throw UsageError(
-          "learn: say --by sessions|cycles|sensors or --next FILE");
-    }
-    if (arguments->resume && arguments->out.empty()) {
-      throw UsageError("--resume needs --out DIR");
-    }
-    run->status = RunLearn(*arguments, run->command_line);
-  });
+  SetFooter(command, R"(Example: errmap learn days.csv --by sessions --goal 2um
+Whole units are held out, others learnt from; a power law through the curve tells
+how many more would reach the goal, or that none would. Sensors are chosen inside
+the folds, by a map linear in each.)");
+  command.Runs(RunLearn);
 }
 
 }  // namespace errmap::cli

@@ -13,6 +13,7 @@
 #include "cli/report/number_text.h"
 #include "cli/report/words/commands/fault_text.h"
 #include "cli/report/words/commands/outside_text.h"
+#include "cli/shell/command_options.h"
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/measurements/reading/reading.h"
@@ -23,6 +24,20 @@
 namespace errmap::cli {
 
 using Eigen::Index;
+
+void AddModelArgument(CLI::App* command, std::string* model) {
+  AddOption(command, "MODEL FILE.json", *model, "Model file").Required();
+}
+
+Json MapAnswerJson(const char* schema,
+                   const models::FittedModel& fitted,
+                   const std::vector<std::string>& files) {
+  return {{"schema", schema},
+          {"model", fitted.name},
+          {"file", desk::ShownNames(files)},
+          {"target", fitted.target.name},
+          {"unit", fitted.target.unit.symbol}};
+}
 
 models::FittedModel LoadMap(const std::string& file, bool quiet) {
   models::FittedModel fitted = models::LoadModel(file);

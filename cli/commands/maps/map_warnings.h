@@ -12,7 +12,20 @@
 #include "models/sensors/applicability.h"
 #include "models/session/map_rows.h"
 
+namespace CLI {
+class App;
+}
+
 namespace errmap::cli {
+
+/// Adds MODEL, a model file that a command must be given.
+void AddModelArgument(CLI::App* command, std::string* model);
+
+/// What the JSON of a map that is judged on measurements begins with: schema,
+/// model, file, target and unit.
+Json MapAnswerJson(const char* schema,
+                   const models::FittedModel& fitted,
+                   const std::vector<std::string>& files);
 
 /// Calls models::LoadModel and, unless quiet, says what users should know about
 /// the file.

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -9,7 +8,6 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/maps/map_command.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
@@ -336,47 +334,41 @@ int RunPredict(const PredictArguments& arguments) {
 }  // namespace
 
 void AddPredictCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<PredictArguments>();
-  CLI::App* command =
-      AddMapCommand(app,
-                    "predict",
-                    "Predict the error of every row with a fitted map",
-                    &arguments->model);
+  const Command<PredictArguments> command(
+      app, run, "predict", "Predict the error of every row with a fitted map");
+  AddModelArgument(command, &command->model);
   AddOption(command,
             "DATA FILE.csv",
-            arguments->files,
+            command->files,
             "CSV file with its inputs, or several: days of one component")
       .Required();
   AddOption(command,
             "-o,--output FILE.csv",
-            arguments->out,
+            command->out,
             "File to write (default: stdout)");
   AddOption(command,
             "--probes PROBES.csv",
-            arguments->probes,
+            command->probes,
             "Measurements of the same session: the map is moved by the "
             "offset that they show up to each row; the interval "
             "narrows, or widens where they contradict an offset");
-  AddMapLogArguments(command, &arguments->log);
-  AddFromRest(command, &arguments->log);
-  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  AddMapLogArguments(command, &command->log);
+  AddFromRest(command, &command->log);
+  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(
       command,
-      "Columns: record, cycle, time and position if the data have them, "
-      "predicted,\n"
-      "lower_90 to upper_95 (empty without an interval), inside, why, offender "
-      "and\n"
-      "unit. inside is 1 as in training and 0 elsewhere; why says what is not "
-      "as\n"
-      "there.\n"
-      "- range: a column (offender) leaves its trained range\n"
-      "- relation: it does not go with the other columns\n"
-      "- distance, leverage: the thermal state is far from all trained ones\n"
-      "- start, gap: rows are missing that the memory of the map needs\n"
-      "- where: the map is not made for such rows\n"
-      "Exit status 4 if a prediction is not finite: its cell stays empty.\n"
-      "Example: errmap predict map.json today.csv -o predicted.csv");
-  OnRun(command, [arguments, run] { run->status = RunPredict(*arguments); });
+      R"(Columns: record, cycle, time and position if the data have them, predicted,
+lower_90 to upper_95 (empty without an interval), inside, why, offender and
+unit. inside is 1 as in training and 0 elsewhere; why says what is not as
+there.
+- range: a column (offender) leaves its trained range
+- relation: it does not go with the other columns
+- distance, leverage: the thermal state is far from all trained ones
+- start, gap: rows are missing that the memory of the map needs
+- where: the map is not made for such rows
+Exit status 4 if a prediction is not finite: its cell stays empty.
+Example: errmap predict map.json today.csv -o predicted.csv)");
+  command.Runs(RunPredict);
 }
 
 }  // namespace errmap::cli

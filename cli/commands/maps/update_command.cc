@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -10,7 +9,6 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
-#include "cli/commands/maps/map_command.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
@@ -26,6 +24,7 @@
 #include "data/measurements/column_checks.h"
 #include "data/text.h"
 #include "models/model_file.h"
+#include "models/study/record/record_json.h"
 #include "models/study/study_defaults.h"
 #include "models/uncertainty/learnt_rows.h"
 #include "models/uncertainty/map_update.h"
@@ -151,16 +150,6 @@ std::optional<data::Dataset> ReadKnown(
   return known;
 }
 
-Json TrialJson(const models::UpdateTrial& trial) {
-  Json sessions = Json::array();
-  for (const auto& session : trial.sessions) {
-    sessions.push_back({{"session", session.label},
-                        {"old_rmse", session.old_rmse},
-                        {"new_rmse", session.new_rmse}});
-  }
-  return sessions;
-}
-
 Json UpdateJson(const UpdateArguments& arguments,
                 const models::FittedModel& old_map,
                 const models::UpdateTrial& trial,
@@ -178,7 +167,7 @@ Json UpdateJson(const UpdateArguments& arguments,
           {"not_at_hand", known.lost},
           {"old_rmse", trial.old_rmse},
           {"new_rmse", trial.new_rmse},
-          {"sessions", TrialJson(trial)},
+          {"sessions", models::ToJson(trial.sessions)},
           {"provenance", provenance}};
 }
 
@@ -289,53 +278,48 @@ int RunUpdate(const UpdateArguments& arguments,
 }  // namespace
 
 void AddUpdateCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<UpdateArguments>();
-  CLI::App* command = AddMapCommand(
+  const Command<UpdateArguments> command(
       app,
+      run,
       "update",
-      "Fit a map again with new sessions, if that makes it better",
-      &arguments->model);
+      "Fit a map again with new sessions, if that makes it better");
+  AddModelArgument(command, &command->model);
   AddOption(command,
             "NEW NEW.csv",
-            arguments->file,
+            command->file,
             "CSV file of new sessions, two at least: inputs and target")
       .Required();
   AddOption(
-      command, "-o,--output FILE.json", arguments->out, "Model file to write")
+      command, "-o,--output FILE.json", command->out, "Model file to write")
       .Required();
   AddOption(command,
             "--known DATA.csv",
-            arguments->known,
+            command->known,
             "Rows that the map was fitted to, may be repeated (default: "
             "the files that it names, if unchanged: here, beside NEW or beside "
             "the map)")
       .OneAtATime();
   AddOption(command,
             "--time COL",
-            arguments->time,
+            command->time,
             "Column of times (default: the only time* or zeit*)");
   AddOption(command,
             "--session COL",
-            arguments->session,
+            command->session,
             "Column of sessions (default: session, day, run or tag)");
-  AddRowOptions(command, &arguments->missing, &arguments->faults);
-  AddSeedOption(command, &arguments->seed);
-  AddFormatOption(command, &arguments->format);
-  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
-  SetFooter(command,
-            "Fits the same type of model, with the same inputs, to old and new "
-            "sessions.\n"
-            "Each new session is predicted by the old map, and by one that has "
-            "not seen\n"
-            "it. The new map is taken if it errs less by more than makes a "
-            "difference, in\n"
-            "RMSE and in the geometric mean over the sessions. Else FILE.json "
-            "is the old\n"
-            "map.\n"
-            "Example: errmap update map.json tuesday.csv -o new.json");
-  OnRun(command, [arguments, run] {
-    run->status = RunUpdate(*arguments, run->command_line);
-  });
+  AddRowOptions(command, &command->missing, &command->faults);
+  AddSeedOption(command, &command->seed);
+  AddFormatOption(command, &command->format);
+  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
+  SetFooter(
+      command,
+      R"(Fits the same type of model, with the same inputs, to old and new sessions.
+Each new session is predicted by the old map, and by one that has not seen
+it. The new map is taken if it errs less by more than makes a difference, in
+RMSE and in the geometric mean over the sessions. Else FILE.json is the old
+map.
+Example: errmap update map.json tuesday.csv -o new.json)");
+  command.Runs(RunUpdate);
 }
 
 }  // namespace errmap::cli

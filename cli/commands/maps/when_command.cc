@@ -1,5 +1,4 @@
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -8,7 +7,6 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
-#include "cli/commands/maps/map_command.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
@@ -179,32 +177,27 @@ int RunWhen(const WhenArguments& arguments, const std::string& command_line) {
 }  // namespace
 
 void AddWhenCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<WhenArguments>();
-  CLI::App* command = AddMapCommand(
-      app, "when", "Tell when a map wants its next probe", &arguments->model);
+  const Command<WhenArguments> command(
+      app, run, "when", "Tell when a map wants its next probe");
+  AddModelArgument(command, &command->model);
   AddOption(command,
             "--goal X",
-            arguments->goal,
+            command->goal,
             "What 90 % of the errors are to stay within: 2um\n"
             "(default: no goal, the table alone)");
-  AddMapLogArguments(command, &arguments->log);
+  AddMapLogArguments(command, &command->log);
   FindOption(command, "--after").About("Readings from the last probe to now");
-  AddFormatOption(command, &arguments->format);
-  SetFooter(command,
-            "Plays probes through on the held-out sessions of the map. A "
-            "session's first\n"
-            "row is a probe, and each later row is judged by the last probe "
-            "before it. A\n"
-            "rule with a temperature is advised if it errs at least 5 % less "
-            "than the best\n"
-            "clock with no more probes, in two sessions of three.\n"
-            "Exit status: 0; 4 if a probe is due now (--after), or if no "
-            "interval keeps to\n"
-            "the goal.\n"
-            "Example: errmap when map.json --goal 2um");
-  OnRun(command, [arguments, run] {
-    run->status = RunWhen(*arguments, run->command_line);
-  });
+  AddFormatOption(command, &command->format);
+  SetFooter(
+      command,
+      R"(Plays probes through on the held-out sessions of the map. A session's first
+row is a probe, and each later row is judged by the last probe before it. A
+rule with a temperature is advised if it errs at least 5 % less than the best
+clock with no more probes, in two sessions of three.
+Exit status: 0; 4 if a probe is due now (--after), or if no interval keeps to
+the goal.
+Example: errmap when map.json --goal 2um)");
+  command.Runs(RunWhen);
 }
 
 }  // namespace errmap::cli

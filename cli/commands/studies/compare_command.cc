@@ -226,23 +226,22 @@ int RunCompare(const CompareArguments& arguments) {
 }  // namespace
 
 void AddCompareCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<CompareArguments>();
-  CLI::App* command =
-      AddCommand(app,
-                 "compare",
-                 "Fit several maps to the same rows and judge them on others");
-  AddCompareOptions(command, arguments.get());
+  const Command<CompareArguments> command(
+      app,
+      run,
+      "compare",
+      "Fit several maps to the same rows and judge them on others");
+  AddCompareOptions(command, &*command);
   SetFooter(
       command,
-      "Exit status: 0 done, 2 wrong command line, 3 unusable input, 4 every "
-      "fit failed, 130 interrupted.\n"
-      "Example: errmap compare xdown.csv --models mean,poly:eq8,net:scg "
-      "--out study");
-  OnRun(command, [arguments, run, command] {
-    arguments->given = GivenOptions(*command);
-    arguments->command_line = run->command_line;
-    run->status = RunCompare(*arguments);
-  });
+      R"(Exit status: 0 done, 2 wrong command line, 3 unusable input, 4 every fit failed, 130 interrupted.
+Example: errmap compare xdown.csv --models mean,poly:eq8,net:scg --out study)");
+  command.Runs(
+      [command](CompareArguments& arguments, const std::string& command_line) {
+        arguments.given = GivenOptions(*command.app());
+        arguments.command_line = command_line;
+        return RunCompare(arguments);
+      });
 }
 
 }  // namespace errmap::cli

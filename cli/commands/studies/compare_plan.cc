@@ -13,7 +13,7 @@
 #include "cli/command.h"
 #include "data/input_error.h"
 #include "data/text.h"
-#include "models/model_spec.h"
+#include "data/throwing_as.h"
 #include "stats/holdout.h"
 
 namespace errmap::cli {
@@ -52,11 +52,7 @@ void CheckHoldouts(const std::vector<std::string>& texts) {
 std::vector<std::string> ModelSpecs(const CompareArguments& arguments) {
   std::vector<std::string> specs;
   if (!arguments.model_list.empty()) {
-    try {
-      specs = models::SplitList(arguments.model_list);
-    } catch (const std::invalid_argument& error) {
-      throw UsageError(fmt::format("--models: {}", error.what()));
-    }
+    specs = SplitFlag("--models", arguments.model_list);
   }
   specs.insert(specs.end(), arguments.models.begin(), arguments.models.end());
   std::set<std::string> seen;
@@ -70,11 +66,9 @@ std::vector<std::string> ModelSpecs(const CompareArguments& arguments) {
 }
 
 desk::StudyFile ReadChanged(const CompareArguments& arguments) {
-  try {
+  return data::ThrowingAs<UsageError>("", [&] {
     return desk::ReadStudyFile(arguments.config, arguments.changes);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(error.what());
-  }
+  });
 }
 
 // Flags of one component that are no keys of study files.

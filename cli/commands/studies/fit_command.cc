@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,13 +16,7 @@
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/report/documents/regression_text.h"
-#include "cli/report/documents/start_report.h"
-#include "cli/report/number_text.h"
-#include "cli/report/words/answers/interval_text.h"
-#include "cli/report/words/commands/fit_summary.h"
-#include "cli/report/words/commands/kept_promise_text.h"
-#include "cli/report/wrap_text.h"
+#include "cli/report/documents/fit_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
@@ -127,62 +120,6 @@ Json ConfigurationJson(const models::ModelRecipe& recipe,
       {"missing", ToString(arguments.data.selection.missing)},
       {"faults", ToString(arguments.data.selection.faults)},
       {"seed", arguments.seed}};
-}
-
-std::string FitText(const models::FittedModel& fitted,
-                    const models::Sensitivity& sensitivity,
-                    const stats::ErrorMetrics& train,
-                    const data::Dataset& dataset,
-                    const FitArguments& arguments) {
-  const report::ErrorText error(fitted.target.unit, train.rmse);
-  report::Terminal room = OutputTerminal();
-  const std::size_t width = room.text_columns();
-  if (arguments.details) {
-    room.columns = std::string::npos;
-    room.rows = 0;
-  }
-  std::string text;
-  const auto say = [&](const std::string& words) {
-    if (!words.empty()) text += report::WrapText(words, width) + "\n";
-  };
-  const Eigen::Index learnt_from = fitted.RowsLearntFrom(dataset);
-  say(fmt::format("{}: {} fitted to {}{}, RMSE {} on {} rows (not held out)",
-                  fitted.name,
-                  report::Count(fitted.model->num_parameters(), "parameter"),
-                  learnt_from < dataset.num_rows()
-                      ? fmt::format("{} of ", learnt_from)
-                      : "",
-                  report::Count(train.n, "row"),
-                  error.WithUnit(train.rmse),
-                  learnt_from < dataset.num_rows() ? "all" : "these"));
-  constexpr Eigen::Index kMostTerms = 12;
-  const bool is_short =
-      arguments.details || fitted.model->num_parameters() <= kMostTerms + 1;
-  if (is_short) {
-    say(data::Printable(fitted.equation, fitted.equation.size()));
-  } else if (!fitted.equation.empty()) {
-    say("The equation is long: it is in the file, and here with --details.");
-  }
-  std::istringstream lines(report::FitSummaryText(fitted.summary));
-  for (std::string line; std::getline(lines, line);) say(line);
-  for (const std::string& remark : fitted.remarks) say(remark);
-  text += report::StartsText(fitted.starts, error);
-  if (arguments.correlations) text += report::CorrelationText(dataset, room);
-  if (fitted.regression && is_short) {
-    text += report::RegressionText(
-        *fitted.regression, dataset.weights().size() != 0, fitted.target, room);
-  }
-  if (fitted.interval) {
-    say(report::IntervalLine(models::MakeRecord(*fitted.interval), error));
-  }
-  say(report::SensitivityLine(sensitivity, error));
-  say(fmt::format(
-      "written to {}; it predicts {}, compensate by minus that",
-      arguments.out,
-      fitted.target.unit.symbol.empty()
-          ? fitted.target.name
-          : fitted.target.name + " in " + fitted.target.unit.symbol));
-  return text;
 }
 
 // A map of all rows and the seconds that it took, its choices and starts
@@ -300,7 +237,14 @@ int FitOne(const FitArguments& arguments, const std::string& command_line) {
         ProvenanceJson(command_line, configuration, inputs);
     PrintResult(DumpJson(document));
   } else {
-    PrintResult(FitText(fitted, sensitivity, train, dataset, arguments));
+    PrintResult(report::FitText(fitted,
+                                sensitivity,
+                                train,
+                                dataset,
+                                {.out = arguments.out,
+                                 .correlations = arguments.correlations,
+                                 .details = arguments.details,
+                                 .terminal = OutputTerminal()}));
   }
   if (stop.load()) {
     Say("interrupted; the best map so far was written");
@@ -372,46 +316,42 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
 }  // namespace
 
 void AddFitCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<FitArguments>();
-  CLI::App* command =
-      AddCommand(app, "fit", "Fit one map to all rows and write it");
-  AddDataArguments(command, &arguments->data);
-  AddOption(
-      command, "--model SPEC", arguments->model, "The model, e.g. poly:eq8")
+  const Command<FitArguments> command(
+      app, run, "fit", "Fit one map to all rows and write it");
+  AddDataArguments(command, &command->data);
+  AddOption(command, "--model SPEC", command->model, "The model, e.g. poly:eq8")
       .Required();
   AddOption(
       command,
       "-o,--output FILE.json",
-      arguments->out,
+      command->out,
       "Model file to write, or a folder: a map for each way along the axis")
       .Required();
-  AddSeedOption(command, &arguments->seed);
+  AddSeedOption(command, &command->seed);
   AddOption(command,
             "--jobs N",
-            arguments->jobs,
+            command->jobs,
             "Threads (default: one per core)\nThey change no figure")
       .Range(1, 1024);
   AddFlag(command,
           "--correlations",
-          arguments->correlations,
+          command->correlations,
           "Also print the correlations of inputs and target");
   AddFlag(command,
           "--no-interval",
-          arguments->no_interval,
+          command->no_interval,
           "Do not fit again with days, cycles or blocks held out to "
           "find what the map may promise there");
   AddFlag(command,
           "--details",
-          arguments->details,
+          command->details,
           "Print the equation and tables whatever their size");
   AddKeepPathsFlag(command);
-  AddFormatOption(command, &arguments->format);
+  AddFormatOption(command, &command->format);
   SetFooter(
       command,
       "Example: errmap fit xdown.csv --model poly:full:degree=3 -o map.json");
-  OnRun(command, [arguments, run] {
-    run->status = RunFit(*arguments, run->command_line);
-  });
+  command.Runs(RunFit);
 }
 
 }  // namespace errmap::cli

@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <memory>
 #include <string>
 
 #include <fmt/format.h>
@@ -77,33 +76,33 @@ int RunInit(const InitArguments& arguments) {
 }  // namespace
 
 void AddInitCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<InitArguments>();
-  CLI::App* command = AddCommand(
-      app, "init", "Write a commented study file for a data file or a folder");
+  const Command<InitArguments> command(
+      app,
+      run,
+      "init",
+      "Write a commented study file for a data file or a folder");
   AddOption(command,
             "DATA FILE.csv|DIR",
-            arguments->data,
+            command->data,
             "CSV file, one row per sample; or a folder with such of many "
             "machines and components below it")
       .Required();
   AddOption(command,
             "--target COL",
-            arguments->target,
+            command->target,
             "Column to be mapped (default: the only one named error*)");
   AddOption(
-      command, "-o,--output study.toml", arguments->out, "Study file to write")
+      command, "-o,--output study.toml", command->out, "Study file to write")
       .ShowDefault();
   AddFlag(command,
           "--force",
-          arguments->force,
+          command->force,
           "Replace a file that is there already");
   SetFooter(
       command,
-      "A column such as direction with few values becomes one component per "
-      "value.\n"
-      "Example: errmap init xdown.csv -o study.toml && errmap compare --config "
-      "study.toml");
-  OnRun(command, [arguments, run] { run->status = RunInit(*arguments); });
+      R"(A column such as direction with few values becomes one component per value.
+Example: errmap init xdown.csv -o study.toml && errmap compare --config study.toml)");
+  command.Runs(RunInit);
 }
 
 }  // namespace errmap::cli

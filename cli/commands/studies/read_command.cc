@@ -1,5 +1,4 @@
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -227,19 +226,21 @@ int RunRead(const ReadArguments& arguments) {
 }  // namespace
 
 void AddReadCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<ReadArguments>();
-  CLI::App* command = AddCommand(
-      app, "read", "Show how measurements are understood, and what changes it");
-  AddDataArguments(command, &arguments->data);
+  const Command<ReadArguments> command(
+      app,
+      run,
+      "read",
+      "Show how measurements are understood, and what changes it");
+  AddDataArguments(command, &command->data);
   AddOption(command,
             "-o,--output clean.csv",
-            arguments->out,
+            command->out,
             "Write the table as it was understood");
-  AddFormatOption(command, &arguments->format);
+  AddFormatOption(command, &command->format);
   SetFooter(command,
             "Each line names the option that changes it.\n"
             "Example: errmap read day1.csv day2.csv -o clean.csv");
-  OnRun(command, [arguments, run] { run->status = RunRead(*arguments); });
+  command.Runs(RunRead);
 }
 
 }  // namespace errmap::cli

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 
 #include <fmt/format.h>
 
@@ -19,6 +18,7 @@
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
+#include "data/throwing_as.h"
 #include "models/study/record/study_record.h"
 
 namespace errmap::cli {
@@ -37,13 +37,12 @@ models::StudyRecord ReadResults(const std::string& folder) {
         data::PrintablePath(folder)));
   }
   const std::string text = data::ReadFile(path, data::kMostTextOfPrograms);
-  try {
-    models::StudyRecord record = models::FromJsonText(text);
-    report::PartsOf(record);  // refuses what a slice did not write
-    return record;
-  } catch (const data::InputError& error) {
-    throw data::InputError(data::PrintablePath(path) + ": " + error.what());
-  }
+  return data::ThrowingAs<data::InputError, data::InputError>(
+      data::PrintablePath(path) + ": ", [&] {
+        models::StudyRecord record = models::FromJsonText(text);
+        report::PartsOf(record);  // refuses what a slice did not write
+        return record;
+      });
 }
 
 // The study of that component alone.
@@ -137,36 +136,38 @@ int RunReport(const ReportArguments& arguments) {
 }  // namespace
 
 void AddReportCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<ReportArguments>();
-  CLI::App* command = AddCommand(
-      app, "report", "Draw the report of a comparison anew, without fitting");
+  const Command<ReportArguments> command(
+      app,
+      run,
+      "report",
+      "Draw the report of a comparison anew, without fitting");
   AddOption(command,
             "DIR",
-            arguments->folder,
+            command->folder,
             "Folder that errmap compare --out wrote: report.html and "
             "report.md are drawn from its results.json; or a store")
       .Required()
       .Value("");
   AddOption(command,
             "--figures DIR2",
-            arguments->figures,
+            command->figures,
             "Also write every figure here as NAME.svg");
   AddOption(command,
             "--format",
-            arguments->format,
+            command->format,
             "Print html or md instead of writing into DIR")
       .OneOf({"html", "md"});
   AddOption(command,
             "--component NAME",
-            arguments->component,
+            command->component,
             "Draw this component's page, in full; without it the page "
             "of all");
-  AddForceFlag(command, &arguments->force);
+  AddForceFlag(command, &command->force);
   SetFooter(
       command,
       "Exit status: 0 done, 2 wrong command line, 3 unusable results.json.\n"
       "Example: errmap report study --figures paper");
-  OnRun(command, [arguments, run] { run->status = RunReport(*arguments); });
+  command.Runs(RunReport);
 }
 
 }  // namespace errmap::cli

@@ -21,6 +21,7 @@
 #include "data/measurements/reading/directions.h"
 #include "data/measurements/reading/read_table.h"
 #include "data/text.h"
+#include "data/throwing_as.h"
 #include "models/comparison/compare.h"
 #include "models/file_recipe.h"
 #include "models/record.h"
@@ -241,13 +242,10 @@ class ComponentPlanner {
       const stats::HoldoutSpec& spec,
       const data::Dataset& dataset,
       std::shared_ptr<const data::Dataset> test_data) const {
-    try {
+    return data::ThrowingAs<data::InputError>(component_.data + ": ", [&] {
       return models::MakeHoldout(
           spec, dataset, study_.seed, std::move(test_data));
-    } catch (const std::invalid_argument& error) {
-      throw data::InputError(
-          fmt::format("{}: {}", component_.data, error.what()));
-    }
+    });
   }
 
   void TellOfRowsLearnt(const models::Holdout& holdout) const {
@@ -275,15 +273,12 @@ class ComponentPlanner {
       const models::ComponentStudy& component) const {
     if (study_.rezero.empty()) return std::nullopt;
     const data::Dataset& dataset = component.data.dataset;
-    try {
+    return data::ThrowingAs<data::InputError>(component_.data + ": ", [&] {
       const models::RezeroRule rule =
           RezeroIn(dataset.target().unit, study_.rezero);
       models::RequireRezero(dataset, component.holdouts, rule);
       return rule;
-    } catch (const std::invalid_argument& error) {
-      throw data::InputError(
-          fmt::format("{}: {}", component_.data, error.what()));
-    }
+    });
   }
 
   // The component's own, else the study's, in the target's unit. A bare number
@@ -308,12 +303,9 @@ class ComponentPlanner {
           unit.display_scale * given.value,
           unit.display_symbol));
     }
-    try {
-      return InUnitOf(unit, given);
-    } catch (const std::invalid_argument& error) {
-      throw data::InputError(
-          fmt::format("{}: {} {}", component_.data, what, error.what()));
-    }
+    return data::ThrowingAs<data::InputError>(
+        fmt::format("{}: {} ", component_.data, what),
+        [&] { return InUnitOf(unit, given); });
   }
 
   const StudyConfig& study_;

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -23,6 +22,7 @@
 #include "data/sha256.h"
 #include "data/tables/gzip.h"
 #include "data/text.h"
+#include "data/throwing_as.h"
 #include "fitting/parallel_for.h"
 #include "models/fleet/session_measures.h"
 #include "models/model_file.h"
@@ -44,11 +44,10 @@ std::string Unpacked(const fleet::StorePaths& paths,
   const std::string path = paths.InFolder(component, file);
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return "";
-  try {
-    return data::Gunzip(data::ReadFile(path), data::kMostTextOfPrograms);
-  } catch (const data::InputError& error) {
-    throw data::InputError(data::PrintablePath(path) + ": " + error.what());
-  }
+  return data::ThrowingAs<data::InputError, data::InputError>(
+      data::PrintablePath(path) + ": ", [&] {
+        return data::Gunzip(data::ReadFile(path), data::kMostTextOfPrograms);
+      });
 }
 
 // What a component's map is by the store: its target and its file's hash.
@@ -257,30 +256,29 @@ int RunDeploy(const DeployArguments& arguments) {
 }  // namespace
 
 void AddDeployCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<DeployArguments>();
-  CLI::App* command = AddCommand(
-      app, "deploy", "Write down which map a machine has from now on");
+  const Command<DeployArguments> command(
+      app, run, "deploy", "Write down which map a machine has from now on");
   AddOption(
-      command, "STORE DIR", arguments->store, "Folder with an errmap.sqlite")
+      command, "STORE DIR", command->store, "Folder with an errmap.sqlite")
       .Required();
   AddOption(
-      command, "COMPONENT NAME", arguments->components, "Names of components");
+      command, "COMPONENT NAME", command->components, "Names of components");
   AddFlag(command,
           "--all",
-          arguments->all,
+          command->all,
           "Every component that has a recommended map");
   AddOption(command,
             "--model FILE.json",
-            arguments->model,
+            command->model,
             "Map to deploy in place of the recommended one");
   SetFooter(
       command,
-      "The map is kept in the store's maps/ with what it promised, and errmap "
-      "watch holds new\nmeasurements against it. What the component had before "
-      "is ended. Several are deployed\nall or none.\nExit status: 0 done, 2 no "
-      "such component, 3 no map, no store, or one of a newer errmap.\nExample: "
-      "errmap deploy fleet \"m01/x, down\"");
-  OnRun(command, [arguments, run] { run->status = RunDeploy(*arguments); });
+      R"(The map is kept in the store's maps/ with what it promised, and errmap watch holds new
+measurements against it. What the component had before is ended. Several are deployed
+all or none.
+Exit status: 0 done, 2 no such component, 3 no map, no store, or one of a newer errmap.
+Example: errmap deploy fleet "m01/x, down")");
+  command.Runs(RunDeploy);
 }
 
 }  // namespace errmap::cli

@@ -1,4 +1,3 @@
-#include <memory>
 #include <string>
 
 #include <fmt/format.h>
@@ -39,24 +38,26 @@ int RunMerge(const MergeArguments& arguments) {
 }  // namespace
 
 void AddMergeCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<MergeArguments>();
-  CLI::App* command = AddCommand(
-      app, "merge", "Put the shares of a fleet study together in one database");
+  const Command<MergeArguments> command(
+      app,
+      run,
+      "merge",
+      "Put the shares of a fleet study together in one database");
   AddOption(command,
             "STORE DIR",
-            arguments->store,
+            command->store,
             "Folder that errmap compare --shard wrote into")
       .Required();
   AddTableFormatOption(command,
                        "What to print; csv and md have a row per component",
-                       &arguments->format);
+                       &command->format);
   SetFooter(
       command,
-      "Reads the components' summaries and writes errmap.sqlite and "
-      "report.html there, whole or\nnot at all; others may read the database "
-      "meanwhile.\nExit status: 0 done, 3 no store, or one of a newer errmap, "
-      "4 components are missing.\nExample: errmap merge fleet");
-  OnRun(command, [arguments, run] { run->status = RunMerge(*arguments); });
+      R"(Reads the components' summaries and writes errmap.sqlite and report.html there, whole or
+not at all; others may read the database meanwhile.
+Exit status: 0 done, 3 no store, or one of a newer errmap, 4 components are missing.
+Example: errmap merge fleet)");
+  command.Runs(RunMerge);
 }
 
 }  // namespace errmap::cli

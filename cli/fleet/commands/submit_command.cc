@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <spawn.h>
 #include <string>
 #include <system_error>
@@ -16,6 +15,7 @@
 #include "cli/fleet/commands/compare_fleet.h"
 #include "cli/fleet/run/fleet_plan.h"
 #include "cli/fleet/run/fleet_run.h"
+#include "cli/report/shell_word.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/terminal.h"
 #include "data/files/atomic_file.h"
@@ -50,12 +50,6 @@ struct SlurmJob {
   int cpus = 1;
   fleet::FleetPlan plan;
 };
-
-std::string Quoted(const std::string& word) {
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + "'";
-}
 
 // hours:minutes:seconds. The estimate is good to a factor of three.
 std::string TimeLimit(const SlurmJob& job) {
@@ -92,14 +86,14 @@ std::string ShardsScript(const SlurmJob& job) {
       "#SBATCH --output=\"{5}/%x-%A_%a.log\"\n"
       "exec {0} compare --config {6} --out {7} \\\n"
       "  --shard \"$SLURM_ARRAY_TASK_ID/{8}\" --jobs {3}\n",
-      Quoted(job.program),
+      report::ShellQuoted(job.program),
       job.plan.components,
       job.tasks - 1,
       job.cpus,
       TimeLimit(job),
       job.folder,
-      Quoted(job.config),
-      Quoted(job.store),
+      report::ShellQuoted(job.config),
+      report::ShellQuoted(job.store),
       job.tasks);
 }
 
@@ -115,8 +109,8 @@ std::string MergeScript(const SlurmJob& job) {
       "#SBATCH --output=\"{}/%x-%j.log\"\n"
       "exec {} merge {}\n",
       job.folder,
-      Quoted(job.program),
-      Quoted(job.store));
+      report::ShellQuoted(job.program),
+      report::ShellQuoted(job.store));
 }
 
 std::string SubmitScript(const SlurmJob& job) {
@@ -134,7 +128,7 @@ std::string SubmitScript(const SlurmJob& job) {
       "merge=$(sbatch --parsable --dependency=\"afterany:${{shards%%;*}}\" "
       "{0}/merge.sh)\n"
       "echo \"shares: job ${{shards%%;*}}, merge: job ${{merge%%;*}}\"\n",
-      Quoted(job.folder),
+      report::ShellQuoted(job.folder),
       Mebibytes(job));
 }
 
@@ -187,24 +181,26 @@ int RunSubmit(const SubmitArguments& arguments,
 }  // namespace
 
 void AddSubmitCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<SubmitArguments>();
-  CLI::App* command = AddCommand(
-      app, "submit", "Write the scripts that have a cluster do a fleet study");
-  AddOption(command, "SCHEDULER", arguments->scheduler, "slurm: a job array")
+  const Command<SubmitArguments> command(
+      app,
+      run,
+      "submit",
+      "Write the scripts that have a cluster do a fleet study");
+  AddOption(command, "SCHEDULER", command->scheduler, "slurm: a job array")
       .Required()
       .OneOf({"slurm"})
       .Value("NAME");
-  AddOption(command, "--config FILE.toml", arguments->config, "Study file")
+  AddOption(command, "--config FILE.toml", command->config, "Study file")
       .Required();
-  AddOption(command, "--out DIR", arguments->store, "Store to fill").Required();
-  AddOption(command, "--tasks N", arguments->tasks, "Tasks of the array")
+  AddOption(command, "--out DIR", command->store, "Store to fill").Required();
+  AddOption(command, "--tasks N", command->tasks, "Tasks of the array")
       .Required()
       .Range(1, 100000);
-  AddOption(command, "--cpus N", arguments->cpus, "Processors of each task")
+  AddOption(command, "--cpus N", command->cpus, "Processors of each task")
       .Range(1, 1024)
       .ShowDefault();
-  AddFlag(command, "--now", arguments->now, "Submit them, too");
-  AddForceFlag(command, &arguments->force);
+  AddFlag(command, "--now", command->now, "Submit them, too");
+  AddForceFlag(command, &command->force);
   SetFooter(
       command,
       "Writes STORE/slurm/shards.sh, a job array, merge.sh, which runs after "
@@ -213,9 +209,7 @@ void AddSubmitCommand(CLI::App* app, Run* run) {
       "for where a node says\nthat it has so much.\nExit status: 0 "
       "done, 1 sbatch refused, 3 unusable study file.\nExample: errmap submit "
       "slurm --config fleet.toml --out fleet --tasks 64 --cpus 4");
-  OnRun(command, [arguments, run] {
-    run->status = RunSubmit(*arguments, run->command_line);
-  });
+  command.Runs(RunSubmit);
 }
 
 }  // namespace errmap::cli

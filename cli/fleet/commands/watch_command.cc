@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -188,38 +187,34 @@ int RunWatch(const WatchArguments& arguments) {
 }  // namespace
 
 void AddWatchCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<WatchArguments>();
-  CLI::App* command =
-      AddCommand(app, "watch", "Check deployed maps against new measurements");
+  const Command<WatchArguments> command(
+      app, run, "watch", "Check deployed maps against new measurements");
   AddOption(
-      command, "STORE DIR", arguments->store, "Folder with an errmap.sqlite")
+      command, "STORE DIR", command->store, "Folder with an errmap.sqlite")
       .Required();
   AddOption(command,
             "DATA FILE|DIR",
-            arguments->data,
+            command->data,
             "New measurements: CSV files named as those of the study, "
             "folders of such, or COMPONENT=FILE")
       .Required();
   AddTableFormatOption(command,
                        "What to print; all but table have every component",
-                       &arguments->format);
-  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+                       &command->format);
+  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(
       command,
-      "Each session's offset and RMS are held against the sessions held out "
-      "when the map was made\n(t statistics; part of a session against the "
-      "same part of those), each sensor against what\nthe others tell of it. "
-      "A map is worse where p is below 0.0025 and it errs 20 % more than\n"
-      "promised, whoever else is watched, doubtful where p is below 0.02 or it "
-      "errs 3 times\nas much: measure one more session. Sessions are kept in "
-      "the store, "
-      "watch.html draws them.\nA file is of the component whose data have its "
-      "name and the most of its folders.\nExit status: 0 none is worse, 3 no "
-      "store, one of a newer errmap, nothing deployed, no data of\nwhat is or "
-      "data that cannot be read, 4 some map is worse than promised, 5 nothing "
-      "could be\njudged, or some map is doubtful.\n"
-      "Example: errmap watch fleet september/");
-  OnRun(command, [arguments, run] { run->status = RunWatch(*arguments); });
+      R"(Each session's offset and RMS are held against the sessions held out when the map was made
+(t statistics; part of a session against the same part of those), each sensor against what
+the others tell of it. A map is worse where p is below 0.0025 and it errs 20 % more than
+promised, whoever else is watched, doubtful where p is below 0.02 or it errs 3 times
+as much: measure one more session. Sessions are kept in the store, watch.html draws them.
+A file is of the component whose data have its name and the most of its folders.
+Exit status: 0 none is worse, 3 no store, one of a newer errmap, nothing deployed, no data of
+what is or data that cannot be read, 4 some map is worse than promised, 5 nothing could be
+judged, or some map is doubtful.
+Example: errmap watch fleet september/)");
+  command.Runs(RunWatch);
 }
 
 }  // namespace errmap::cli

@@ -8,6 +8,7 @@
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
+#include "data/throwing_as.h"
 
 namespace errmap::fleet {
 
@@ -34,13 +35,12 @@ FleetSummaries ReadSummaries(const StorePaths& paths) {
     const std::string path = paths.InFolder(component.name, kSummaryFile);
     std::error_code ignored;
     if (std::filesystem::is_regular_file(path, ignored)) {
-      ComponentSummary summary;
-      try {
-        summary =
-            SummaryFromJsonText(data::ReadFile(path, data::kMostTextOfPeople));
-      } catch (const data::InputError& error) {
-        throw data::InputError(data::PrintablePath(path) + ": " + error.what());
-      }
+      ComponentSummary summary =
+          data::ThrowingAs<data::InputError, data::InputError>(
+              data::PrintablePath(path) + ": ", [&] {
+                return SummaryFromJsonText(
+                    data::ReadFile(path, data::kMostTextOfPeople));
+              });
       if (summary.asked == component.asked && summary.name == component.name) {
         found.summaries.push_back(std::move(summary));
         continue;

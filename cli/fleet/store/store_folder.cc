@@ -10,6 +10,7 @@
 #include "data/input_error.h"
 #include "data/tables/gzip.h"
 #include "data/text.h"
+#include "data/throwing_as.h"
 #include "models/study/record/record_json.h"
 
 namespace errmap::fleet {
@@ -76,15 +77,13 @@ FleetRecord ReadFleet(const StorePaths& paths) {
   }
   const std::string text =
       data::ReadFile(paths.Fleet(), data::kMostTextOfPrograms);
-  try {
-    return models::RecordFromText<FleetRecord>(
-        text,
-        FleetRecord().schema,
-        "errmap compare with the same study and store writes it anew");
-  } catch (const data::InputError& error) {
-    throw data::InputError(data::PrintablePath(paths.Fleet()) + ": " +
-                           error.what());
-  }
+  return data::ThrowingAs<data::InputError, data::InputError>(
+      data::PrintablePath(paths.Fleet()) + ": ", [&] {
+        return models::RecordFromText<FleetRecord>(
+            text,
+            FleetRecord().schema,
+            "errmap compare with the same study and store writes it anew");
+      });
 }
 
 void WriteFleet(const StorePaths& paths, const FleetRecord& fleet) {

@@ -39,8 +39,6 @@ std::string Figure(const WatchedComponent& component, std::size_t number) {
                           .mark = report::Mark::kLine,
                           .colour = "#A33A00",
                           .dashed = true};
-  found.columns.resize(2);
-  promised.columns.resize(2);
   for (std::size_t i = 0; i < component.checks.size(); ++i) {
     const auto x = static_cast<double>(i + 1);
     found.Add({x, scale * std::sqrt(component.checks[i].session.mean_square)});

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -234,63 +233,39 @@ struct Judged {
 struct Figure {
   const char* key;
   const char* words;
-  double (*of)(const PositioningFigures&);
+  double value;
 };
 
-constexpr Figure kFigures[] = {
-    {"A",
-     "bidirectional accuracy",
-     [](const PositioningFigures& f) { return f.accuracy; }},
-    {"A_up",
-     "accuracy, upwards",
-     [](const PositioningFigures& f) { return f.up.accuracy; }},
-    {"A_down",
-     "accuracy, downwards",
-     [](const PositioningFigures& f) { return f.down.accuracy; }},
-    {"R",
-     "bidirectional repeatability",
-     [](const PositioningFigures& f) { return f.repeatability; }},
-    {"R_up",
-     "repeatability, upwards",
-     [](const PositioningFigures& f) { return f.up.repeatability; }},
-    {"R_down",
-     "repeatability, downwards",
-     [](const PositioningFigures& f) { return f.down.repeatability; }},
-    {"E",
-     "bidirectional systematic error",
-     [](const PositioningFigures& f) { return f.systematic; }},
-    {"E_up",
-     "systematic error, upwards",
-     [](const PositioningFigures& f) { return f.up.systematic; }},
-    {"E_down",
-     "systematic error, downwards",
-     [](const PositioningFigures& f) { return f.down.systematic; }},
-    {"M",
-     "mean bidirectional error",
-     [](const PositioningFigures& f) { return f.mean_bidirectional; }},
-    {"B",
-     "reversal error",
-     [](const PositioningFigures& f) { return f.reversal; }},
-    {"B_mean", "mean reversal, up less down", [](const PositioningFigures& f) {
-       return f.mean_reversal;
-     }}};
+std::vector<Figure> FiguresOf(const std::vector<PositioningPoint>& points) {
+  const PositioningFigures f = PositioningFiguresOf(points);
+  return {{"A", "bidirectional accuracy", f.accuracy},
+          {"A_up", "accuracy, upwards", f.up.accuracy},
+          {"A_down", "accuracy, downwards", f.down.accuracy},
+          {"R", "bidirectional repeatability", f.repeatability},
+          {"R_up", "repeatability, upwards", f.up.repeatability},
+          {"R_down", "repeatability, downwards", f.down.repeatability},
+          {"E", "bidirectional systematic error", f.systematic},
+          {"E_up", "systematic error, upwards", f.up.systematic},
+          {"E_down", "systematic error, downwards", f.down.systematic},
+          {"M", "mean bidirectional error", f.mean_bidirectional},
+          {"B", "reversal error", f.reversal},
+          {"B_mean", "mean reversal, up less down", f.mean_reversal}};
+}
 
 report::Table FiguresTable(const Judged& judged, const data::Unit& unit) {
   report::Table table;
-  const auto number_in = [&](const std::vector<PositioningPoint>& points,
-                             const Figure& figure) {
-    return report::Number{
-        figure.of(PositioningFiguresOf(points)), 4, unit.display_scale};
-  };
-  for (const Figure& figure : kFigures) {
-    std::vector<report::Table::Named> row = {
-        {{"figure", false}, figure.key},
-        {{"measured"}, number_in(judged.before, figure)}};
-    if (!judged.after.empty()) {
-      row.push_back({{"with the map"}, number_in(judged.after, figure)});
-    }
+  const std::vector<Figure> before = FiguresOf(judged.before);
+  const std::vector<Figure> after =
+      judged.after.empty() ? std::vector<Figure>() : FiguresOf(judged.after);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const auto number = [&](const Figure& figure) {
+      return report::Number{figure.value, 4, unit.display_scale};
+    };
+    std::vector<report::Table::Named> row = {{{"figure", false}, before[i].key},
+                                             {{"measured"}, number(before[i])}};
+    if (!after.empty()) row.push_back({{"with the map"}, number(after[i])});
     row.push_back({{"unit", false}, std::string_view(unit.display_symbol)});
-    row.push_back({{"what", false}, figure.words});
+    row.push_back({{"what", false}, before[i].words});
     table.Add(std::move(row));
   }
   return table;
@@ -340,9 +315,10 @@ std::string TestText(const Approached& all, const Judged& judged) {
 
 Json FiguresJson(const std::vector<PositioningPoint>& points) {
   if (points.empty()) return nullptr;
-  const PositioningFigures figures = PositioningFiguresOf(points);
   Json json;
-  for (const Figure& figure : kFigures) json[figure.key] = figure.of(figures);
+  for (const Figure& figure : FiguresOf(points)) {
+    json[figure.key] = figure.value;
+  }
   return json;
 }
 
@@ -382,7 +358,6 @@ void AddSeries(const std::vector<PositioningPoint>& points,
   for (const double times : {0.0, -2.0, 2.0}) {
     report::Series series{.label = times == 0.0 ? label : "",
                           .mark = report::Mark::kLine,
-                          .columns = {{}, {}},
                           .colour = colour,
                           .dashed = times != 0.0};
     for (const PositioningPoint& point : points) {
@@ -464,52 +439,48 @@ int RunIso230(const Iso230Arguments& arguments,
 }  // namespace
 
 void AddIso230Command(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<Iso230Arguments>();
-  CLI::App* command = AddCommand(
+  const Command<Iso230Arguments> command(
       app,
+      run,
       "iso230",
       "Figures of a positioning test (ISO 230-2), with a map or without");
   AddOption(command,
             "DATA FILE.csv",
-            arguments->files,
+            command->files,
             "CSV files with the error at each approach to a position: "
             "of both directions, or one of each")
       .Required();
   AddOption(command,
             "--map MODEL.json",
-            arguments->maps,
+            command->maps,
             "Map to compensate by: one for all files, or one per file "
             "in their order")
       .OneAtATime();
   AddOption(command,
             "--target COL",
-            arguments->target,
+            command->target,
             "Column of the error (default: the only one named error*)");
   AddOption(command,
             "--position COL",
-            arguments->position,
+            command->position,
             "Column of the target positions (default: the first named "
             "position*)");
   AddOption(command,
             "--direction COL",
-            arguments->direction,
+            command->direction,
             "Column of the direction of approach: up or down, + or - "
             "(default: direction, else the order of the positions)");
-  AddOption(command, "--figure FILE.svg", arguments->figure, "Draw it");
-  AddTableFormatOption(command, "What to print", &arguments->format);
-  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  AddOption(command, "--figure FILE.svg", command->figure, "Draw it");
+  AddTableFormatOption(command, "What to print", &command->format);
+  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(
       command,
-      "Each row is one run to one position. ISO 230-2:2014: A accuracy, R "
-      "repeatability, E systematic\nerror, M mean bidirectional error, B "
-      "reversal error, from the means and standard deviations\nof the runs at "
-      "each position and direction; A, R and E also of one direction alone.\n"
-      "The standard's test is short and of a settled machine: rows of a "
-      "warm-up show its drift in R and A.\n"
-      "Example: errmap iso230 down.csv up.csv --map down.json --map up.json");
-  OnRun(command, [arguments, run] {
-    run->status = RunIso230(*arguments, run->command_line);
-  });
+      R"(Each row is one run to one position. ISO 230-2:2014: A accuracy, R repeatability, E systematic
+error, M mean bidirectional error, B reversal error, from the means and standard deviations
+of the runs at each position and direction; A, R and E also of one direction alone.
+The standard's test is short and of a settled machine: rows of a warm-up show its drift in R and A.
+Example: errmap iso230 down.csv up.csv --map down.json --map up.json)");
+  command.Runs(RunIso230);
 }
 
 }  // namespace errmap::cli

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -26,6 +25,7 @@
 #include "data/files/atomic_file.h"
 #include "data/formula_text.h"
 #include "data/text.h"
+#include "data/throwing_as.h"
 #include "models/history/map_log.h"
 #include "models/kinematics/machine.h"
 #include "models/kinematics/volumetric.h"
@@ -270,11 +270,7 @@ std::vector<std::string> InputsOf(const VolumetricArguments& arguments,
 }
 
 int RunVolumetric(const VolumetricArguments& arguments) {
-  try {
-    arguments.options.Validate();
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(error.what());
-  }
+  data::ThrowingAs<UsageError>("", [&] { arguments.options.Validate(); });
   const machine::MachineFile file = machine::ReadMachineFile(arguments.machine);
   CheckOutputName("-o", arguments.out, InputsOf(arguments, file.machine));
   const data::CsvTable points = data::ReadCsv(arguments.points);
@@ -321,35 +317,35 @@ int RunVolumetric(const VolumetricArguments& arguments) {
 }  // namespace
 
 void AddVolumetricCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<VolumetricArguments>();
-  CLI::App* command =
-      AddCommand(app,
-                 "volumetric",
-                 "The error at the tool by the maps of all its components");
+  const Command<VolumetricArguments> command(
+      app,
+      run,
+      "volumetric",
+      "The error at the tool by the maps of all its components");
   AddOption(command,
             "MACHINE FILE.toml",
-            arguments->machine,
+            command->machine,
             "Kinematic chain with a map for each error")
       .Required();
   AddOption(command,
             "--at POINTS.csv",
-            arguments->points,
+            command->points,
             "Points: coordinates, directions, temperatures")
       .Required();
   AddOption(command,
             "-o,--output OUT.csv",
-            arguments->out,
+            command->out,
             "File to write (default: stdout)");
-  AddMapLogArguments(command, &arguments->log);
-  AddFromRest(command, &arguments->log);
+  AddMapLogArguments(command, &command->log);
+  AddFromRest(command, &command->log);
   AddOption(command,
             "--draws",
-            arguments->options.draws,
+            command->options.draws,
             "Monte Carlo draws per point for lower_90 and upper_90; 0 "
             "for none")
       .ShowDefault();
-  AddSeedOption(command, &arguments->options.seed, "Seed of the draws");
-  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  AddSeedOption(command, &command->options.seed, "Seed of the draws");
+  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(
       command,
       "Columns, in the machine's unit of length: error_x ... error_z, tool "
@@ -366,7 +362,7 @@ void AddVolumetricCommand(CLI::App* app, Run* run) {
       "along it) and diagonal_direction also give the deviations of ISO 230-6. "
       "Exit\nstatus 4 where an error is not finite. Examples: "
       "data/sets/machines/README.md.");
-  OnRun(command, [arguments, run] { run->status = RunVolumetric(*arguments); });
+  command.Runs(RunVolumetric);
 }
 
 }  // namespace errmap::cli

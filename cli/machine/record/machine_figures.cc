@@ -55,38 +55,29 @@ double Largest(const std::vector<models::PlaneCell>& cells,
   return largest;
 }
 
-// Lines with breaks between them, as Mark::kLine takes them.
-class Strokes {
- public:
-  void Line(double x0, double y0, double x1, double y1) {
-    for (const auto& [x, y] : {std::pair{x0, y0},
-                               std::pair{x1, y1},
-                               std::pair{kAutomatic, kAutomatic}}) {
-      columns_[0].push_back(x);
-      columns_[1].push_back(y);
-    }
+// A line, and a break behind it.
+void AddLine(double x0, double y0, double x1, double y1, Series* lines) {
+  lines->Add({x0, y0});
+  lines->Add({x1, y1});
+  lines->Add({kAutomatic, kAutomatic});
+}
+
+// With a head of at most `head`, no longer than half of the arrow.
+void AddArrow(
+    double x, double y, double dx, double dy, double head, Series* lines) {
+  const double length = std::hypot(dx, dy);
+  if (!(length > 0.0)) return;
+  AddLine(x, y, x + dx, y + dy, lines);
+  const double size = std::min(head, 0.5 * length) / length;
+  constexpr double kWing = 0.4;
+  for (const double side : {kWing, -kWing}) {
+    AddLine(x + dx,
+            y + dy,
+            x + dx - size * (dx - side * dy),
+            y + dy - size * (dy + side * dx),
+            lines);
   }
-
-  // With a head of at most `head`, no longer than half of the arrow.
-  void Arrow(double x, double y, double dx, double dy, double head) {
-    const double length = std::hypot(dx, dy);
-    if (!(length > 0.0)) return;
-    Line(x, y, x + dx, y + dy);
-    const double size = std::min(head, 0.5 * length) / length;
-    constexpr double kWing = 0.4;
-    for (const double side : {kWing, -kWing}) {
-      Line(x + dx,
-           y + dy,
-           x + dx - size * (dx - side * dy),
-           y + dy - size * (dy + side * dx));
-    }
-  }
-
-  std::vector<std::vector<double>> columns() const { return columns_; }
-
- private:
-  std::vector<std::vector<double>> columns_ = {{}, {}};
-};
+}
 
 class MachinePictures {
  public:
@@ -186,25 +177,27 @@ class MachinePictures {
     const double cell = std::min(plane.cell_width, plane.cell_height);
     const double factor = most > 0.0 ? kShareOfCell * cell / most : 0.0;
     const double head = 0.3 * cell;
-    Strokes arrows;
+    Series arrows{.label = "mean error of a cell",
+                  .mark = Mark::kLine,
+                  .colour = report::kBlue,
+                  .size = 1.6};
     Series origins{.label = "",
                    .mark = Mark::kPoints,
-                   .columns = {{}, {}},
                    .colour = report::kGrey,
                    .size = 1.0};
     for (const models::PlaneCell& at : choice.cells) {
       if (!std::isfinite(LengthOfMean(at))) continue;
       origins.Add({at.across, at.up});
-      arrows.Arrow(
-          at.across, at.up, factor * at.mean_across, factor * at.mean_up, head);
+      AddArrow(at.across,
+               at.up,
+               factor * at.mean_across,
+               factor * at.mean_up,
+               head,
+               &arrows);
     }
     figure.plot.series.push_back(std::move(origins));
-    if (!arrows.columns()[0].empty()) {
-      figure.plot.series.push_back({.label = "mean error of a cell",
-                                    .mark = Mark::kLine,
-                                    .columns = arrows.columns(),
-                                    .colour = report::kBlue,
-                                    .size = 1.6});
+    if (!arrows.columns[0].empty()) {
+      figure.plot.series.push_back(std::move(arrows));
     }
     if (most > 0.0) AddScale(most, factor, head, &figure);
     figure.plot.x.low = x_[0] - 0.5 * cell;
@@ -229,15 +222,13 @@ class MachinePictures {
         std::min(machine_.plane->cell_width, machine_.plane->cell_height);
     const double x = x_[0];
     const double y = y_[0] - 1.5 * cell;
-    Strokes scale;
-    scale.Arrow(x, y, length, 0.0, head);
-    scale.Arrow(x, y, 0.0, length, head);
-    figure->plot.series.push_back(
-        {.label = fmt::format("scale: {} {}", Plain(scale_ * round), symbol_),
-         .mark = Mark::kLine,
-         .columns = scale.columns(),
-         .colour = report::kVermillion,
-         .size = 1.6});
+    Series& scale = figure->plot.series.emplace_back(Series{
+        .label = fmt::format("scale: {} {}", Plain(scale_ * round), symbol_),
+        .mark = Mark::kLine,
+        .colour = report::kVermillion,
+        .size = 1.6});
+    AddArrow(x, y, length, 0.0, head, &scale);
+    AddArrow(x, y, 0.0, length, head, &scale);
     figure->plot.y.low = y - 0.5 * cell;
   }
 
@@ -246,16 +237,13 @@ class MachinePictures {
                  const MachineChoiceRecord& choice,
                  double highest) const {
     Figure figure = Begin("grid-" + name, title);
-    Series cells{.mark = Mark::kCells, .columns = {{}, {}, {}, {}, {}}};
+    Series cells{.mark = Mark::kCells};
     for (const models::PlaneCell& at : choice.cells) {
-      const std::array<double, 5> row = {at.across,
-                                         at.up,
-                                         0.5 * machine_.plane->cell_width,
-                                         0.5 * machine_.plane->cell_height,
-                                         scale_ * at.rms};
-      for (std::size_t i = 0; i < row.size(); ++i) {
-        cells.columns[i].push_back(row[i]);
-      }
+      cells.Add({at.across,
+                 at.up,
+                 0.5 * machine_.plane->cell_width,
+                 0.5 * machine_.plane->cell_height,
+                 scale_ * at.rms});
     }
     figure.plot.series.push_back(std::move(cells));
     figure.plot.colour = {.quantity = "RMS",

@@ -1,4 +1,3 @@
-#include <memory>
 #include <string>
 
 #include <fmt/format.h>
@@ -40,26 +39,25 @@ int RunConvert(const ConvertArguments& arguments) {
 }  // namespace
 
 void AddConvertCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<ConvertArguments>();
-  CLI::App* command = AddCommand(
+  const Command<ConvertArguments> command(
       app,
+      run,
       "convert",
       "Turn the report's pattern files, tables and CSV into each other");
-  AddOption(command, "IN FILE", arguments->in, "File to read").Required();
+  AddOption(command, "IN FILE", command->in, "File to read").Required();
   AddOption(command,
             "OUT FILE",
-            arguments->out,
+            command->out,
             "File to write; the endings decide: .csv, .tab (plain "
             "table), any other the report's stacked form (Table 2)")
       .Required();
-  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(
       command,
-      "Of a CSV file that convert did not write, the column error* is the "
-      "target; inputs\nare the position and the other numeric columns, dead "
-      "ones too.\n"
-      "Example: errmap convert x_displacement_down.csv down.pat");
-  OnRun(command, [arguments, run] { run->status = RunConvert(*arguments); });
+      R"(Of a CSV file that convert did not write, the column error* is the target; inputs
+are the position and the other numeric columns, dead ones too.
+Example: errmap convert x_displacement_down.csv down.pat)");
+  command.Runs(RunConvert);
 }
 
 }  // namespace errmap::cli

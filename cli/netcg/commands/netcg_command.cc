@@ -1,7 +1,6 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <string>
 
 #include <fmt/format.h>
@@ -225,27 +224,27 @@ int RunStudy(const NetcgArguments& arguments, const std::string& command_line) {
   return kDone;
 }
 
-int RunNetcgCommand(NetcgArguments* arguments,
+int RunNetcgCommand(NetcgArguments& arguments,
                     const std::string& command_line) {
-  if (arguments->file.empty() == arguments->study.empty()) {
+  if (arguments.file.empty() == arguments.study.empty()) {
     throw UsageError(
         "netcg needs a run file or --study DIR, and not both; see errmap netcg "
         "--help");
   }
-  netcg::NetcgOptions& options = arguments->options.netcg;
-  if (arguments->precision == "double") {
+  netcg::NetcgOptions& options = arguments.options.netcg;
+  if (arguments.precision == "double") {
     options.precision = netcg::NetcgPrecision::kDouble;
   }
-  if (arguments->corrected) {
+  if (arguments.corrected) {
     options.statistics = netcg::NetcgStatistics::kCorrected;
   }
-  if (arguments->full_weights) {
+  if (arguments.full_weights) {
     options.weight_digits = netcg::WeightDigits::kFull;
   }
   // Before the work, not after it.
   if (!options.out.empty()) data::PrepareFolder(options.out);
-  return arguments->study.empty() ? RunFile(*arguments, command_line)
-                                  : RunStudy(*arguments, command_line);
+  return arguments.study.empty() ? RunFile(arguments, command_line)
+                                 : RunStudy(arguments, command_line);
 }
 
 }  // namespace
@@ -253,31 +252,31 @@ int RunNetcgCommand(NetcgArguments* arguments,
 void AddConvertCommand(CLI::App* app, Run* run);
 
 void AddNetcgCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<NetcgArguments>();
-  netcg::NetcgStudyOptions& options = arguments->options;
-  CLI::App* command = AddCommand(
+  const Command<NetcgArguments> command(
       app,
+      run,
       "netcg",
       "Run the report's own program of 1995, with its errors or without");
+  netcg::NetcgStudyOptions& options = command->options;
   AddOption(command,
             "RUNFILE FILE",
-            arguments->file,
+            command->file,
             "Run specification file as Appendix A reads it (netcg.in); "
             "names in it are relative to its folder");
   AddOption(command,
             "--study DIR",
-            arguments->study,
+            command->study,
             "Instead, the report's nine experiments (Tables 3 and 4) on "
             "a folder of errmap simulate turning-centre");
   AddOption(command,
             "--precision",
-            arguments->precision,
+            command->precision,
             "Arithmetic: single is the program's own")
       .OneOf({"single", "double"})
       .ShowDefault();
   AddFlag(command,
           "--corrected",
-          arguments->corrected,
+          command->corrected,
           "Right statistics in the report files, and the training "
           "run's scaling in testing runs");
   AddOption(command,
@@ -287,7 +286,7 @@ void AddNetcgCommand(CLI::App* app, Run* run) {
             "on, where nothing else tells its scaling");
   AddFlag(command,
           "--full-weights",
-          arguments->full_weights,
+          command->full_weights,
           "Weights files with all digits and the scaling, in place "
           "of six digits");
   AddOption(command,
@@ -306,9 +305,9 @@ void AddNetcgCommand(CLI::App* app, Run* run) {
             "Experiments of --study at a time; 0: one per processor")
       .Range(0, 1024)
       .ShowDefault();
-  AddFormatOption(command, &arguments->format);
-  AddForceFlag(command, &arguments->force);
-  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  AddFormatOption(command, &command->format);
+  AddForceFlag(command, &command->force);
+  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   MarkSeldom(command,
              {"--precision",
               "--training",
@@ -319,9 +318,7 @@ void AddNetcgCommand(CLI::App* app, Run* run) {
       command,
       netcg::NetcgErrata() +
           "\nExample: errmap netcg netcg.in --precision double --out results");
-  OnRun(command, [arguments, run] {
-    run->status = RunNetcgCommand(arguments.get(), run->command_line);
-  });
+  command.Runs(RunNetcgCommand);
 }
 
 }  // namespace errmap::cli

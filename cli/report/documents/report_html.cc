@@ -136,68 +136,27 @@ std::string WithFirstRows(Table table, std::size_t most) {
   return HtmlTable(table) + Collapsed(title, HtmlTable(more));
 }
 
-// The page and what it is made of.
-class Page {
- public:
-  Page(const models::StudyRecord& record, const FigureSet& figures)
-      : record_(record), figures_(figures) {}
-
-  std::string Html() const;
-
- private:
-  const models::StudyRecord& record_;
-  const FigureSet& figures_;
-
-  const std::vector<ComponentRecord>& Components() const {
-    return record_.components;
-  }
-  std::size_t NumComponents() const { return Components().size(); }
-
-  std::string Title() const;
-  std::string Notices() const;
-  std::string Index(const std::vector<ReportView>& views) const;
-  std::string Component(const ReportView& view, std::size_t index) const;
-  std::string Answer(const ReportView& view,
-                     std::size_t index,
-                     const ComponentFigures& figures) const;
-  std::string Measured(const ReportView& view,
-                       std::size_t index,
-                       const ComponentFigures& figures) const;
-  std::string Why(const ReportView& view,
-                  const ComponentFigures& figures) const;
-  std::string Next(std::size_t index) const;
-  std::string Card(const ReportView& view) const;
-  std::string Evidence(const ReportView& view) const;
-  std::string Residuals(const ReportView& view,
-                        const ComponentFigures& figures) const;
-  std::string Fits(const ReportView& view,
-                   const ComponentFigures& figures) const;
-  std::string Polynomials(const ReportView& view, bool brief) const;
-  std::string Data(const ReportView& view) const;
-  std::string Parts() const;
-};
-
-std::string Page::Title() const {
-  const std::size_t n = NumComponents();
+std::string Title(const models::StudyRecord& record) {
+  const std::size_t n = record.components.size();
   if (n == 1) {
-    return "Error map of " + ViewOf(Components().front()).name;
+    return "Error map of " + ViewOf(record.components.front()).name;
   }
   return n == 0 ? std::string("Error maps")
                 : fmt::format("Error maps of {} components", n);
 }
 
-std::string Page::Notices() const {
+std::string Notices(const models::StudyRecord& record) {
   std::string html;
-  if (record_.interrupted) {
+  if (record.interrupted) {
     html +=
         "<p class=\"notice\">The run was interrupted: only what was "
         "finished is shown, and models that are missing were not "
         "fitted.</p>\n";
   }
-  if (const std::string doubt = DoubtText(record_); !doubt.empty()) {
+  if (const std::string doubt = DoubtText(record); !doubt.empty()) {
     html += "<p class=\"notice\">" + doubt + "</p>\n";
   }
-  if (NumComponents() == 0) {
+  if (record.components.empty()) {
     html +=
         "<p class=\"notice\">results.json holds no component: there is "
         "nothing to report.</p>\n";
@@ -205,7 +164,9 @@ std::string Page::Notices() const {
   return html;
 }
 
-std::string Page::Index(const std::vector<ReportView>& views) const {
+std::string IndexOf(const models::StudyRecord& record,
+                    const std::vector<ReportView>& views,
+                    const FigureSet& figures) {
   std::string html = "<thead><tr>";
   for (const char* name : {"component",
                            "use",
@@ -218,7 +179,7 @@ std::string Page::Index(const std::vector<ReportView>& views) const {
     html += fmt::format("<th scope=\"col\" class=\"t\">{}</th>", name);
   }
   html += "</tr></thead><tbody>\n";
-  const Table rows = SummaryRows(record_);
+  const Table rows = SummaryRows(record);
   for (std::size_t i = 0; i < views.size(); ++i) {
     const Headline line = HeadlineOf(views[i]);
     const auto& advice = views[i].component->recommendation;
@@ -245,7 +206,7 @@ std::string Page::Index(const std::vector<ReportView>& views) const {
     html += "</tr>\n";
   }
   std::string links;
-  for (const RecordPart& part : figures_.parts) {
+  for (const RecordPart& part : figures.parts) {
     links += fmt::format(
         "<p><a href=\"#{}\">{}</a></p>", part.id, HtmlText(part.link));
   }
@@ -256,7 +217,7 @@ std::string Page::Index(const std::vector<ReportView>& views) const {
          "interval. Unit by unit: the error on each cycle, day or block held "
          "out whole, from 0 to the largest. Proven: better than the best "
          "baseline." +
-         (figures_.IsBrief()
+         (figures.IsBrief()
               ? " Of each there is what matters most; <code>errmap "
                 "report DIR --component NAME</code> draws the "
                 "whole page of one."
@@ -264,19 +225,19 @@ std::string Page::Index(const std::vector<ReportView>& views) const {
          "</p>" + links + "</nav>\n";
 }
 
-std::string Page::Next(std::size_t index) const {
-  const auto& configs = record_.provenance.configuration.component;
+std::string Next(const models::StudyRecord& record, std::size_t index) {
+  const auto& configs = record.provenance.configuration.component;
   std::vector<std::string> data;
   if (index < configs.size() && configs[index].data && !configs[index].where) {
     data = configs[index].more_data.value_or(std::vector<std::string>());
     data.insert(data.begin(), *configs[index].data);
   }
-  const auto& models = Components()[index].models;
+  const auto& models = record.components[index].models;
   const bool written = std::ranges::any_of(
       models, [](const ModelRecord& model) { return model.file.has_value(); });
   std::string html;
   for (const NextStep& step :
-       NextSteps(record_, index, data, written ? "." : "")) {
+       NextSteps(record, index, data, written ? "." : "")) {
     html += fmt::format(
         "<dt>{}</dt><dd>{}</dd>",
         HtmlText(step.purpose),
@@ -286,7 +247,7 @@ std::string Page::Next(std::size_t index) const {
                       : "<h4>Next</h4>\n<dl class=\"next\">" + html + "</dl>\n";
 }
 
-std::string Page::Card(const ReportView& view) const {
+std::string Card(const ReportView& view) {
   const Headline line = HeadlineOf(view);
   std::string html = "<div class=\"card\">\n<p class=\"sentence\">" +
                      HtmlSentence(line.answer.use) + "</p>\n";
@@ -307,20 +268,21 @@ std::string Page::Card(const ReportView& view) const {
   return html + "</div>\n";
 }
 
-std::string Page::Answer(const ReportView& view,
-                         std::size_t index,
-                         const ComponentFigures& figures) const {
+std::string Answer(const models::StudyRecord& record,
+                   const ReportView& view,
+                   std::size_t index,
+                   const ComponentFigures& figures) {
   std::string of_models;
   for (const Figure& figure : figures.figures) {
     if (figure.place == FigurePlace::kAnswer) of_models += FigureHtml(figure);
   }
-  return "<div class=\"answer\">\n<div>" + Card(view) + Next(index) +
+  return "<div class=\"answer\">\n<div>" + Card(view) + Next(record, index) +
          "</div>\n<div>" + of_models + "</div>\n</div>\n";
 }
 
-std::string Page::Measured(const ReportView& view,
-                           std::size_t index,
-                           const ComponentFigures& figures) const {
+std::string Measured(const ReportView& view,
+                     std::size_t index,
+                     const ComponentFigures& figures) {
   const models::DataRecord& measured = view.component->data;
   std::string text = Paragraph(fmt::format(
       "{}: {}{}.",
@@ -338,8 +300,7 @@ std::string Page::Measured(const ReportView& view,
   return Columns(text, figures, FigurePlace::kMeasured);
 }
 
-std::string Page::Why(const ReportView& view,
-                      const ComponentFigures& figures) const {
+std::string Why(const ReportView& view, const ComponentFigures& figures) {
   constexpr std::size_t kMostRows = 12;
   const Headline line = HeadlineOf(view);
   const Table leaderboard = PageLeaderboard(view);
@@ -351,7 +312,7 @@ std::string Page::Why(const ReportView& view,
               : Paragraph(leaderboard.missing, "absent"));
 }
 
-std::string Page::Evidence(const ReportView& view) const {
+std::string Evidence(const ReportView& view) {
   std::vector<std::string> lines;
   for (const models::VerdictRecord& verdict : view.component->verdict) {
     if (!verdict.why.empty()) lines.push_back(verdict.why);
@@ -367,8 +328,7 @@ std::string Page::Evidence(const ReportView& view) const {
          HtmlTable(MemorisationTable(view));
 }
 
-std::string Page::Residuals(const ReportView& view,
-                            const ComponentFigures& figures) const {
+std::string Residuals(const ReportView& view, const ComponentFigures& figures) {
   std::string html = Columns("", figures, FigurePlace::kResiduals);
   if (const Table since = SinceStartTable(view); !since.rows.empty()) {
     html += HtmlTable(since);
@@ -388,40 +348,42 @@ std::string Page::Residuals(const ReportView& view,
   return html;
 }
 
-std::string Page::Fits(const ReportView& view,
-                       const ComponentFigures& figures) const {
+std::string Fits(const ReportView& view, const ComponentFigures& figures) {
   return Columns("", figures, FigurePlace::kFits) + HtmlTable(RunTable(view)) +
          Collapsed("Every start", HtmlTable(StartTable(view))) +
          Collapsed("Every fold", HtmlTable(FoldTable(view))) +
          Collapsed("Options", HtmlTable(OptionTable(view)));
 }
 
-std::string Page::Polynomials(const ReportView& view, bool brief) const {
+std::string Polynomials(const ReportView& view, bool brief) {
   std::string html;
-  for (const PolynomialTables& model : PolynomialTablesOf(view)) {
-    const bool best = model.model == view.recommended;
+  for (const ModelRecord* model : PolynomialsOf(view)) {
+    const bool best = model->name == view.recommended;
     if (brief && !best) continue;
-    std::string content = Paragraph(model.method);
-    if (!model.equation.empty()) {
+    const auto regression =
+        model->regression.value_or(models::RegressionRecord());
+    std::string content = Paragraph(regression.method);
+    if (model->equation && !model->equation->empty()) {
       content += Paragraph("In physical units, complete:", "small") +
                  "<div class=\"equation\" tabindex=\"0\" role=\"region\" "
                  "aria-label=\"equation\">" +
-                 HtmlText(model.equation) + "</div>\n";
+                 HtmlText(*model->equation) + "</div>\n";
     }
-    content += Paragraph(model.summary);
+    content += Paragraph(RegressionSummary(regression, ErrorTextOf(view)));
     if (!brief) {
-      content += HtmlTable(model.coefficients) + HtmlTable(model.excluded) +
-                 HtmlTable(model.aliased);
+      content += HtmlTable(CoefficientTable(regression)) +
+                 HtmlTable(ExcludedTerms(regression)) +
+                 HtmlTable(AliasedTerms(regression));
     }
     html += fmt::format("<details{}><summary>{}</summary>\n{}</details>\n",
                         best ? " open" : "",
-                        HtmlName(model.model),
+                        HtmlName(model->name),
                         content);
   }
   return html;
 }
 
-std::string Page::Data(const ReportView& view) const {
+std::string Data(const ReportView& view) {
   const std::vector<std::string>& inputs = view.component->data.inputs;
   std::string names;
   for (const std::string& input : inputs) {
@@ -432,12 +394,15 @@ std::string Page::Data(const ReportView& view) const {
          HtmlTable(DroppedTable(view)) + HtmlTable(HoldoutTable(view));
 }
 
-std::string Page::Component(const ReportView& view, std::size_t index) const {
+std::string Component(const models::StudyRecord& record,
+                      const ReportView& view,
+                      std::size_t index,
+                      const FigureSet& set) {
   static const ComponentFigures none;
   const ComponentFigures& figures =
-      index < figures_.components.size() ? figures_.components[index] : none;
+      index < set.components.size() ? set.components[index] : none;
   const bool brief = figures.detail == FigureDetail::kBrief;
-  const bool alone = NumComponents() <= kOpenComponents;
+  const bool alone = record.components.size() <= kOpenComponents;
   // What stands where, and the list of it.
   struct Part {
     const char* title;
@@ -458,9 +423,9 @@ std::string Page::Component(const ReportView& view, std::size_t index) const {
        true},
       {"Equations and coefficients", Polynomials(view, brief), true},
       {"Provenance",
-       Data(view) + (alone ? HtmlTable(ProvenanceTable(record_)) : ""),
+       Data(view) + (alone ? HtmlTable(ProvenanceTable(record)) : ""),
        true}};
-  std::string html = Answer(view, index, figures);
+  std::string html = Answer(record, view, index, figures);
   std::string contents;
   std::string body;
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -495,9 +460,9 @@ std::string Page::Component(const ReportView& view, std::size_t index) const {
 }
 
 // What it comes to first, then where and why.
-std::string Page::Parts() const {
+std::string Parts(const FigureSet& set) {
   std::string html;
-  for (const RecordPart& part : figures_.parts) {
+  for (const RecordPart& part : set.parts) {
     std::string figures;
     for (const Figure& figure : part.figures) figures += FigureHtml(figure);
     html += fmt::format(
@@ -511,40 +476,37 @@ std::string Page::Parts() const {
   return html;
 }
 
-std::string Page::Html() const {
+}  // namespace
+
+std::string ReportHtml(const models::StudyRecord& study,
+                       const FigureSet& figures) {
+  const models::StudyRecord record = WithPageUnits(study);
   std::vector<ReportView> views;
-  for (std::size_t i = 0; i < NumComponents(); ++i) {
-    views.push_back(ViewOf(Components()[i]));
+  for (const ComponentRecord& component : record.components) {
+    views.push_back(ViewOf(component));
   }
-  std::string html = "<header id=\"top\"><h1>" + HtmlText(Title()) +
+  std::string html = "<header id=\"top\"><h1>" + HtmlText(Title(record)) +
                      "</h1></header>\n<main>\n";
-  html += Notices();
-  if (views.size() > kOpenComponents) html += Index(views);
+  html += Notices(record);
+  if (views.size() > kOpenComponents) html += IndexOf(record, views, figures);
   for (std::size_t i = 0; i < views.size(); ++i) {
-    html += Component(views[i], i);
+    html += Component(record, views[i], i, figures);
   }
-  html += Parts();
+  html += Parts(figures);
   if (views.size() != kOpenComponents) {
-    html += Collapsed("Provenance", HtmlTable(ProvenanceTable(record_)));
+    html += Collapsed("Provenance", HtmlTable(ProvenanceTable(record)));
   }
   if (!views.empty()) html += Glossary();
   html +=
       "<p class=\"printed\">What is folded on the screen is left out here; "
       "open it before printing, or see report.md.</p>\n";
   html += "</main>\n<footer>";
-  const std::string& version = record_.version;
+  const std::string& version = record.version;
   html += fmt::format(
       "<p>Drawn by errmap{}; errmap report DIR draws it anew from "
       "results.json.</p>",
       version.empty() ? "" : " " + HtmlText(version));
-  return PageHtml(Title(), html + "</footer>\n");
-}
-
-}  // namespace
-
-std::string ReportHtml(const models::StudyRecord& record,
-                       const FigureSet& figures) {
-  return Page(WithPageUnits(record), figures).Html();
+  return PageHtml(Title(record), html + "</footer>\n");
 }
 
 }  // namespace errmap::report

@@ -41,12 +41,14 @@ std::string Answer(const ReportView& view) {
 
 std::string Polynomials(const ReportView& view) {
   std::string text;
-  for (const PolynomialTables& model : PolynomialTablesOf(view)) {
-    text += "#### " + MarkdownText(model.model) + "\n\n" +
-            MarkdownParagraph(model.equation) +
-            MarkdownParagraph(model.summary);
-    if (model.model == view.recommended) {
-      text += MarkdownTable(model.coefficients, "####");
+  for (const ModelRecord* model : PolynomialsOf(view)) {
+    const auto regression =
+        model->regression.value_or(models::RegressionRecord());
+    text += "#### " + MarkdownText(model->name) + "\n\n" +
+            MarkdownParagraph(model->equation.value_or("")) +
+            MarkdownParagraph(RegressionSummary(regression, ErrorTextOf(view)));
+    if (model->name == view.recommended) {
+      text += MarkdownTable(CoefficientTable(regression), "####");
     }
   }
   return text.empty() ? text : "### Equations\n\n" + text;

@@ -281,28 +281,13 @@ std::string OverallWords(const models::StudyRecord& record) {
   return text;
 }
 
-// Its last columns are on the page, where a terminal has no room for them.
-std::string LeadingColumns(Table table, std::size_t width) {
-  const auto is_wide = [&] {
-    return std::ranges::any_of(
-        TerminalLines(table, std::string::npos),
-        [&](const std::string& line) { return WidthOf(line) > width; });
-  };
-  constexpr std::size_t kFewest = 4;
-  while (table.columns.size() > kFewest && is_wide()) {
-    table.columns.pop_back();
-    for (std::vector<Cell>& row : table.rows) {
-      if (row.size() > table.columns.size()) row.pop_back();
-    }
-  }
-  return TerminalTable(table, width);
-}
-
 void AddPart(const RecordPart& part, const Terminal& terminal, Screen* screen) {
   const std::size_t width = terminal.text_columns();
-  for (const Table& table : part.screen) {
+  for (Table table : part.screen) {
+    // Its last columns are on the page.
+    TakeColumns(terminal.columns, 4, &table);
     screen->Add("\n" + WrapText(table.title, width) + "\n\n" +
-                LeadingColumns(table, terminal.columns) +
+                TerminalTable(table, terminal.columns) +
                 WrapText(table.note, width) + "\n");
   }
 }

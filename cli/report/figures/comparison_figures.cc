@@ -49,10 +49,7 @@ Series Intervals(const ReportView& view,
                  const std::vector<const ModelRecord*>& models,
                  const std::string& holdout,
                  const std::string& colour) {
-  Series series{.mark = Mark::kSpan,
-                .columns = {{}, {}, {}, {}},
-                .colour = colour,
-                .size = 1.6};
+  Series series{.mark = Mark::kSpan, .colour = colour, .size = 1.6};
   for (std::size_t i = 0; i < models.size(); ++i) {
     const ResultRecord* result = ResultOf(*models[i], holdout);
     if (result == nullptr || !(result->ci95[0] > 0.0) ||
@@ -82,29 +79,6 @@ std::vector<std::string> ShownHoldouts(const ReportView& view) {
   return shown;
 }
 
-void AddGoal(const ReportView& view, double rows, Plot* plot) {
-  if (!std::isfinite(view.component->goal)) return;
-  const double goal = view.component->goal * view.scale;
-  plot->series.push_back(
-      {.label = fmt::format("goal {:g}{}{}",
-                            goal,
-                            view.shown_unit.empty() ? "" : " ",
-                            view.shown_unit),
-       .mark = Mark::kLine,
-       .columns = {{goal, goal}, {-0.5, rows - 0.5}},
-       .colour = "#000000",
-       .size = 1.5,
-       .dashed = true});
-}
-
-// A logarithmic axis over what there is.
-void MakeLogarithmic(double low, double high, Axis* axis) {
-  constexpr double kMargin = 1.25;
-  axis->logarithmic = true;
-  axis->low = low / kMargin;
-  axis->high = high * kMargin;
-}
-
 // What stands on an axis.
 struct Span {
   double low = std::numeric_limits<double>::infinity();
@@ -128,7 +102,6 @@ std::vector<Series> HoldoutMarks(const ReportView& view,
   for (std::size_t h = 0; h < holdouts.size(); ++h) {
     Series points{.label = HoldoutLabel(view, holdouts[h]),
                   .mark = Mark::kPoints,
-                  .columns = {{}, {}},
                   .colour = kHoldoutColours[h],
                   .size = 2.1,
                   .shape = kShapes[h]};
@@ -158,7 +131,7 @@ std::vector<Series> HoldoutMarks(const ReportView& view,
 Series LinksOf(const ReportView& view,
                const std::vector<const ModelRecord*>& models,
                const std::vector<std::string>& holdouts) {
-  Series links{.mark = Mark::kLine, .columns = {{}, {}}, .colour = "#AAAAAA"};
+  Series links{.mark = Mark::kLine, .colour = "#AAAAAA"};
   for (std::size_t i = 0; i < models.size(); ++i) {
     for (const std::string& holdout : holdouts) {
       links.Add(
@@ -167,24 +140,6 @@ Series LinksOf(const ReportView& view,
     links.Add({kAutomatic, kAutomatic});
   }
   return links;
-}
-
-// A row per model, the best on top.
-void NameRows(const std::vector<const ModelRecord*>& models, Plot* plot) {
-  for (std::size_t i = 0; i < models.size(); ++i) {
-    plot->y.names.emplace_back(Shortened(models[i]->name, kNameLength),
-                               static_cast<double>(i));
-  }
-  plot->y.quantity = "model";
-  plot->y.low = static_cast<double>(models.size()) - 0.5;
-  plot->y.high = -0.5;
-  plot->width = 440;
-  constexpr int kFrame = 60;
-  constexpr int kRow = 25;
-  constexpr int kMost = 520;
-  constexpr int kLeast = 240;
-  plot->height = std::clamp(
-      kFrame + kRow * static_cast<int>(models.size()), kLeast, kMost);
 }
 
 }  // namespace
@@ -224,16 +179,30 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
   std::vector<Series> marks = HoldoutMarks(view, models, holdouts, &span);
   plot.series.push_back(LinksOf(view, models, holdouts));
   for (Series& series : marks) plot.series.push_back(std::move(series));
-  AddGoal(view, static_cast<double>(models.size()), &plot);
-  plot.x = {.quantity = "RMSE on held-out rows", .unit = view.shown_unit};
-  if (SpansDecades(span.low, span.high)) {
-    const double goal = view.component->goal * view.scale;
-    if (goal > 0.0) span.Take(goal);
-    MakeLogarithmic(span.low, span.high, &plot.x);
-  } else {
-    plot.x.low = 0.0;
+  const double goal = view.component->goal * view.scale;
+  if (std::isfinite(goal)) {
+    plot.series.push_back(
+        AcrossRows(fmt::format("goal {:g}{}{}",
+                               goal,
+                               view.shown_unit.empty() ? "" : " ",
+                               view.shown_unit),
+                   goal,
+                   models.size()));
   }
-  NameRows(models, &plot);
+  if (goal > 0.0 && SpansDecades(span.low, span.high)) span.Take(goal);
+  plot.x = HeldOutErrorAxis(view, span.low, span.high);
+  std::vector<std::string> names;
+  for (const ModelRecord* model : models) {
+    names.push_back(Shortened(model->name, kNameLength));
+  }
+  NameRows(names, "model", &plot);
+  plot.width = 440;
+  constexpr int kFrame = 60;
+  constexpr int kRow = 25;
+  constexpr int kMost = 520;
+  constexpr int kLeast = 240;
+  plot.height = std::clamp(
+      kFrame + kRow * static_cast<int>(models.size()), kLeast, kMost);
   figure.note =
       view.decisive_is_unseen
           ? "What counts is the filled dot; an open one far left of it was "
@@ -272,7 +241,6 @@ std::vector<Figure> TrainingFigures(const ReportView& view,
          ++i) {
       Series series{.label = Shortened(iterated[i]->name, 34),
                     .mark = Mark::kLine,
-                    .columns = {{}, {}},
                     .colour = kLineColours[i - first],
                     .size = 1.8};
       for (const auto& [iteration, rms, gradient] :

@@ -67,12 +67,9 @@ void AddBanded(const std::string& label,
   for (std::size_t i = 0; i < places.size(); ++i) {
     at[places[i]].push_back(of_known[i]);
   }
-  Series band{.mark = Mark::kBand, .columns = {{}, {}, {}}, .colour = colour};
-  Series mean{.label = label,
-              .mark = Mark::kLine,
-              .columns = {{}, {}},
-              .colour = colour,
-              .size = 2.4};
+  Series band{.mark = Mark::kBand, .colour = colour};
+  Series mean{
+      .label = label, .mark = Mark::kLine, .colour = colour, .size = 2.4};
   for (auto& [place, values] : at) {
     std::ranges::sort(values);
     const Eigen::Map<const Eigen::VectorXd> ascending(
@@ -247,11 +244,8 @@ std::vector<Figure> UnitFigures(const ReportView& view,
   constexpr std::size_t kMostBars = 80;
   constexpr double kBar = 0.8;
   const bool as_line = labels.size() > kMostBars;
-  Series others{.mark = as_line ? Mark::kLine : Mark::kBars,
-                .columns = std::vector<std::vector<double>>(as_line ? 2 : 3),
-                .colour = kBlue};
-  Series most{
-      .mark = Mark::kBars, .columns = {{}, {}, {}}, .colour = kVermillion};
+  Series others{.mark = as_line ? Mark::kLine : Mark::kBars, .colour = kBlue};
+  Series most{.mark = Mark::kBars, .colour = kVermillion};
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const auto at = static_cast<double>(i);
     const double rmse = result->unit_rmse[i] * view.scale;

@@ -47,7 +47,7 @@ Figure HistogramFigure(const ResidualContext& context) {
   if (!figure.missing.empty()) return figure;
   const Eigen::VectorXd sorted = Sorted(rows.residual);
   const stats::Histogram histogram = stats::MakeHistogram(sorted, 0);
-  Series bars{.mark = Mark::kBars, .columns = {{}, {}, {}}, .colour = kBlue};
+  Series bars{.mark = Mark::kBars, .colour = kBlue};
   for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
     bars.Add({histogram.low + (static_cast<double>(i) + 0.5) * histogram.width,
               static_cast<double>(histogram.counts[i]),
@@ -57,7 +57,6 @@ Figure HistogramFigure(const ResidualContext& context) {
   const double sd = stats::Summarize(sorted).sd;
   Series curve{.label = "normal, same mean and sd",
                .mark = Mark::kLine,
-               .columns = {{}, {}},
                .colour = kVermillion,
                .size = 2.0};
   constexpr int kCurvePoints = 81;

@@ -75,6 +75,35 @@ Axis ResidualAxis(const ReportView& view) {
   return {.quantity = "residual", .unit = view.shown_unit};
 }
 
+Axis HeldOutErrorAxis(const ReportView& view, double low, double high) {
+  constexpr double kMargin = 1.25;
+  Axis axis{.quantity = "RMSE on held-out rows", .unit = view.shown_unit};
+  axis.logarithmic = SpansDecades(low, high);
+  axis.low = axis.logarithmic ? low / kMargin : 0.0;
+  if (axis.logarithmic) axis.high = high * kMargin;
+  return axis;
+}
+
+void NameRows(const std::vector<std::string>& names,
+              const std::string& what,
+              Plot* plot) {
+  for (const std::string& name : names) {
+    plot->y.names.emplace_back(name, static_cast<double>(plot->y.names.size()));
+  }
+  plot->y.quantity = what;
+  plot->y.low = static_cast<double>(names.size()) - 0.5;
+  plot->y.high = -0.5;
+}
+
+Series AcrossRows(const std::string& label, double at, std::size_t rows) {
+  return {.label = label,
+          .mark = Mark::kLine,
+          .columns = {{at, at}, {-0.5, static_cast<double>(rows) - 0.5}},
+          .colour = kBlack,
+          .size = 1.5,
+          .dashed = true};
+}
+
 Series Points(std::vector<double> x, std::vector<double> y) {
   return {.mark = Mark::kPoints,
           .columns = {std::move(x), std::move(y)},

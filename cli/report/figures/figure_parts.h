@@ -60,6 +60,20 @@ Axis InputAxis(const ReportView& view, std::size_t index, std::size_t most);
 
 Axis ResidualAxis(const ReportView& view);
 
+// A picture with a row for each name, the first on top, and marks along x:
+
+/// The axis of errors from `low` to `high`, in the unit shown: from 0, or
+/// logarithmic where they are apart by decades.
+Axis HeldOutErrorAxis(const ReportView& view, double low, double high);
+
+/// Names the rows; `what` they are.
+void NameRows(const std::vector<std::string>& names,
+              const std::string& what,
+              Plot* plot);
+
+/// A dashed line across so many rows.
+Series AcrossRows(const std::string& label, double at, std::size_t rows);
+
 Series Points(std::vector<double> x, std::vector<double> y);
 
 /// Draws y = 0 from the lowest to the highest x.

@@ -53,7 +53,7 @@ class Course {
   Series Trace(const std::vector<double>& values) const {
     constexpr std::size_t kMost = 160;
     const std::size_t step = std::max<std::size_t>(1, at_.size() / kMost);
-    Series trace{.mark = Mark::kLine, .columns = {{}, {}}};
+    Series trace{.mark = Mark::kLine};
     for (std::size_t i = 0; i < at_.size(); ++i) {
       const bool begins = std::ranges::binary_search(rows_, i);
       if (begins) trace.Add({kAutomatic, kAutomatic});
@@ -64,10 +64,7 @@ class Course {
 
   // Dashed lines where sessions begin; without points where there is one.
   Series Starts(double low, double high) const {
-    Series lines{.mark = Mark::kLine,
-                 .columns = {{}, {}},
-                 .colour = kGrey,
-                 .dashed = true};
+    Series lines{.mark = Mark::kLine, .colour = kGrey, .dashed = true};
     for (std::size_t i = 1; i < starts_.size(); ++i) {
       lines.Add({starts_[i], low});
       lines.Add({starts_[i], high});

@@ -23,11 +23,8 @@ Series Means(const std::vector<double>& x, const std::vector<double>& y) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(
       order.begin(), order.end(), [&](auto a, auto b) { return x[a] < x[b]; });
-  Series series{.label = "mean",
-                .mark = Mark::kLine,
-                .columns = {{}, {}},
-                .colour = kVermillion,
-                .size = 1.8};
+  Series series{
+      .label = "mean", .mark = Mark::kLine, .colour = kVermillion, .size = 1.8};
   for (std::size_t i = 0; i < order.size();) {
     double sum = 0.0;
     std::size_t j = i;

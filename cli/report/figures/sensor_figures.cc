@@ -34,9 +34,10 @@ void AddRow(const ReportView& view,
             const models::SensorImportance& importance,
             const Without& without,
             bool together,
+            std::vector<std::string>* names,
             Plot* plot) {
-  const auto row = static_cast<double>(plot->y.names.size());
-  plot->y.names.emplace_back(Label(without, importance.one_by_one.size()), row);
+  const auto row = static_cast<double>(names->size());
+  names->push_back(Label(without, importance.one_by_one.size()));
   const double with = importance.rmse * view.scale;
   const double left = without.rmse * view.scale;
   Series& line = plot->series[together ? 0 : 1];
@@ -46,16 +47,12 @@ void AddRow(const ReportView& view,
 }
 
 Series Lines(const char* colour) {
-  return {.mark = Mark::kSpan,
-          .columns = {{}, {}, {}, {}},
-          .colour = colour,
-          .size = 3.0};
+  return {.mark = Mark::kSpan, .colour = colour, .size = 3.0};
 }
 
 Series Dots(const char* label, const char* colour, Shape shape) {
   return {.label = label,
           .mark = Mark::kPoints,
-          .columns = {{}, {}},
           .colour = colour,
           .size = 2.1,
           .shape = shape};
@@ -65,25 +62,6 @@ std::string Words(const ErrorText& error, const Without& without) {
   return fmt::format("without {} {}",
                      data::JoinWords(without.sensors, ", "),
                      error.WithUnit(without.rmse));
-}
-
-// What all sensors bring may be many times what one of them does.
-Axis ErrorAxis(const ReportView& view,
-               const models::SensorImportance& importance) {
-  constexpr double kMargin = 1.25;
-  Axis axis{.quantity = "RMSE on held-out rows", .unit = view.shown_unit};
-  double low = importance.rmse;
-  double high = importance.rmse;
-  for (const auto* list : {&importance.one_by_one, &importance.together}) {
-    for (const Without& without : *list) {
-      low = std::min(low, without.rmse);
-      high = std::max(high, without.rmse);
-    }
-  }
-  axis.logarithmic = SpansDecades(low, high);
-  axis.low = axis.logarithmic ? low * view.scale / kMargin : 0.0;
-  if (axis.logarithmic) axis.high = high * view.scale * kMargin;
-  return axis;
 }
 
 std::string Note(const models::SensorImportance& importance) {
@@ -128,33 +106,36 @@ std::vector<Figure> ImportanceFigures(const ReportView& view,
         return a.rmse > b.rmse;
       });
   together.resize(std::min(together.size(), kMostTogether));
+  std::vector<std::string> names;
   for (const Without& without : together) {
-    AddRow(view, importance, without, true, &plot);
+    AddRow(view, importance, without, true, &names, &plot);
   }
   for (std::size_t i = 0;
        i < std::min(importance.one_by_one.size(), kMostAlone);
        ++i) {
-    AddRow(view, importance, importance.one_by_one[i], false, &plot);
+    AddRow(view, importance, importance.one_by_one[i], false, &names, &plot);
   }
-  const auto rows = static_cast<double>(plot.y.names.size());
-  const double with = importance.rmse * view.scale;
   const ErrorText error = ErrorTextOf(view);
   plot.series.push_back(
-      {.label = "every sensor: " + error.WithUnit(importance.rmse),
-       .mark = Mark::kLine,
-       .columns = {{with, with}, {-0.5, rows - 0.5}},
-       .colour = kBlack,
-       .size = 1.5,
-       .dashed = true});
-  plot.x = ErrorAxis(view, importance);
-  plot.y.quantity = "taken away";
-  plot.y.low = rows - 0.5;
-  plot.y.high = -0.5;
+      AcrossRows("every sensor: " + error.WithUnit(importance.rmse),
+                 importance.rmse * view.scale,
+                 names.size()));
+  double low = importance.rmse;
+  double high = importance.rmse;
+  for (const auto* list : {&importance.one_by_one, &importance.together}) {
+    for (const Without& without : *list) {
+      low = std::min(low, without.rmse);
+      high = std::max(high, without.rmse);
+    }
+  }
+  // What all sensors bring may be many times what one of them does.
+  plot.x = HeldOutErrorAxis(view, low * view.scale, high * view.scale);
+  NameRows(names, "taken away", &plot);
   constexpr int kFrame = 60;
   constexpr int kRow = 19;
   constexpr int kLeast = 150;  // the words along the axis need it
   plot.height =
-      std::max(kLeast, kFrame + kRow * static_cast<int>(plot.y.names.size()));
+      std::max(kLeast, kFrame + kRow * static_cast<int>(names.size()));
   std::erase_if(plot.series, [](const Series& series) {
     return series.columns.front().empty();
   });

@@ -216,28 +216,13 @@ std::string RegressionSummary(const RegressionRecord& regression,
       regression.coefficients.size());
 }
 
-std::vector<PolynomialTables> PolynomialTablesOf(const ReportView& view) {
-  std::vector<PolynomialTables> all;
+std::vector<const ModelRecord*> PolynomialsOf(const ReportView& view) {
+  std::vector<const ModelRecord*> all;
   for (const ModelRecord* model : view.models) {
     if (!model->equation && !model->regression) continue;
     if (model->kind == models::ModelKind::kBaseline) continue;
-    const RegressionRecord regression =
-        model->regression.value_or(RegressionRecord());
-    PolynomialTables tables{
-        .model = model->name,
-        .equation = model->equation.value_or(""),
-        .method = regression.method,
-        .summary = RegressionSummary(regression, ErrorTextOf(view)),
-        .coefficients = CoefficientTable(regression),
-        .excluded = ExcludedTerms(regression),
-        .aliased = AliasedTerms(regression)};
-    if (!model->regression) {
-      tables.excluded.missing = "Which terms were left out was not kept.";
-      tables.aliased.missing = "Which terms are aliased was not kept.";
-    }
-    const auto place =
-        model->name == view.recommended ? all.begin() : all.end();
-    all.insert(place, std::move(tables));
+    all.insert(model->name == view.recommended ? all.begin() : all.end(),
+               model);
   }
   return all;
 }

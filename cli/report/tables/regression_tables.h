@@ -29,18 +29,8 @@ Table AliasedTerms(const models::RegressionRecord& regression);
 std::string RegressionSummary(const models::RegressionRecord& regression,
                               const ErrorText& error);
 
-/// The tables of one polynomial.
-struct PolynomialTables {
-  std::string model;
-  std::string equation;
-  std::string method;
-  std::string summary;
-  Table coefficients;
-  Table excluded;
-  Table aliased;
-};
-/// Returns these for every model with an equation or a regression, the
-/// recommended one first.
-std::vector<PolynomialTables> PolynomialTablesOf(const ReportView& view);
+/// The models with an equation or a regression, the recommended one first;
+/// baselines are left out.
+std::vector<const ModelRecord*> PolynomialsOf(const ReportView& view);
 
 }  // namespace errmap::report

@@ -321,6 +321,34 @@ void AddRow(const ComponentRecord& component,
   }
 }
 
+// A row of each of these models.
+void AddRows(const ReportView& view,
+             const std::vector<const ModelRecord*>& models,
+             const std::vector<Slot>& slots,
+             const std::string& holdout,
+             Table* table) {
+  for (const ModelRecord* model : models) {
+    if (model->name == view.recommended) table->marked = table->rows.size();
+    AddRow(*view.component, *model, slots, holdout, table);
+  }
+}
+
+// As terminals show it, with the columns' own names.
+Table TerminalRows(const ReportView& view,
+                   const std::vector<const ModelRecord*>& models,
+                   const std::vector<Slot>& slots,
+                   const std::string& holdout) {
+  Table table{.error = ErrorTextOf(*view.component)};
+  for (const Slot& slot : slots) {
+    table.columns.push_back({.name = slot.column->name,
+                             .is_number = slot.column->is_number,
+                             .above = slot.column->above,
+                             .gap = slot.column->gap});
+  }
+  AddRows(view, models, slots, holdout, &table);
+  return table;
+}
+
 std::vector<std::string> HoldoutNames(const ComponentRecord& component) {
   std::vector<std::string> names;
   for (const models::HoldoutRecord& holdout : component.holdouts) {
@@ -417,24 +445,6 @@ Table TerminalLeaderboard(const ReportView& view, std::size_t most_rows) {
   if (std::isfinite(component.goal)) {
     Append(SlotsOf({"goal"}, view.decisive), &slots);
   }
-  Table table;
-  table.error = ErrorTextOf(component);
-  for (std::size_t i = 0; i < slots.size(); ++i) {
-    const ResultColumn& column = *slots[i].column;
-    Table::Column shown{
-        .name = column.name, .is_number = column.is_number, .gap = column.gap};
-    if (i == 2 || i == 3) {
-      shown.group = UnseenWords(view);
-      if (!table.error->symbol().empty()) {
-        shown.group += ", " + table.error->symbol();
-      }
-    } else if (!view.neighbours.empty() && i == 4) {
-      shown.name = Squeezed(view.neighbours, 12);
-    } else if (!view.later.empty() && i == later_at) {
-      shown.name = "later";
-    }
-    table.columns.push_back(std::move(shown));
-  }
   // The recommended one is always in the table.
   std::vector<const ModelRecord*> models = view.models;
   if (const auto recommended =
@@ -446,46 +456,34 @@ Table TerminalLeaderboard(const ReportView& view, std::size_t most_rows) {
                 recommended + 1);
   }
   models.resize(std::min(models.size(), most_rows));
-  for (const ModelRecord* model : models) {
-    if (model->name == view.recommended) table.marked = table.rows.size();
-    AddRow(component, *model, slots, view.decisive, &table);
+  Table table = TerminalRows(view, models, slots, view.decisive);
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    Table::Column& shown = table.columns[i];
+    if (i == 2 || i == 3) {
+      shown.group = UnseenWords(view);
+      if (!table.error->symbol().empty()) {
+        shown.group += ", " + table.error->symbol();
+      }
+    } else if (!view.neighbours.empty() && i == 4) {
+      shown.name = Squeezed(view.neighbours, 12);
+    } else if (!view.later.empty() && i == later_at) {
+      shown.name = "later";
+    }
   }
   return table;
 }
 
 Table TerminalDetails(const ReportView& view, const std::string& holdout) {
-  std::vector<Slot> slots = SlotsOf(
+  const std::vector<Slot> slots = SlotsOf(
       {"model", "training", "test_rmse", "ci95", "tier", "p_recommended"});
-  Table table;
-  table.error = ErrorTextOf(*view.component);
-  for (const Slot& slot : slots) {
-    table.columns.push_back({.name = slot.column->name,
-                             .is_number = slot.column->is_number,
-                             .gap = slot.column->gap});
-  }
-  for (const ModelRecord* model : view.models) {
-    if (model->name == view.recommended) table.marked = table.rows.size();
-    AddRow(*view.component, *model, slots, holdout, &table);
-  }
-  return table;
+  return TerminalRows(view, view.models, slots, holdout);
 }
 
 Table TerminalTimes(const ReportView& view) {
   std::vector<Slot> slots = SlotsOf({"model", "parameters"});
   if (view.component->gap) Append(SlotsOf({"gap"}), &slots);
   Append(SlotsOf({"all_fit_seconds", "predict_ns"}), &slots);
-  Table table;
-  for (const Slot& slot : slots) {
-    table.columns.push_back({.name = slot.column->name,
-                             .is_number = slot.column->is_number,
-                             .above = slot.column->above,
-                             .gap = slot.column->gap});
-  }
-  for (const ModelRecord* model : view.models) {
-    if (model->name == view.recommended) table.marked = table.rows.size();
-    AddRow(*view.component, *model, slots, "", &table);
-  }
-  return table;
+  return TerminalRows(view, view.models, slots, "");
 }
 
 Table SummaryRows(const models::StudyRecord& record) {
@@ -555,9 +553,8 @@ Table PageLeaderboard(const ReportView& view) {
     table.columns.back().explanation =
         fmt::format("{}; 95 % interval", UnseenWords(view));
   }
+  AddRows(view, view.models, slots, "", &table);
   for (const ModelRecord* model : view.models) {
-    if (model->name == view.recommended) table.marked = table.rows.size();
-    AddRow(*view.component, *model, slots, "", &table);
     if (!model->why) continue;
     table.note += fmt::format("{} failed: {}. ", model->name, *model->why);
   }

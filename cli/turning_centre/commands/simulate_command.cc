@@ -1,4 +1,3 @@
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "cli/slice.h"
 #include "cli/turning_centre/simulation.h"
 #include "cli/turning_centre/simulation_files.h"
+#include "data/throwing_as.h"
 
 namespace errmap::cli {
 namespace {
@@ -33,11 +33,7 @@ struct SimulateArguments {
 
 int RunSimulate(const SimulateArguments& arguments) {
   const SimulationOptions& options = arguments.simulation;
-  try {
-    options.Validate();
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(error.what());
-  }
+  data::ThrowingAs<UsageError>("", [&] { options.Validate(); });
   const std::vector<std::string> names = turning_centre::SimulationFileNames();
   // Before the work, not after it.
   ClaimedFolder folder(arguments.folder, names, {}, arguments.force);
@@ -61,18 +57,20 @@ int RunSimulate(const SimulateArguments& arguments) {
 }  // namespace
 
 void AddSimulateCommand(CLI::App* app, Run* run) {
-  auto arguments = std::make_shared<SimulateArguments>();
-  SimulationOptions& options = arguments->simulation;
-  CLI::App* command = AddCommand(
-      app, "simulate", "Make measurements of a machine whose truth is known");
+  const Command<SimulateArguments> command(
+      app,
+      run,
+      "simulate",
+      "Make measurements of a machine whose truth is known");
+  SimulationOptions& options = command->simulation;
   AddOption(command,
             "MACHINE",
-            arguments->machine,
+            command->machine,
             "turning-centre: two slides, a spindle, 40 thermocouples")
       .Required()
       .OneOf({"turning-centre"})
       .Value("NAME");
-  AddOption(command, "-o,--output DIR", arguments->folder, "Folder to write")
+  AddOption(command, "-o,--output DIR", command->folder, "Folder to write")
       .Required();
   AddSeedOption(command, &options.seed, "Seed of all that is drawn");
   const auto add = [&](const char* flag, auto& value, const char* what) {
@@ -121,10 +119,10 @@ void AddSimulateCommand(CLI::App* app, Run* run) {
       "Random poses per day in tool_tip.csv");
   AddFlag(command,
           "--truth",
-          arguments->files.truth,
+          command->files.truth,
           "Add the error without reading noise: truth_mm, truth_urad");
-  AddForceFlag(command, &arguments->force);
-  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  AddForceFlag(command, &command->force);
+  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   MarkSeldom(command,
              {"--duty",
               "--speed",
@@ -137,7 +135,7 @@ void AddSimulateCommand(CLI::App* app, Run* run) {
       command,
       "Example: errmap simulate turning-centre -o simulated --days 3 --dead "
       "3,4,16,19\nThe same options give the same files, byte for byte.");
-  OnRun(command, [arguments, run] { run->status = RunSimulate(*arguments); });
+  command.Runs(RunSimulate);
 }
 
 }  // namespace errmap::cli

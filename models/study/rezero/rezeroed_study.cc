@@ -1,7 +1,6 @@
 #include "models/study/rezero/rezeroed_study.h"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <memory>
 #include <stdexcept>
@@ -90,42 +89,6 @@ VectorXd ScoredOf(const ZeroPlan& plan, const VectorXd& errors) {
   return errors(plan.scored);
 }
 
-// About the rule's interval, the rule's own among them, then once a session.
-std::vector<RezeroRule> RulesAbout(const RezeroRule& rule) {
-  constexpr std::array<double, 11> kTimes = {
-      0.25, 0.5, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0, 8.0};
-  std::vector<RezeroRule> rules;
-  if (rule.kind == RezeroKind::kEvery) {
-    for (const double times : kTimes) {
-      rules.push_back(rule);
-      rules.back().interval *= times;
-    }
-  }
-  rules.push_back(rule);
-  rules.back().kind = RezeroKind::kSession;
-  rules.back().interval = std::numeric_limits<double>::infinity();
-  return rules;
-}
-
-// The longest time between a session's first held-out row and its last.
-double LongestRun(const HeldOutRows& held) {
-  const data::Dataset& source = *held.source;
-  const std::vector<Index> sessions = source.session_codes();
-  std::vector<double> first(source.log()->sessions.labels.size(),
-                            std::numeric_limits<double>::infinity());
-  double longest = 0.0;
-  std::vector<Index> rows = held.rows;
-  std::ranges::sort(rows);
-  for (const Index row : rows) {
-    const auto at = static_cast<std::size_t>(row);
-    const double time = source.log()->time[source.log_rows()[at]];
-    double& begin = first[static_cast<std::size_t>(sessions[at])];
-    begin = std::min(begin, time);
-    longest = std::max(longest, time - begin);
-  }
-  return longest;
-}
-
 }  // namespace
 
 void RequireRezero(const data::Dataset& dataset,
@@ -171,8 +134,7 @@ RezeroWorth WorthOfRezero(const data::Dataset& dataset,
                           const RezeroRule& rule,
                           std::uint64_t seed,
                           const BeforeRezero& before,
-                          std::size_t h,
-                          std::size_t recommended) {
+                          std::size_t h) {
   const HeldOutRows held = GatherHeldOut(dataset, before.holdouts[h]);
   const VectorXd no_map = held.source->target_values()(held.rows);
   const ZeroPlan plan = PlanZeros(held, rule, seed);
@@ -187,23 +149,6 @@ RezeroWorth WorthOfRezero(const data::Dataset& dataset,
     worth.models.push_back({m,
                             RmseBy(plan, errors),
                             stats::RootMeanSquare(ScoredOf(plan, errors))});
-    if (m != recommended) continue;
-    const double longest = LongestRun(held);
-    bool as_well = true;
-    for (const RezeroRule& other : RulesAbout(rule)) {
-      const bool by_session = other.kind == RezeroKind::kSession;
-      if (!by_session && other.interval >= longest) continue;
-      const ZeroPlan of_other = PlanZeros(held, other, seed);
-      if (of_other.scored.empty()) continue;
-      const RezeroWorth::At at{
-          other.interval, RmseBy(of_other, errors), RmseBy(of_other, no_map)};
-      worth.curve.push_back(at);
-      if (at.interval < rule.interval) continue;
-      as_well = as_well && at.map <= worth.no_map;
-      if (as_well) worth.does_as_well_at = at.interval;
-    }
-    worth.does_as_well_never =
-        as_well && worth.models.back().never <= worth.no_map;
   }
   return worth;
 }

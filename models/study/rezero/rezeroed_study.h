@@ -33,39 +33,25 @@ BeforeRezero RezeroStudy(const data::Dataset& dataset,
                          std::vector<Holdout>* holdouts,
                          StudyResult* study);
 
-/// The probes that a map saves compared with no map, both re-zeroed alike. RMSE
-/// on the held-out rows, target's unit.
+/// Maps compared with no map, re-zeroed alike. RMSE on the held-out rows,
+/// target's unit.
 struct RezeroWorth {
   struct Model {
     std::size_t model = 0;
     double rmse = 0.0;   // re-zeroed by the rule
     double never = 0.0;  // on the same rows, never re-zeroed
   };
-  struct At {
-    double interval = 0.0;  // s; infinite: once a session
-    double map = 0.0;
-    double no_map = 0.0;
-  };
   Eigen::Index probes = 0;
   Eigen::Index scored_rows = 0;
   double no_map = 0.0;  // re-zeroed by the rule
   std::vector<Model> models;
-  /// For the recommended map, by rising interval; for kEvery also intervals
-  /// around that of the rule.
-  std::vector<At> curve;
-  /// The longest interval up to which the map errs no more than no map under
-  /// the rule; NaN: not even at the rule's own.
-  double does_as_well_at = stats::kNaN;
-  bool does_as_well_never = false;  // ... and if it is never re-zeroed
 };
 
-/// Uses hold-out `h` of the study before re-zeroing; `recommended` is the model
-/// of the curve.
+/// Uses hold-out `h` of the study before re-zeroing.
 RezeroWorth WorthOfRezero(const data::Dataset& dataset,
                           const RezeroRule& rule,
                           std::uint64_t seed,
                           const BeforeRezero& before,
-                          std::size_t h,
-                          std::size_t recommended);
+                          std::size_t h);
 
 }  // namespace errmap::models

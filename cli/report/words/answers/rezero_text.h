@@ -6,10 +6,6 @@
 
 namespace errmap::report {
 
-/// What the recommended map saves in probes beside no map that is re-zeroed
-/// alike; "" where maps were not re-zeroed.
-std::string RezeroSentence(const models::ComponentRecord& component);
-
 /// Of a component whose maps were re-zeroed: "every 2 h", "once a session",
 /// "every cycle"; "re-zeroed every 2 h".
 std::string RezeroRuleWords(const models::ComponentRecord& component);

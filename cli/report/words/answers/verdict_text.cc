@@ -7,7 +7,6 @@
 
 #include "cli/report/words/answers/first_answer.h"
 #include "cli/report/words/answers/remarks.h"
-#include "cli/report/words/answers/rezero_text.h"
 #include "cli/report/words/answers/verdict_sentences.h"
 #include "cli/report/wrap_text.h"
 #include "data/input_error.h"
@@ -47,7 +46,6 @@ void AddSentences(models::ComponentRecord* record) {
   for (VerdictRecord& verdict : record->verdict) {
     verdict.why = VerdictSentence(numbers, verdict);
   }
-  if (record->rezero) record->rezero->sentence = RezeroSentence(*record);
   if (!record->recommendation) return;
   RecommendationRecord& advice = *record->recommendation;
   advice.sentence = FirstAnswerOf(*record).Sentence();

@@ -4,14 +4,29 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+
+#include "cli/report/table.h"
 
 namespace errmap::report {
 namespace {
 
 using models::Certification;
 using models::CertificationFloors;
+
+// Columns of figures stand close; those of words behind them have a gap.
+Table::Column Figures(const char* name, std::size_t width) {
+  return {.name = name, .width = width, .gap = 0};
+}
+Table::Column Words(const char* name, std::size_t width, std::size_t gap = 2) {
+  return {.name = name, .is_number = false, .width = width, .gap = gap};
+}
+
+// Digits, or another number of two decimals.
+Fixed Digits(double value) { return {value, 2}; }
 
 // "gradient 40, no_descent 14": how the runs of a solver ended.
 std::string Stops(const Certification& certification,
@@ -63,27 +78,23 @@ std::string SolversText(const Certification& certification,
       "NIST StRD, nonlinear: {} problems from both starts; digits (LRE, at "
       "most 11)\n",
       NumProblems(certification));
-  text += fmt::format("{:<30}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{}\n",
-                      "solver",
-                      "solved",
-                      "floor",
-                      "mean",
-                      "floor",
-                      "least",
-                      "sd",
-                      details ? "  runs ended with" : "");
+  Table table{.nothing = "nan"};
   for (const auto& row : certification.nonlinear_summary) {
-    text += fmt::format("{:<30}{:>7}{:>7}{:>7.2f}{:>7.2f}{:>7.2f}{:>7.2f}{}\n",
-                        row.solver,
-                        fmt::format("{}/{}", row.solved, row.runs),
-                        row.floor_solved,
-                        row.mean_lre_parameters,
-                        row.floor_mean_lre_parameters,
-                        row.least_lre_parameters,
-                        row.mean_lre_sd,
-                        details ? "  " + Stops(certification, row.solver) : "");
+    std::vector<Table::Named> cells = {
+        {Words("solver", 30), row.solver},
+        {Figures("solved", 7), fmt::format("{}/{}", row.solved, row.runs)},
+        {Figures("floor", 7), std::int64_t{row.floor_solved}},
+        {Figures("mean", 7), Digits(row.mean_lre_parameters)},
+        {Figures("floor", 7), Digits(row.floor_mean_lre_parameters)},
+        {Figures("least", 7), Digits(row.least_lre_parameters)},
+        {Figures("sd", 7), Digits(row.mean_lre_sd)}};
+    if (details) {
+      cells.push_back(
+          {Words("runs ended with", 0), Stops(certification, row.solver)});
+    }
+    table.Add(std::move(cells));
   }
-  return text +
+  return text + TerminalTable(table) +
          fmt::format(
              "Floors of every run of {}: parameters {:.1f}, sd {:.1f}, sum of "
              "squares {:.1f}\n",
@@ -102,89 +113,64 @@ std::string SolversText(const Certification& certification,
 
 // The default solver's runs; with `details` everybody's.
 std::string RunsText(const Certification& certification, bool details) {
-  const int widest = details ? 30 : 6;
-  std::string text =
-      fmt::format("\n{:<10}{:>5} {:<{}}{:>8}{:>7}{:>7}{:>7}  {}\n",
-                  "problem",
-                  "start",
-                  "solver",
-                  widest,
-                  "param.",
-                  "sd",
-                  "RSS",
-                  "steps",
-                  "stop");
+  const std::size_t widest = details ? 30 : 6;
+  Table table{.nothing = "nan"};
   for (const auto& row : certification.nonlinear) {
     if (!details && row.solver != models::kDefaultSolver) continue;
-    text += fmt::format("{:<10}{:>5} {:<{}}{:>8.2f}{:>7.2f}{:>7.2f}{:>7}  {}\n",
-                        row.problem,
-                        row.start,
-                        row.solver,
-                        widest,
-                        row.lre_parameters,
-                        row.lre_sd,
-                        row.lre_rss,
-                        row.iterations,
-                        details ? row.stop + ": " + row.message : row.stop);
+    table.Add({{Words("problem", 10), row.problem},
+               {Figures("start", 5), std::int64_t{row.start}},
+               {Words("solver", widest, 1), row.solver},
+               {Figures("param.", 8), Digits(row.lre_parameters)},
+               {Figures("sd", 7), Digits(row.lre_sd)},
+               {Figures("RSS", 7), Digits(row.lre_rss)},
+               {Figures("steps", 7), row.iterations},
+               {Words("stop", 0),
+                details ? row.stop + ": " + row.message : row.stop}});
   }
-  return text;
+  return "\n" + TerminalTable(table);
 }
 
 std::string LinearText(const Certification& certification,
                        const CertificationFloors& floors) {
-  std::string text = fmt::format(
-      "\nNIST StRD, linear, as errmap fit --model "
-      "poly:formula=...:centred=no fits\nthe data's CSV; digits (LRE, at most "
-      "15; floors {:.0f})\n"
-      "{:<10}{:>8}{:>7}{:>7}{:>12}{:>6}\n",
-      floors.linear_lre_coefficients,
-      "problem",
-      "coeff.",
-      "sd",
-      "RSS",
-      "condition",
-      "bits");
+  Table table{.nothing = "nan"};
   for (const auto& row : certification.linear) {
-    text += fmt::format("{:<10}{:>8.2f}{:>7.2f}{:>7.2f}{:>12.2g}{:>6}\n",
-                        row.problem,
-                        row.lre_coefficients,
-                        row.lre_sd,
-                        row.lre_rss,
-                        row.condition,
-                        row.bits);
+    table.Add({{Words("problem", 10), row.problem},
+               {Figures("coeff.", 8), Digits(row.lre_coefficients)},
+               {Figures("sd", 7), Digits(row.lre_sd)},
+               {Figures("RSS", 7), Digits(row.lre_rss)},
+               {Figures("condition", 12), Number{row.condition, 2}},
+               {Figures("bits", 6), std::int64_t{row.bits}}});
   }
-  return text;
+  return fmt::format(
+             "\nNIST StRD, linear, as errmap fit --model "
+             "poly:formula=...:centred=no fits\nthe data's CSV; digits (LRE, "
+             "at most 15; floors {:.0f})\n",
+             floors.linear_lre_coefficients) +
+         TerminalTable(table);
 }
 
 std::string UnivariateText(const Certification& certification,
                            const CertificationFloors& floors) {
-  std::string text = fmt::format(
-      "\nNIST StRD, univariate; digits (LRE, at most 15; floors {:.0f}, from "
-      "double data {:.0f})\n"
-      "{:<10}{:>7}{:>7}{:>9}{:>6}{:>12}   {}\n",
-      floors.univariate_lre,
-      floors.univariate_double_lre,
-      "problem",
-      "mean",
-      "sd",
-      "autocor.",
-      "bits",
-      "condition",
-      "from double data");
+  Table table{.nothing = "nan"};
   for (const auto& row : certification.univariate) {
-    text += fmt::format(
-        "{:<10}{:>7.2f}{:>7.2f}{:>9.2f}{:>6}{:>12.2g}   {:.2f} {:.2f} {:.2f}\n",
-        row.problem,
-        row.lre_mean,
-        row.lre_sd,
-        row.lre_autocorrelation,
-        row.bits,
-        row.condition,
-        row.lre_mean_double,
-        row.lre_sd_double,
-        row.lre_autocorrelation_double);
+    table.Add({{Words("problem", 10), row.problem},
+               {Figures("mean", 7), Digits(row.lre_mean)},
+               {Figures("sd", 7), Digits(row.lre_sd)},
+               {Figures("autocor.", 9), Digits(row.lre_autocorrelation)},
+               {Figures("bits", 6), std::int64_t{row.bits}},
+               {Figures("condition", 12), Number{row.condition, 2}},
+               {Words("from double data", 0, 3),
+                fmt::format("{:.2f} {:.2f} {:.2f}",
+                            row.lre_mean_double,
+                            row.lre_sd_double,
+                            row.lre_autocorrelation_double)}});
   }
-  return text;
+  return fmt::format(
+             "\nNIST StRD, univariate; digits (LRE, at most 15; floors "
+             "{:.0f}, from double data {:.0f})\n",
+             floors.univariate_lre,
+             floors.univariate_double_lre) +
+         TerminalTable(table);
 }
 
 std::string GradientsText(const Certification& certification,
@@ -219,32 +205,26 @@ std::string GradientsText(const Certification& certification,
 std::string AgreementText(const Certification& certification) {
   const auto lowest = std::ranges::min_element(
       certification.agreement, {}, &models::AgreementCertificate::objective);
-  std::string text = fmt::format(
-      "\nAgreement on one well-damped net from one start: how far the "
-      "objective "
-      "ends\nabove the lowest ({:.8g}), how far predictions are apart as a "
-      "share "
-      "of the\ntarget range, each beside its floor\n"
-      "{:<29}{:>7}{:>6}{:>7}{:>6}{:>6} {}\n",
-      lowest->objective,
-      "solver",
-      "above",
-      "floor",
-      "apart",
-      "floor",
-      "steps",
-      "stop");
+  const auto rounded = [](double share) {
+    return fmt::format("{:.0e}", share);
+  };
+  Table table;
   for (const auto& row : certification.agreement) {
-    text += fmt::format("{:<29}{:>7.0e}{:>6.0e}{:>7.0e}{:>6.0e}{:>6} {}\n",
-                        row.solver,
-                        row.difference,
-                        row.most_difference,
-                        row.prediction_difference,
-                        row.most_prediction_difference,
-                        row.iterations,
-                        row.stop);
+    table.Add({{Words("solver", 29), row.solver},
+               {Figures("above", 7), rounded(row.difference)},
+               {Figures("floor", 6), rounded(row.most_difference)},
+               {Figures("apart", 7), rounded(row.prediction_difference)},
+               {Figures("floor", 6), rounded(row.most_prediction_difference)},
+               {Figures("steps", 6), row.iterations},
+               {Words("stop", 0, 1), row.stop}});
   }
-  return text;
+  return fmt::format(
+             "\nAgreement on one well-damped net from one start: how far the "
+             "objective ends\nabove the lowest ({:.8g}), how far predictions "
+             "are apart as a share of the\ntarget range, each beside its "
+             "floor\n",
+             lowest->objective) +
+         TerminalTable(table);
 }
 
 }  // namespace

@@ -91,10 +91,11 @@ std::string TrialText(const models::UpdateTrial& trial,
       all_unseen ? ", each unseen" : ", which the old map has seen in part");
   text += fmt::format("  {:<12}  {:>9}  {:>9}\n", "session", "old", "new");
   for (const auto& session : trial.sessions) {
-    text += fmt::format("  {:<12}  {:>9}  {:>9}\n",
-                        data::Printable(session.label, session.label.size()),
-                        error(session.old_rmse),
-                        error(session.new_rmse));
+    text +=
+        fmt::format("  {:<12}  {:>9}  {:>9}\n",
+                    data::Printable(session.session, session.session.size()),
+                    error(session.old_rmse),
+                    error(session.new_rmse));
   }
   return text + fmt::format("  {:<12}  {:>9}  {:>9}\n",
                             "all",

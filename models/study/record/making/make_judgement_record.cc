@@ -364,10 +364,6 @@ std::string_view WordOf(RezeroKind kind) {
   return data::NameOf(kNames, kind);
 }
 
-double FiniteOrNothing(double value) {
-  return std::isfinite(value) ? value : kNotKnown;
-}
-
 }  // namespace
 
 IntervalRecord RmseInterval(const HoldoutComparison& tests, std::size_t model) {
@@ -423,28 +419,16 @@ RezeroRecord MakeRezeroRecord(const ComponentStudy& study) {
   RezeroRecord record{
       .rule = rule.text,
       .when = std::string(WordOf(rule.kind)),
-      .interval = FiniteOrNothing(rule.interval),
+      .interval = std::isfinite(rule.interval) ? rule.interval : kNotKnown,
       .noise = rule.noise,
       .holdout = study.holdouts[study.judgement.recommendation->holdout].name,
       .probes = worth.probes,
       .scored_rows = worth.scored_rows,
       .no_map = worth.no_map,
-      .models = {},
-      .curve = {},
-      .needs = worth.does_as_well_never            ? "never"
-               : std::isnan(worth.does_as_well_at) ? "more"
-               : std::isinf(worth.does_as_well_at) ? "session"
-                                                   : "every",
-      .needs_interval = worth.does_as_well_never
-                            ? kNotKnown
-                            : FiniteOrNothing(worth.does_as_well_at),
-      .sentence = {}};
+      .models = {}};
   for (const RezeroWorth::Model& model : worth.models) {
     record.models.push_back(
         {study.study.models[model.model].name, model.rmse, model.never});
-  }
-  for (const RezeroWorth::At& at : worth.curve) {
-    record.curve.push_back({FiniteOrNothing(at.interval), at.map, at.no_map});
   }
   return record;
 }

@@ -73,19 +73,14 @@ TEST_F(RezeroedDays, KeepWhatTheyWere) {
   EXPECT_EQ(before.holdouts[0].folds[2].test.size(), 49);
 }
 
-TEST_F(RezeroedDays, SaveProbes) {
+TEST_F(RezeroedDays, StandBesideNoMap) {
   const RezeroRule rule = RuleOfDays("2h");
   const BeforeRezero before = RezeroStudy(dataset, rule, 1, &holdouts, &study);
-  const RezeroWorth worth = WorthOfRezero(dataset, rule, 1, before, 0, 1);
+  const RezeroWorth worth = WorthOfRezero(dataset, rule, 1, before, 0);
   EXPECT_NEAR(
       worth.models[1].rmse, study.models[1].holdouts[0].test.rmse, 1e-9);
   EXPECT_EQ(worth.no_map, worth.models[0].rmse);
   EXPECT_GT(worth.models[1].never, 20.0);
-  // 1 um an hour is below what the swing does in two hours, all day long.
-  EXPECT_EQ(worth.does_as_well_at, std::numeric_limits<double>::infinity());
-  EXPECT_FALSE(worth.does_as_well_never);
-  EXPECT_EQ(worth.curve.back().interval,
-            std::numeric_limits<double>::infinity());
 }
 
 TEST_F(RezeroedDays, RefuseAnIntervalThatLeavesNothingToJudge) {
