@@ -10,11 +10,11 @@
 #include <string_view>
 
 #include "data/argument_name.h"
+#include "data/counted_labels.h"
 #include "data/files/sheet_path.h"
 #include "data/files_in_memory.h"
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
-#include "data/tables/counted_labels.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -265,14 +265,15 @@ std::vector<std::string> SessionsOfFiles(
     const std::vector<std::string>& paths) {
   std::vector<std::string> names;
   std::vector<std::string> labels;
+  bool alike = true;
   bool by_date = true;
   for (const std::string& path : paths) {
     names.push_back(NameWithoutEndings(path));
     labels.push_back(FileLabel(path));
-    by_date = by_date && DateIn(names.back()) &&
-              LessNumbers(names.back()) == LessNumbers(names.front());
+    alike = alike && LessNumbers(names.back()) == LessNumbers(names.front());
+    by_date = by_date && alike && DateIn(names.back());
   }
-  if (by_date) return labels;
+  if (by_date || !alike) return labels;
   const std::vector<std::string> prefixes = SessionsOfCounted(names);
   return prefixes.empty() ? labels : prefixes;
 }

@@ -7,7 +7,7 @@
 
 #include "data/column_words.h"
 #include "data/columns.h"
-#include "data/tables/counted_labels.h"
+#include "data/counted_labels.h"
 #include "data/text.h"
 
 namespace errmap::data {

@@ -422,7 +422,8 @@ FittedModel ReadModel(const Node& root) {
   }
   if (const auto reading = root.Find("reading")) {
     auto read = std::make_shared<data::Reading>();
-    ReadMembers(*reading, read.get());
+    ReadMembers(*reading, read.get(), {"sessions"});
+    ReadMembers(reading->At("sessions"), &read->sessions, {}, {"counter"});
     fitted.reading = std::move(read);
   }
   if (fitted.model->num_parameters() != parameters.Count()) {

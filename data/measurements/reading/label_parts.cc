@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "data/columns.h"
-#include "data/tables/counted_labels.h"
+#include "data/counted_labels.h"
 
 namespace errmap::data {
 

@@ -1,4 +1,4 @@
-#include "data/tables/counted_labels.h"
+#include "data/counted_labels.h"
 
 #include <optional>
 #include <set>
@@ -42,17 +42,15 @@ std::optional<Label> Split(const std::string& text,
 // Whether each session has numbers that count on, from the same one.
 bool CountAnew(const std::vector<Label>& labels, std::size_t least) {
   std::set<std::string> seen;
-  std::size_t length = 0;
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const bool goes_on = i > 0 && labels[i].session == labels[i - 1].session;
     if (goes_on ? labels[i].number <= labels[i - 1].number
-                : labels[i].number != labels[0].number || length == 1 ||
+                : labels[i].number != labels[0].number ||
                       !seen.insert(labels[i].session).second) {
       return false;
     }
-    length = goes_on ? length + 1 : 1;
   }
-  return seen.size() >= least && length > 1;
+  return seen.size() >= least && seen.size() < labels.size();
 }
 
 // "D1" of "D1C": what is counted says nothing of the session.

@@ -13,8 +13,8 @@ std::string LessNumbers(std::string_view label);
 /// Of labels of cycles, in order, the session that each names beside a number
 /// that counts on and begins anew with each session: "day1" of "day1_run2",
 /// "D1" of "D1C1", "X_20240304" of "X_20240304_01.rtl", "1" of "1.1" or "101".
-/// Sessions have two labels or more, in one piece. Nothing of other labels, or
-/// where these are fewer sessions than `least`.
+/// Sessions stand in one piece, one of them with two labels or more. Nothing of
+/// other labels, or where these are fewer sessions than `least`.
 std::vector<std::string> SessionsOfCounted(
     const std::vector<std::string>& labels, std::size_t least = 2);
 
