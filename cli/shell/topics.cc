@@ -1,7 +1,6 @@
 #include "cli/shell/topics.h"
 
 #include <algorithm>
-#include <regex>
 #include <sstream>
 
 #include "cli/report/wrap_text.h"
@@ -11,13 +10,26 @@ namespace {
 
 // Removes the marks of Markdown: "[words](page.md)" becomes "words", `code` and
 // **strong** become what they enclose, a picture becomes its description.
-std::string Unmarked(const std::string& text) {
-  static const std::regex picture(R"(!\[([^\]]*)\]\([^)]*\))");
-  static const std::regex link(R"(\[([^\]]*)\]\([^)]*\))");
-  static const std::regex mark(R"(\*\*|`)");
-  std::string plain = std::regex_replace(text, picture, "[Picture: $1]");
-  plain = std::regex_replace(plain, link, "$1");
-  return std::regex_replace(plain, mark, "");
+std::string Unmarked(std::string_view text) {
+  std::string plain;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const std::string_view rest = text.substr(at);
+    const std::size_t middle = rest.find("](");
+    const std::size_t end =
+        middle == rest.npos ? middle : rest.find(')', middle);
+    if (rest.starts_with("![") && end != rest.npos) {
+      plain.append("[Picture: ").append(rest.substr(2, middle - 2)) += "]";
+      at += end;
+    } else if (rest.front() == '[' && end != rest.npos) {
+      plain += Unmarked(rest.substr(1, middle - 1));
+      at += end;
+    } else if (rest.starts_with("**")) {
+      ++at;
+    } else if (rest.front() != '`') {
+      plain += rest.front();
+    }
+  }
+  return plain;
 }
 
 /// Gathers the lines of a paragraph or an item until it ends.
@@ -41,7 +53,7 @@ class PageWriter {
       AddHeading(line);
     } else if (line.front() == '|') {
       EndParagraph();
-      text_ += Unmarked(std::string(line)) + "\n";
+      text_ += Unmarked(line) + "\n";
     } else {
       if (line.starts_with("- ")) EndParagraph();
       paragraph_ += (paragraph_.empty() ? "" : " ") +
@@ -57,8 +69,8 @@ class PageWriter {
 
  private:
   void AddHeading(std::string_view line) {
-    const std::string words = Unmarked(
-        std::string(line.substr(std::min(line.find(' ') + 1, line.size()))));
+    const std::string words =
+        Unmarked(line.substr(std::min(line.find(' ') + 1, line.size())));
     text_ += words + "\n" +
              std::string(report::WidthOf(words),
                          line.starts_with("# ") ? '=' : '-') +
