@@ -1,41 +1,68 @@
 #include "cli/shell/remedies.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
-#include <cstddef>
-#include <regex>
+#include <vector>
 
 namespace errmap::cli {
 namespace {
 
-// The message with quotations struck out, each as long as it was. An apostrophe
-// within a word opens none.
-std::string WithoutQuotations(std::string_view message) {
-  std::string plain(message);
-  for (std::size_t at = 0; at < plain.size(); ++at) {
-    const bool opens =
-        (plain[at] == '\'' || plain[at] == '"') &&
-        (at == 0 ||
-         std::isalnum(static_cast<unsigned char>(plain[at - 1])) == 0);
-    const std::size_t end = opens ? plain.find(plain[at], at + 1) : plain.npos;
-    if (end == plain.npos) continue;
-    plain.replace(at, end + 1 - at, end + 1 - at, '_');
-    at = end;
+// A part of a message with what stands before it.
+struct Clause {
+  std::string_view before;  // ", or ", "; ", or "" of the first
+  std::string_view words;
+};
+
+std::string_view SeparatorAt(std::string_view text) {
+  for (const std::string_view separator : {", or ", "; "}) {
+    if (text.starts_with(separator)) return separator;
   }
-  return plain;
+  return "";
 }
 
-bool AdvisesAnother(std::string_view clause,
+// An apostrophe within a word opens nothing.
+bool OpensQuotation(std::string_view text, std::size_t at) {
+  return (text[at] == '\'' || text[at] == '"') &&
+         (at == 0 ||
+          std::isalnum(static_cast<unsigned char>(text[at - 1])) == 0);
+}
+
+// Returns the end of the quotation that begins there; `at` if it never ends.
+std::size_t EndOfQuotation(std::string_view text, std::size_t at) {
+  const std::size_t end = text.find(text[at], at + 1);
+  return end == text.npos ? at : end;
+}
+
+std::vector<Clause> ClausesOf(std::string_view text) {
+  std::vector<Clause> clauses{{"", {}}};
+  std::size_t begin = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (OpensQuotation(text, at)) at = EndOfQuotation(text, at);
+    const std::string_view separator = SeparatorAt(text.substr(at));
+    if (separator.empty()) continue;
+    clauses.back().words = text.substr(begin, at - begin);
+    clauses.push_back({separator, {}});
+    begin = at + separator.size();
+    at = begin - 1;
+  }
+  clauses.back().words = text.substr(begin);
+  return clauses;
+}
+
+bool AdvisesAnother(std::string_view words,
                     const std::function<bool(std::string_view)>& has) {
-  for (std::size_t at = clause.find("--"); at != clause.npos;) {
+  if (words.find("errmap ") != words.npos) return false;
+  for (std::size_t at = 0; at < words.size(); ++at) {
+    if (OpensQuotation(words, at)) at = EndOfQuotation(words, at);
+    const bool is_option =
+        words.substr(at).starts_with("--") && (at == 0 || words[at - 1] == ' ');
+    if (!is_option) continue;
     const std::size_t end = std::min(
-        clause.find_first_not_of("-abcdefghijklmnopqrstuvwxyz0123456789", at),
-        clause.size());
-    const bool begins = at == 0 || clause[at - 1] == ' ';
-    if (begins && end > at + 2 && !has(clause.substr(at, end - at))) {
-      return true;
-    }
-    at = clause.find("--", end);
+        words.find_first_not_of("-abcdefghijklmnopqrstuvwxyz0123456789", at),
+        words.size());
+    if (end > at + 2 && !has(words.substr(at, end - at))) return true;
+    at = end - 1;
   }
   return false;
 }
@@ -45,31 +72,20 @@ bool AdvisesAnother(std::string_view clause,
 std::string WithOwnRemedies(
     std::string_view message,
     const std::function<bool(std::string_view option)>& has) {
-  static const std::regex separator(", or |; ");
-  const std::string plain = WithoutQuotations(message);
   std::string kept;
-  std::string_view before;    // the separator of the first that was left out
-  std::size_t separated = 0;  // where the clause's own separator begins
-  std::size_t begin = 0;      // the clause itself
-  for (std::sregex_iterator next(plain.begin(), plain.end(), separator), none;;
-       ++next) {
-    const std::size_t end = next == none
-                                ? plain.size()
-                                : static_cast<std::size_t>(next->position());
-    const std::string_view clause = message.substr(begin, end - begin);
-    const std::string_view own = message.substr(separated, begin - separated);
-    if (begin > 0 && clause.find("errmap ") == clause.npos &&
-        AdvisesAnother(std::string_view(plain).substr(begin, end - begin),
-                       has)) {
-      if (before.empty()) before = own;
-    } else {
-      kept.append(before.empty() ? own : before).append(clause);
-      before = "";
+  std::string_view before;  // of the first clause that was left out
+  bool is_first = true;
+  for (const Clause& clause : ClausesOf(message)) {
+    if (!is_first && AdvisesAnother(clause.words, has)) {
+      if (before.empty()) before = clause.before;
+      continue;
     }
-    if (next == none) return kept;
-    separated = end;
-    begin = end + static_cast<std::size_t>(next->length());
+    kept += before.empty() ? clause.before : before;
+    kept += clause.words;
+    before = "";
+    is_first = false;
   }
+  return kept;
 }
 
 }  // namespace errmap::cli
