@@ -76,7 +76,9 @@ class MeasuredBeside {
     const std::string stem = StemOfColumn(name);
     if (stem == stem_) return "measures the target's quantity";
     const Header header = ReadHeader(name);
-    const bool is_called = ErrorSign(name) != 0 && IsLengthOrAngle(header.unit);
+    const bool is_called =
+        ErrorSign(name) != 0 &&
+        (IsLengthOrAngle(header.unit) || header.unit.symbol.empty());
     const bool alike = header.unit == header_.unit &&
                        header.unit_text.empty() == header_.unit_text.empty() &&
                        DifferInAxis(stem, stem_);

@@ -176,7 +176,7 @@ std::string TakeAxis(std::string_view* cell) {
   }
   constexpr std::string_view kAxes = "XYZUVWABC";
   if (rest.size() < 2 || kAxes.find(rest[0]) == kAxes.npos) return "";
-  const std::string axis(rest.substr(0, 1));
+  std::string axis(rest.substr(0, 1));
   rest = Trimmed(rest.substr(rest[1] == '=' ? 2 : 1));
   // "X1" may be the name of a place.
   if (rest.find_first_of(".,-+") == rest.npos && rest.size() < 3) return "";

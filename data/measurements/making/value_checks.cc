@@ -64,12 +64,14 @@ void AskForUnit(const CsvTable& table,
     return;
   }
   std::vector<Reading::Answer> answers;
-  for (const std::string unit : {"um", "mm", "in"}) {
-    if (unit == "in" && !in_inches) continue;
+  const auto offer = [&](const std::string& unit) {
     answers.push_back(
         {.option = ArgumentName("target", target + " [" + unit + "]"),
          .means = "in " + unit});
-  }
+  };
+  offer("um");
+  offer("mm");
+  if (in_inches) offer("in");
   throw OpenQuestion(
       PrintablePath(table.file),
       {.topic = "unit",
