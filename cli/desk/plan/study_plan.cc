@@ -274,8 +274,7 @@ class ComponentPlanner {
     if (study_.rezero.empty()) return std::nullopt;
     const data::Dataset& dataset = component.data.dataset;
     return data::ThrowingAs<data::InputError>(component_.data + ": ", [&] {
-      const models::RezeroRule rule =
-          RezeroIn(dataset.target().unit, study_.rezero);
+      models::RezeroRule rule = RezeroIn(dataset.target().unit, study_.rezero);
       models::RequireRezero(dataset, component.holdouts, rule);
       return rule;
     });

@@ -164,7 +164,7 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
   // The others are in the table; what no map does stays.
   constexpr std::size_t kMostModels = 12;
   if (models.size() > kMostModels) {
-    std::ranges::stable_partition(
+    std::stable_partition(
         models.begin() + kMostModels - 2, models.end(), [&](const auto* model) {
           return model->name == view.recommended || model->name == "zero";
         });

@@ -127,10 +127,10 @@ std::pair<Axis, std::vector<double>> TimeOfSession(const ReportView& view,
                 : of_day ? std::fmod(at[i] / kHour, kDay)
                          : since / kHour);
   }
-  if (!clock) return {{.quantity = "row since the start"}, std::move(x)};
+  if (!clock) return {{.quantity = "row since the start"}, x};
   return {{.quantity = of_day ? "time of day" : "time since the session began",
            .unit = "h"},
-          std::move(x)};
+          x};
 }
 
 Figure TimeFigure(const ReportView& view,
