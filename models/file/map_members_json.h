@@ -119,8 +119,11 @@ void ReadMembers(const ModelJsonNode& node,
                                    data::ColumnInfo>) {
         member = ReadColumn(node);
       } else if constexpr (requires { member.has_value(); }) {
-        const auto found = node.Find(key);
-        if (found) ReadMembers(*found, &member.emplace());
+        if (const auto found = node.Find(key)) {
+          typename std::decay_t<decltype(member)>::value_type read{};
+          ReadMembers(*found, &read);
+          member = std::move(read);
+        }
       } else {
         ReadMembers(node.At(key), &member);
       }
