@@ -171,7 +171,10 @@ class Reader {
   void Get(std::optional<T>* value) {
     bool is_there = false;
     Get(&is_there);
-    if (is_there) Get(&value->emplace());
+    if (!is_there) return;
+    T read{};
+    Get(&read);
+    *value = std::move(read);
   }
 
   template <typename A, typename B>
