@@ -32,15 +32,15 @@ struct ReadArguments {
 
 // The rows that are used, in the order in which they were read, to be read
 // again as they were: with the columns that were found in the others, session
-// and time_s in the place of a clock that is no date, and the negative of a
-// correction by the name of an error.
+// and time_s, which takes the place of a clock that is no date; and the
+// negative of a correction by the name of an error.
 std::string CleanCsv(const data::CsvTable& table, const data::ReadTable& read) {
   const data::FoundSessions& found = read.found;
   const bool add_session = found.sessions.column.empty() &&
                            found.sessions.labels.size() > 1 &&
                            table.Find("session") < 0;
-  const bool add_time = found.time_column >= 0 && table.Find("time_s") < 0 &&
-                        !(found.dated && read.reading.time.unit == "date");
+  const bool add_time = found.time_column >= 0 && table.Find("time_s") < 0;
+  const bool keeps_clock = found.dated && read.reading.time.unit == "date";
   const auto name_of = [&](std::size_t i) -> std::string {
     const std::string& name = table.columns[i].name;
     if (i != read.roles.target || !name.starts_with('-')) return name;
@@ -49,7 +49,8 @@ std::string CleanCsv(const data::CsvTable& table, const data::ReadTable& read) {
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const auto at = static_cast<std::ptrdiff_t>(i);
-    if (add_time && (at == found.time_column || at == found.date_column)) {
+    if (add_time && !keeps_clock &&
+        (at == found.time_column || at == found.date_column)) {
       continue;
     }
     kept.push_back(i);
