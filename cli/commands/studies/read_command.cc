@@ -18,7 +18,6 @@
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/reading/read_table.h"
 #include "data/text.h"
-#include "data/units.h"
 #include "models/study/record/record_json.h"
 
 namespace errmap::cli {
@@ -32,8 +31,7 @@ struct ReadArguments {
 
 // The rows that are used, in the order in which they were read, to be read
 // again as they were: with the columns that were found in the others, session
-// and time_s, which takes the place of a clock that is no date; and the
-// negative of a correction by the name of an error.
+// and time_s, which takes the place of a clock that is no date.
 std::string CleanCsv(const data::CsvTable& table, const data::ReadTable& read) {
   const data::FoundSessions& found = read.found;
   const bool add_session = found.sessions.column.empty() &&
@@ -41,11 +39,6 @@ std::string CleanCsv(const data::CsvTable& table, const data::ReadTable& read) {
                            table.Find("session") < 0;
   const bool add_time = found.time_column >= 0 && table.Find("time_s") < 0;
   const bool keeps_clock = found.dated && read.reading.time.unit == "date";
-  const auto name_of = [&](std::size_t i) -> std::string {
-    const std::string& name = table.columns[i].name;
-    if (i != read.roles.target || !name.starts_with('-')) return name;
-    return "error [" + data::UnitOfColumn(name).symbol + "]";
-  };
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const auto at = static_cast<std::ptrdiff_t>(i);
@@ -57,7 +50,7 @@ std::string CleanCsv(const data::CsvTable& table, const data::ReadTable& read) {
   }
   std::string text;
   for (const std::size_t i : kept) {
-    text += (text.empty() ? "" : ",") + data::CsvField(name_of(i));
+    text += (text.empty() ? "" : ",") + data::CsvField(table.columns[i].name);
   }
   text += add_session ? ",session" : "";
   text += add_time ? ",time_s\n" : "\n";
