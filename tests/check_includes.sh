@@ -47,9 +47,13 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
                                  "fitting/minimisers "
     rooms["data"] = ""
     rooms["data/files"] = " data "
-    rooms["data/tables"] = " data data/files "
-    rooms["data/measurements"] = " data data/files data/tables " \
-                                 "data/measurements/reading "
+    rooms["data/tables/cells"] = " data "
+    rooms["data/tables/text"] = " data data/files data/tables/cells "
+    rooms["data/tables/shapes"] = " data data/tables/cells "
+    rooms["data/tables"] = rooms["data/tables/text"] \
+                           "data/tables/text data/tables/shapes "
+    rooms["data/measurements"] = rooms["data/tables"] \
+                                 "data/tables data/measurements/reading "
     rooms["data/measurements/reading"] = " data data/files data/measurements " \
                                          "data/measurements/faults "
     rooms["data/measurements/faults"] = " data data/measurements " \
@@ -264,16 +268,16 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
       violation("<" name "> belongs in data/files/sqlite*.cc")
       next
     }
-    if (name ~ /^zlib/ && FILENAME !~ /^data\/tables\/gzip\.cc$/) {
-      violation("<" name "> belongs in data/tables/gzip.cc")
+    if (name ~ /^zlib/ && FILENAME !~ /^data\/tables\/text\/gzip\.cc$/) {
+      violation("<" name "> belongs in data/tables/text/gzip.cc")
       next
     }
-    if (name ~ /^minizip\// && FILENAME !~ /^data\/tables\/zip_archive\.cc$/) {
-      violation("<" name "> belongs in data/tables/zip_archive.cc")
+    if (name ~ /^minizip\// && FILENAME !~ /^data\/tables\/text\/zip_archive\.cc$/) {
+      violation("<" name "> belongs in data/tables/text/zip_archive.cc")
       next
     }
-    if (name ~ /^pugixml/ && FILENAME !~ /^data\/tables\/spreadsheet\.cc$/) {
-      violation("<" name "> belongs in data/tables/spreadsheet.cc")
+    if (name ~ /^pugixml/ && FILENAME !~ /^data\/tables\/text\/spreadsheet\.cc$/) {
+      violation("<" name "> belongs in data/tables/text/spreadsheet.cc")
       next
     }
     if (name ~ /^(gtest|gmock|benchmark)\//) {

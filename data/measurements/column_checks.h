@@ -9,7 +9,7 @@
 
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
-#include "data/tables/missing_cells.h"
+#include "data/tables/cells/missing_cells.h"
 
 namespace errmap::data {
 

@@ -18,7 +18,7 @@
 #include "data/measurements/reading/time_units.h"
 #include "data/measurements/sessions.h"
 #include "data/measurements/text_times.h"
-#include "data/tables/title_notes.h"
+#include "data/tables/shapes/title_notes.h"
 #include "data/text.h"
 #include "data/units.h"
 

@@ -5,11 +5,22 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include "data/files/atomic_file.h"
+#include "data/files/sheet_path.h"
 #include "data/files_in_memory.h"
 #include "data/formula_text.h"
 #include "data/sha256.h"
+#include "data/tables/cells/csv_cells.h"
+#include "data/tables/csv_parser.h"
+#include "data/tables/shapes/folded_positions.h"
+#include "data/tables/shapes/long_table.h"
+#include "data/tables/shapes/turned_table.h"
+#include "data/tables/text/gzip.h"
+#include "data/tables/text/rewritten_text.h"
+#include "data/tables/text/spreadsheet.h"
+#include "data/tables/text/text_encoding.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -100,6 +111,40 @@ std::string CsvNumber(double value) {
   const auto [end, error] =
       std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return {buffer.data(), end};
+}
+
+CsvTable ParseCsv(std::string_view text, const std::string& name, OddRows odd) {
+  std::string unpacked;
+  std::optional<std::string> sheet;
+  try {
+    if (IsGzip(text)) {
+      unpacked = Gunzip(
+          text, std::min(kMostTextOfPrograms, MostUnpacked(text.size())));
+      if (IsGzip(unpacked)) unpacked.clear();
+      text = unpacked;
+    }
+    sheet = SheetText(text, SplitSheetPath(name).sheet);
+  } catch (const InputError& error) {
+    throw InputError(PrintablePath(name) + ": " + error.what());
+  }
+  const EncodedText converted =
+      sheet ? EncodedText{.text = *sheet, .encoding = ""}
+            : TextOfFile(text, name);
+  if (!converted.text.empty()) text = converted.text;
+  const std::optional<std::string> rewritten = RewrittenText(text);
+  if (rewritten) text = *rewritten;
+  const char delimiter = sheet ? '\t' : CsvCells::kNoDelimiter;
+  CsvTable table = ParseText(text, name, delimiter, odd);
+  TurnTable(&table);
+  FoldPositions(&table);
+  SpreadReadings(&table);
+  if (!converted.encoding.empty()) {
+    table.remarks.insert(table.remarks.begin(),
+                         PrintablePath(name) + ": the text is read as " +
+                             converted.encoding +
+                             ", by the words of its first lines");
+  }
+  return table;
 }
 
 }  // namespace errmap::data

@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "data/input_error.h"
-#include "data/tables/missing_cells.h"
-#include "data/tables/thousands.h"
+#include "data/tables/cells/missing_cells.h"
+#include "data/tables/cells/thousands.h"
 #include "data/text.h"
 
 namespace errmap::data {

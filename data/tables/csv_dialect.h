@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "data/tables/csv_cells.h"
+#include "data/tables/cells/csv_cells.h"
 
 namespace errmap::data {
 

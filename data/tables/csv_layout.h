@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "data/tables/csv_cells.h"
+#include "data/tables/cells/csv_cells.h"
 #include "data/tables/csv_dialect.h"
 
 namespace errmap::data {

@@ -1,40 +1,23 @@
-// ParseCsv of data/csv.h: the dialect, the table's place, then one pass over
-// its rows, cell by cell.
+#include "data/tables/csv_parser.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 #include <optional>
 
-#include "data/argument_name.h"
-#include "data/columns.h"
-#include "data/csv.h"
-#include "data/files/atomic_file.h"
-#include "data/files/sheet_path.h"
 #include "data/formula_text.h"
-#include "data/tables/block_titles.h"
+#include "data/tables/cells/csv_cells.h"
+#include "data/tables/cells/cut_line.h"
+#include "data/tables/cells/loose_numbers.h"
+#include "data/tables/cells/unit_cells.h"
 #include "data/tables/column_names.h"
-#include "data/tables/csv_cells.h"
 #include "data/tables/csv_dialect.h"
 #include "data/tables/csv_layout.h"
-#include "data/tables/cut_line.h"
-#include "data/tables/folded_positions.h"
-#include "data/tables/gzip.h"
 #include "data/tables/last_row.h"
-#include "data/tables/long_table.h"
-#include "data/tables/loose_numbers.h"
 #include "data/tables/odd_rows.h"
-#include "data/tables/rewritten_text.h"
-#include "data/tables/spreadsheet.h"
-#include "data/tables/text_encoding.h"
-#include "data/tables/thousands.h"
-#include "data/tables/title_notes.h"
-#include "data/tables/turned_table.h"
-#include "data/tables/unit_cells.h"
+#include "data/tables/row_builder.h"
+#include "data/tables/shapes/block_titles.h"
+#include "data/tables/shapes/folded_positions.h"
+#include "data/tables/shapes/title_notes.h"
 #include "data/text.h"
-#include "data/text_index.h"
-#include "data/units.h"
 
 namespace errmap::data {
 namespace {
@@ -72,18 +55,18 @@ class Parser {
     cells_.width = layout_.width;
     LeaveOutCutLine();
     const CsvCells::Position begin = cells_.position();
+    rows_.emplace(&table_);
     ReadRows();
-    if (PartThousands(
-            table_, &shapes_, [this](const std::string& what) { Say(what); })) {
-      ForgetRows();
+    if (rows_->PartThousands([this](const std::string& what) { Say(what); })) {
+      odd_rows_ = {};
+      title_lines_.clear();
+      loose_ = {};
+      short_rows_.clear();
       cells_.GoTo(begin);
       ReadRows();
     }
     JudgeOddRows();
-    // Texts of rows that were taken back say nothing of a column.
-    if (any_undone_) {
-      for (CsvColumn& column : table_.columns) DropUnusedTexts(&column);
-    }
+    rows_->DropTextsOfUndone();
     for (const std::string& line : odd_rows_.PassedOver()) Say(line);
     for (const std::string& line : loose_.Remarks()) Say(line);
     LeaveEmptyColumns();
@@ -185,8 +168,6 @@ class Parser {
     NamedColumns named = NameColumns(names);
     table_.columns = std::move(named.columns);
     num_named_ = named.num_named;
-    texts_.resize(table_.columns.size());
-    shapes_.resize(table_.columns.size());
     const std::size_t num = named.again.size();
     if (num == 0) return;
     constexpr std::size_t kMostShown = 5;
@@ -403,37 +384,28 @@ class Parser {
         words += " " + table_.CellText(table_.columns[1], table_.num_rows);
       }
       title_lines_.push_back({.row = table_.num_rows, .text = words});
-      UndoRow();
+      rows_->Undo(column_);
     } else if (!HasItsCells(found)) {
       if (after_blank) ThrowAnotherTable(line, found);
       TakeOddRow(line, found);
     } else if (num_numbers_ == 0 && RepeatsNames(table_, names_as_written_)) {
-      UndoRow();
+      rows_->Undo(column_);
       odd_rows_.AddNames();
       below_names_ = true;
       return;
     } else if (below_names_ && num_numbers_ == 0 &&
                HasUnits(table_, layout_.width)) {
-      UndoRow();
+      rows_->Undo(column_);
     } else if (num_numbers_ == 0 && HasWordsForNumbers(table_, column_)) {
       ThrowAnotherTable(line, found);
     } else {
       if (found < layout_.width) short_rows_.push_back(line);
       for (; column_ < table_.columns.size(); ++column_) {
-        StoreText("", &table_.columns[column_]);
+        rows_->AddText(column_, "");
       }
-      NoteLine(line);
-      ++table_.num_rows;
+      rows_->End(line);
     }
     below_names_ = false;
-  }
-
-  void NoteLine(std::size_t line) {
-    auto& runs = table_.line_runs;
-    if (runs.empty() ||
-        runs.back().second + (table_.num_rows - runs.back().first) != line) {
-      runs.emplace_back(table_.num_rows, line);
-    }
   }
 
   // As many as most rows; or less by columns without a name, where it is sure
@@ -453,26 +425,8 @@ class Parser {
                      "their own");
   }
 
-  // Takes back the cells of the row that is being read.
-  void UndoRow() {
-    any_undone_ = true;
-    for (std::size_t i = 0; i < std::min(column_, table_.columns.size()); ++i) {
-      CsvColumn& column = table_.columns[i];
-      column.values.Own().resize(table_.num_rows);
-      if (!column.exceptions.empty() &&
-          column.exceptions.back().first == table_.num_rows) {
-        column.exceptions.pop_back();
-      }
-      const auto row = static_cast<std::ptrdiff_t>(table_.num_rows);
-      for (std::ptrdiff_t* const first :
-           {&column.first_decimal_comma, &column.first_decimal_point}) {
-        if (*first == row) *first = -1;
-      }
-    }
-  }
-
   void TakeOddRow(std::size_t line, std::size_t found) {
-    UndoRow();
+    rows_->Undo(column_);
     odd_rows_.Add(line, found, table_.num_rows);
   }
 
@@ -506,89 +460,38 @@ class Parser {
     Say(odd_rows_.LeftOutText(layout_));
   }
 
-  void ForgetRows() {
-    for (CsvColumn& column : table_.columns) {
-      column.values = {};
-      column.exceptions.clear();
-      column.texts.clear();
-      column.first_decimal_comma = column.first_decimal_point = -1;
-    }
-    texts_.assign(table_.columns.size(), {});
-    table_.line_runs.clear();
-    table_.num_rows = 0;
-    odd_rows_ = {};
-    title_lines_.clear();
-    loose_ = {};
-    short_rows_.clear();
-  }
-
   // ---- Cells.
 
   // Reads a cell into its column; false where the row ends with it.
   bool ReadCell() {
-    CsvColumn& column = table_.columns[column_];
     NumberForm form;
-    const std::string_view number = cells_.NextNumber(&form.value);
-    if (!number.empty()) {
-      form.decimal_point = number.find('.') != std::string_view::npos;
-      StoreNumber(number, form, &column);
-      return cells_.PassEnd();
+    std::string_view text = cells_.NextNumber(&form.value);
+    bool is_number = !text.empty();
+    if (is_number) {
+      form.decimal_point = text.find('.') != std::string_view::npos;
+    } else {
+      text = cells_.Next();
+      if (column_ + 1 == num_named_) last_named_is_empty_ = text.empty();
+      is_number = ReadNumberForm(text, dialect_.decimal_comma, &form);
     }
-    const std::string_view field = cells_.Next();
-    if (column_ + 1 == num_named_) last_named_is_empty_ = field.empty();
-    if (ReadNumberForm(field, dialect_.decimal_comma, &form)) {
-      StoreNumber(field, form, &column);
-    } else if (const Loose loose = ReadLooseNumber(field,
+    if (is_number) {
+      rows_->AddNumber(column_, text, form);
+    } else if (const Loose loose = ReadLooseNumber(text,
                                                    dialect_.decimal_comma,
                                                    dialect_.decimal_points,
                                                    &form);
                loose != Loose::kNone) {
+      is_number = true;
       loose_.Add(loose, cells_.line());
-      StoreLooseNumber(form, &column);
+      rows_->AddValue(column_, form);
     } else {
-      if (!field.empty() && column_ >= layout_.num_names) is_beyond_ = true;
-      StoreText(field, &column);
+      rows_->AddText(column_, AsUtf8(TextOf(text)));
+    }
+    num_numbers_ += is_number ? 1 : 0;
+    if ((is_number || !text.empty()) && column_ >= layout_.num_names) {
+      is_beyond_ = true;
     }
     return cells_.PassEnd();
-  }
-
-  void StoreNumber(std::string_view text,
-                   const NumberForm& form,
-                   CsvColumn* column) {
-    ++num_numbers_;
-    if (column_ >= layout_.num_names) is_beyond_ = true;
-    ColumnShape& shape = shapes_[column_];
-    if (!form.decimal_comma && !form.decimal_point) {
-      shape.most_whole = std::max(shape.most_whole, std::abs(form.value));
-      column->values.push_back(form.value);
-      return;
-    }
-    const std::size_t mark = text.find(form.decimal_comma ? ',' : '.');
-    const bool may_part = MayPartThousands(text, mark);
-    if (shape.by_thousands && may_part) {
-      column->values.push_back(std::round(1000.0 * form.value));
-      return;
-    }
-    shape.any_parted = true;
-    shape.all_threes = shape.all_threes && may_part;
-    shape.most_parted = std::max(shape.most_parted, std::abs(form.value));
-    shape.least_parted = std::min(shape.least_parted, std::abs(form.value));
-    column->NoteMarks(table_.num_rows, form.decimal_comma, !form.decimal_comma);
-    column->values.push_back(form.value);
-  }
-
-  void StoreLooseNumber(const NumberForm& form, CsvColumn* column) {
-    ++num_numbers_;
-    if (column_ >= layout_.num_names) is_beyond_ = true;
-    column->NoteMarks(table_.num_rows, form.decimal_comma, form.decimal_point);
-    column->values.push_back(form.value);
-  }
-
-  void StoreText(std::string_view field, CsvColumn* column) {
-    const std::uint32_t index =
-        texts_[column_].IndexOf(AsUtf8(TextOf(field)), &column->texts);
-    column->exceptions.emplace_back(table_.num_rows, index);
-    column->values.push_back(std::numeric_limits<double>::quiet_NaN());
   }
 
   static constexpr std::size_t kShownName = 20;
@@ -602,9 +505,8 @@ class Parser {
   bool in_data_ = false;
   std::size_t num_named_ = 0;  // columns down to the last with a name
   std::vector<std::string> names_as_written_;  // none without a header
-  std::vector<TextIndex> texts_;               // (columns)
-  std::vector<ColumnShape> shapes_;
   CsvTable table_;
+  std::optional<RowBuilder> rows_;  // of it, once it has columns
 
   // Of the row that is being read.
   std::size_t column_ = 0;
@@ -612,7 +514,6 @@ class Parser {
   bool is_beyond_ = false;  // it has something beyond the last name
   bool last_named_is_empty_ = false;
   bool below_names_ = false;
-  bool any_undone_ = false;  // rows
 
   LooseNumbers loose_;
   std::vector<TitleLine> title_lines_;  // among the rows
@@ -624,38 +525,11 @@ class Parser {
 
 }  // namespace
 
-CsvTable ParseCsv(std::string_view text, const std::string& name, OddRows odd) {
-  std::string unpacked;
-  std::optional<std::string> sheet;
-  try {
-    if (IsGzip(text)) {
-      unpacked = Gunzip(
-          text, std::min(kMostTextOfPrograms, MostUnpacked(text.size())));
-      if (IsGzip(unpacked)) unpacked.clear();
-      text = unpacked;
-    }
-    sheet = SheetText(text, SplitSheetPath(name).sheet);
-  } catch (const InputError& error) {
-    throw InputError(PrintablePath(name) + ": " + error.what());
-  }
-  const EncodedText converted =
-      sheet ? EncodedText{.text = *sheet, .encoding = ""}
-            : TextOfFile(text, name);
-  if (!converted.text.empty()) text = converted.text;
-  const std::optional<std::string> rewritten = RewrittenText(text);
-  if (rewritten) text = *rewritten;
-  const char delimiter = sheet ? '\t' : CsvCells::kNoDelimiter;
-  CsvTable table = Parser(text, name, delimiter, odd).Parse();
-  TurnTable(&table);
-  FoldPositions(&table);
-  SpreadReadings(&table);
-  if (!converted.encoding.empty()) {
-    table.remarks.insert(table.remarks.begin(),
-                         PrintablePath(name) + ": the text is read as " +
-                             converted.encoding +
-                             ", by the words of its first lines");
-  }
-  return table;
+CsvTable ParseText(std::string_view text,
+                   const std::string& name,
+                   char delimiter,
+                   OddRows odd) {
+  return Parser(text, name, delimiter, odd).Parse();
 }
 
 }  // namespace errmap::data

@@ -3,8 +3,8 @@
 #include <utility>
 #include <vector>
 
-#include "data/tables/missing_cells.h"
-#include "data/tables/unit_cells.h"
+#include "data/tables/cells/missing_cells.h"
+#include "data/tables/cells/unit_cells.h"
 #include "data/text.h"
 
 namespace errmap::data {

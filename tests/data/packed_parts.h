@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "data/tables/gzip.h"
+#include "data/tables/text/gzip.h"
 
 namespace errmap::testing {
 

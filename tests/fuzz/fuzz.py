@@ -35,7 +35,7 @@ RECORDS = " ".join([RECORD + "record", *(f"{RECORD}{part}_record" for part in PA
 
 # Dictionary, longest input in bytes, sources whose edges count.
 READERS = {
-    "csv": ("csv", 4096, "data/tables/csv data/measurements/column_ data/measurements/faults/column_ data/measurements/making/idle_inputs data/measurements/making/make_dataset data/measurements/session data/tables/text data/text"),
+    "csv": ("csv", 4096, "data/tables/csv data/tables/cells/csv data/measurements/column_ data/measurements/faults/column_ data/measurements/making/idle_inputs data/measurements/making/make_dataset data/measurements/session data/tables/text/text data/text"),
     "patterns": ("numbers", 4096, "data/formats/pattern_file data/formats/record_reader data/formats/fortran_format"),
     "holdout": ("spec", 128, "stats/holdout"),
     "spec": ("spec", 512, "models/model_spec models/recipe_catalog models/polynomial/formula"),

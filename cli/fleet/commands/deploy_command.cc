@@ -20,7 +20,7 @@
 #include "data/files/prepare_folder.h"
 #include "data/input_error.h"
 #include "data/sha256.h"
-#include "data/tables/gzip.h"
+#include "data/tables/text/gzip.h"
 #include "data/text.h"
 #include "data/throwing_as.h"
 #include "fitting/parallel_for.h"

@@ -20,7 +20,7 @@
 #include "data/files/shown_path.h"
 #include "data/input_error.h"
 #include "data/sha256.h"
-#include "data/tables/gzip.h"
+#include "data/tables/text/gzip.h"
 #include "data/text.h"
 #include "fitting/parallel_for.h"
 #include "models/file_recipe.h"

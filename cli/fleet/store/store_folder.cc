@@ -8,7 +8,7 @@
 #include "cli/desk/plan/component_names.h"
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
-#include "data/tables/gzip.h"
+#include "data/tables/text/gzip.h"
 #include "data/text.h"
 #include "data/throwing_as.h"
 #include "models/study/record/record_json.h"

@@ -15,7 +15,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "data/tables/gzip.h"
+#include "data/tables/text/gzip.h"
 #include "tests/data/measurements/as_measured.h"
 #include "tests/data/measurements/make_dataset_test_data.h"
 #include "tests/data/packed_parts.h"

@@ -1,4 +1,4 @@
-#include "data/tables/folded_positions.h"
+#include "data/tables/shapes/folded_positions.h"
 
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "data/tables/loose_numbers.h"
+#include "data/tables/cells/loose_numbers.h"
 
 #include <string>
 #include <vector>

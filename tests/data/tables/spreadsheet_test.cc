@@ -1,4 +1,4 @@
-#include "data/tables/spreadsheet.h"
+#include "data/tables/text/spreadsheet.h"
 
 #include <string>
 
@@ -7,8 +7,8 @@
 
 #include "data/csv.h"
 #include "data/input_error.h"
-#include "data/tables/gzip.h"
-#include "data/tables/zip_archive.h"
+#include "data/tables/text/gzip.h"
+#include "data/tables/text/zip_archive.h"
 #include "tests/data/packed_parts.h"
 #include "tests/places.h"
 

@@ -1,4 +1,4 @@
-#include "data/tables/missing_cells.h"
+#include "data/tables/cells/missing_cells.h"
 
 #include "data/text.h"
 

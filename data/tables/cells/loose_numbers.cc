@@ -1,4 +1,4 @@
-#include "data/tables/loose_numbers.h"
+#include "data/tables/cells/loose_numbers.h"
 
 #include <algorithm>
 #include <array>
@@ -12,8 +12,8 @@
 
 #include "data/column_words.h"
 #include "data/columns.h"
-#include "data/tables/missing_cells.h"
-#include "data/tables/unit_cells.h"
+#include "data/tables/cells/missing_cells.h"
+#include "data/tables/cells/unit_cells.h"
 #include "data/text.h"
 #include "data/units.h"
 

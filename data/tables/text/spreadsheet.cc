@@ -1,4 +1,4 @@
-#include "data/tables/spreadsheet.h"
+#include "data/tables/text/spreadsheet.h"
 
 #include <algorithm>
 #include <charconv>
@@ -13,8 +13,8 @@
 
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
-#include "data/tables/gzip.h"
-#include "data/tables/zip_archive.h"
+#include "data/tables/text/gzip.h"
+#include "data/tables/text/zip_archive.h"
 #include "data/text.h"
 
 namespace errmap::data {

@@ -1,4 +1,4 @@
-#include "data/tables/text_encoding.h"
+#include "data/tables/text/text_encoding.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "data/tables/csv_cells.h"
+#include "data/tables/cells/csv_cells.h"
 
 #include <array>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "data/tables/block_titles.h"
+#include "data/tables/shapes/block_titles.h"
 
 #include <algorithm>
 #include <iterator>

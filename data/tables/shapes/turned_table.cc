@@ -1,4 +1,4 @@
-#include "data/tables/turned_table.h"
+#include "data/tables/shapes/turned_table.h"
 
 #include <algorithm>
 #include <string>

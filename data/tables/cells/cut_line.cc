@@ -1,8 +1,8 @@
-#include "data/tables/cut_line.h"
+#include "data/tables/cells/cut_line.h"
 
 #include <algorithm>
 
-#include "data/tables/csv_cells.h"
+#include "data/tables/cells/csv_cells.h"
 
 namespace errmap::data {
 namespace {

@@ -1,11 +1,11 @@
-#include "data/tables/rewritten_text.h"
+#include "data/tables/text/rewritten_text.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <vector>
 
-#include "data/tables/csv_cells.h"
-#include "data/tables/labview_text.h"
+#include "data/tables/cells/csv_cells.h"
+#include "data/tables/text/labview_text.h"
 #include "data/text.h"
 
 namespace errmap::data {

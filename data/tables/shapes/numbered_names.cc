@@ -1,4 +1,4 @@
-#include "data/tables/numbered_names.h"
+#include "data/tables/shapes/numbered_names.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "data/tables/title_notes.h"
+#include "data/tables/shapes/title_notes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "data/column_words.h"
-#include "data/tables/unit_cells.h"
+#include "data/tables/cells/unit_cells.h"
 #include "data/text.h"
 #include "data/units.h"
 

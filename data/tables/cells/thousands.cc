@@ -1,4 +1,4 @@
-#include "data/tables/thousands.h"
+#include "data/tables/cells/thousands.h"
 
 #include <algorithm>
 #include <string>

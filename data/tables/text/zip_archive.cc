@@ -1,4 +1,4 @@
-#include "data/tables/zip_archive.h"
+#include "data/tables/text/zip_archive.h"
 
 #include <array>
 #include <cstdio>

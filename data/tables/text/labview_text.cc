@@ -1,4 +1,4 @@
-#include "data/tables/labview_text.h"
+#include "data/tables/text/labview_text.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "data/tables/row_figures.h"
+#include "data/tables/shapes/row_figures.h"
 
 #include <algorithm>
 #include <array>

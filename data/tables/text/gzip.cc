@@ -1,4 +1,4 @@
-#include "data/tables/gzip.h"
+#include "data/tables/text/gzip.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "data/tables/folded_positions.h"
+#include "data/tables/shapes/folded_positions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@
 
 #include "data/column_words.h"
 #include "data/columns.h"
-#include "data/tables/numbered_names.h"
-#include "data/tables/row_figures.h"
+#include "data/tables/shapes/numbered_names.h"
+#include "data/tables/shapes/row_figures.h"
 #include "data/text.h"
 #include "data/units.h"
 

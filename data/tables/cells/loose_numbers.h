@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "data/csv.h"
-#include "data/tables/csv_cells.h"
+#include "data/tables/cells/csv_cells.h"
 
 namespace errmap::data {
 

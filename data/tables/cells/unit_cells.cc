@@ -1,9 +1,9 @@
-#include "data/tables/unit_cells.h"
+#include "data/tables/cells/unit_cells.h"
 
 #include <algorithm>
 #include <string_view>
 
-#include "data/tables/csv_cells.h"
+#include "data/tables/cells/csv_cells.h"
 #include "data/text.h"
 #include "data/units.h"
 

@@ -1,4 +1,4 @@
-#include "data/tables/long_table.h"
+#include "data/tables/shapes/long_table.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 #include "data/column_words.h"
 #include "data/columns.h"
-#include "data/tables/unit_cells.h"
+#include "data/tables/cells/unit_cells.h"
 #include "data/text.h"
 
 namespace errmap::data {
