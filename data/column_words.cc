@@ -296,6 +296,11 @@ int ErrorSign(std::string_view column) {
   return opposite ? -1 : 1;
 }
 
+bool IsInUnitOfErrors(std::string_view column) {
+  const Header header = ReadHeader(column);
+  return IsUnitOfErrors(header.unit) && !IsAxisLetter(header.base);
+}
+
 bool IsCalledPosition(std::string_view name) {
   const Header header = ReadHeader(name);
   const bool fits =

@@ -54,6 +54,10 @@ bool IsCalled(std::string_view column, Word word);
 /// "nominal - actual", a difference of words unknown here); 0, of no error.
 int ErrorSign(std::string_view column);
 
+/// Whether a column is in a unit that only errors have, and no axis of one
+/// letter, which may be a position in it.
+bool IsInUnitOfErrors(std::string_view column);
+
 /// Whether a column is a position by its name: "position_mm", "x_pos_mm",
 /// "Sollposition [mm]", "X [mm]".
 bool IsCalledPosition(std::string_view name);

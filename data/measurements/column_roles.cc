@@ -1,12 +1,10 @@
 #include "data/measurements/column_roles.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_set>
 #include <utility>
 
 #include "data/argument_name.h"
@@ -15,9 +13,7 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/reading/derived_columns.h"
 #include "data/measurements/reading/reading.h"
-#include "data/measurements/reading/time_units.h"
 #include "data/measurements/sessions.h"
-#include "data/measurements/text_times.h"
 #include "data/tables/shapes/title_notes.h"
 #include "data/text.h"
 #include "data/units.h"
@@ -27,75 +23,6 @@ namespace {
 
 // What simulators write beside an error, and no controller has.
 constexpr std::string_view kTruth = "truth";
-
-// A column that nobody named: the index that spreadsheets and data frames
-// write beside their rows, under an empty name or (once read and written again)
-// as "Unnamed: 0".
-bool IsUnnamed(const CsvColumn& column) {
-  return !column.has_name || StartsWithIgnoringCase(column.name, "Unnamed:");
-}
-
-// True where no cell holds anything: a channel that was never logged.
-bool IsAllMissing(const CsvColumn& column) {
-  return column.is_text() &&
-         std::all_of(column.texts.begin(), column.texts.end(), IsMissingNumber);
-}
-
-// Whether two names differ in nothing but the letter of an axis: "disp_x" and
-// "disp_z", yet not "x" and "z", which may be positions.
-bool DifferInAxis(std::string_view a, std::string_view b) {
-  constexpr std::string_view kAxes = "xyzabcuvwXYZABCUVW";
-  if (a.size() != b.size() || a.size() < 2) return false;
-  std::size_t differing = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (EqualsIgnoringCase(a.substr(i, 1), b.substr(i, 1))) continue;
-    if (kAxes.find(a[i]) == kAxes.npos || kAxes.find(b[i]) == kAxes.npos) {
-      return false;
-    }
-    ++differing;
-  }
-  return differing == 1;
-}
-
-// Of one, and no axis of one letter, which may be a position.
-bool MeasuresErrors(const Header& header) {
-  return IsUnitOfErrors(header.unit) && !IsAxisLetter(header.base);
-}
-
-// Errors measured beside a target: not at hand when its map is used, and
-// telling it all too well.
-class MeasuredBeside {
- public:
-  explicit MeasuredBeside(std::string_view target)
-      : stem_(StemOfColumn(target)), header_(ReadHeader(target)) {}
-
-  // Why a column is no default input; "" where it may be one.
-  std::string_view Why(std::string_view name) const {
-    // "column_3" says nothing: the table has no line of names.
-    if (NamesPosition(name) || stem_ == "column") return "";
-    const std::string stem = StemOfColumn(name);
-    if (stem == stem_) return "measures the target's quantity";
-    const Header header = ReadHeader(name);
-    const bool is_called =
-        ErrorSign(name) != 0 &&
-        (IsLengthOrAngle(header.unit) || header.unit.symbol.empty());
-    const bool alike = header.unit == header_.unit &&
-                       header.unit_text.empty() == header_.unit_text.empty() &&
-                       DifferInAxis(stem, stem_);
-    return alike || is_called || StartsWithIgnoringCase(name, "error") ||
-                   MeasuresErrors(header)
-               ? "measures an error, as the target does"
-               : "";
-  }
-
- private:
-  std::string stem_;
-  Header header_;
-};
-
-bool Is(std::ptrdiff_t role, std::size_t index) {
-  return role == static_cast<std::ptrdiff_t>(index);
-}
 
 class RoleChooser {
  public:
@@ -124,7 +51,7 @@ class RoleChooser {
             ? DefaultTarget()
             : RequireColumn(table_, selection_.target, ArgumentName("target"));
     RequireNumbers(table_, {roles_.target, ColumnUse::kTarget});
-    if (Is(roles_.weight, roles_.target)) {
+    if (std::cmp_equal(roles_.weight, roles_.target)) {
       ThrowUnusable(table_,
                     "column " + QuotedName(Name(roles_.target)) +
                         " cannot be both the target and the weight; name "
@@ -143,7 +70,7 @@ class RoleChooser {
   std::vector<std::size_t> Candidates(const Wanted& wanted) const {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
-      if (!Is(roles_.weight, i) && Name(i) != selection_.group &&
+      if (!std::cmp_equal(roles_.weight, i) && Name(i) != selection_.group &&
           wanted(Name(i))) {
         found.push_back(i);
       }
@@ -210,7 +137,7 @@ class RoleChooser {
   std::vector<std::size_t> InUnitsOfErrors() const {
     return Candidates([&](std::string_view name) {
       const CsvColumn& column = table_.At(table_.Find(name));
-      return !column.is_text() && MeasuresErrors(ReadHeader(name)) &&
+      return !column.is_text() && IsInUnitOfErrors(name) &&
              !NamesPosition(name) && !Says(name, Word::kPosition) &&
              !Says(name, Word::kMeasured) && !Says(name, Word::kNominal);
     });
@@ -284,7 +211,7 @@ class RoleChooser {
     if (!selection_.group.empty()) {
       roles_.group = static_cast<std::ptrdiff_t>(
           RequireColumn(table_, selection_.group, ArgumentName("group")));
-      if (Is(roles_.group, roles_.target)) {
+      if (std::cmp_equal(roles_.group, roles_.target)) {
         ThrowUnusable(table_,
                       "column " + QuotedName(selection_.group) +
                           " cannot be both the target and the group; name "
@@ -294,202 +221,13 @@ class RoleChooser {
       return;
     }
     const std::ptrdiff_t cycle = CycleColumn(table_);
-    if (cycle != kNoColumn && !Is(cycle, roles_.target)) roles_.group = cycle;
+    if (cycle != kNoColumn && !std::cmp_equal(cycle, roles_.target))
+      roles_.group = cycle;
   }
 
   const CsvTable& table_;
   const DatasetSelection& selection_;
   ColumnRoles roles_;
-};
-
-class InputChooser {
- public:
-  InputChooser(const CsvTable& table,
-               const DatasetSelection& selection,
-               const ColumnRoles& roles,
-               const FoundSessions& found)
-      : table_(table), selection_(selection), roles_(roles), found_(found) {}
-
-  ChosenInputs Choose() {
-    if (selection_.inputs.empty() && !selection_.only_to_judge) {
-      ChooseDefaultInputs();
-    } else {
-      ChooseNamedInputs();
-    }
-    return std::move(chosen_);
-  }
-
- private:
-  const std::string& Name(std::size_t index) const {
-    return table_.At(index).name;
-  }
-
-  bool IsFiltered(std::size_t index) const {
-    return std::ranges::any_of(selection_.where, [&](const auto& filter) {
-      return filter.column == Name(index);
-    });
-  }
-
-  void Drop(std::size_t index, const std::string& why) {
-    chosen_.dropped.push_back({.column = Name(index), .why = why});
-  }
-
-  void ChooseNamedInputs() {
-    const std::unordered_set<std::string> excluded = ExcludedNames();
-    std::unordered_set<std::string> seen;
-    for (const std::string& name : selection_.inputs) {
-      const std::size_t index =
-          RequireColumn(table_,
-                        name,
-                        selection_.only_to_judge ? "an input of the map"
-                                                 : ArgumentName("inputs"));
-      if (!seen.insert(name).second) {
-        ThrowUnusable(table_,
-                      ArgumentName("inputs") + " names " + QuotedName(name) +
-                          " twice; name it once");
-      }
-      if (index == roles_.target) {
-        ThrowUnusable(table_,
-                      QuotedName(name) +
-                          " is the target and cannot be an input; leave it "
-                          "out of " +
-                          ArgumentName("inputs"));
-      }
-      if (excluded.contains(name)) {
-        ThrowUnusable(table_,
-                      QuotedName(name) + " is named in " +
-                          ArgumentName("inputs") + " and in " +
-                          ArgumentName("exclude") +
-                          "; take it out of one of them");
-      }
-      RequireNumbers(table_, {index, ColumnUse::kInput});
-      chosen_.inputs.push_back(index);
-    }
-  }
-
-  std::unordered_set<std::string> ExcludedNames() const {
-    for (const std::string& name : selection_.exclude) {
-      RequireColumn(table_, name, ArgumentName("exclude"));
-    }
-    return {selection_.exclude.begin(), selection_.exclude.end()};
-  }
-
-  // "columns a, b hold text and are left out of the inputs".
-  void SayLeftOut(const std::vector<std::string>& columns,
-                  const std::string& what,
-                  const std::string& behind) {
-    if (columns.empty()) return;
-    const bool one = columns.size() == 1;
-    chosen_.remarks.push_back(
-        (one ? "column " : "columns ") + ListOfNames(columns) + " " + what +
-        (one ? " and is" : " and are") + " left out" + behind);
-  }
-
-  // In a unit of time, and mostly not back: rows may be many in its step, and
-  // it may begin anew with each pass.
-  bool IsAnotherClock(const CsvColumn& column) const {
-    if (UnitOfColumn(column.name).quantity != Quantity::kTime) return false;
-    const Steps steps = StepsOf(column.values);
-    return steps.on > 2 * steps.back;
-  }
-
-  // Hours, kilometres, energy: what never falls over sessions is no sensor.
-  bool CountsOn(const CsvColumn& column) const {
-    constexpr std::size_t kFewestRows = 24;
-    const std::size_t n = column.values.size();
-    if (found_.sessions.labels.size() < 2 || n < kFewestRows ||
-        !column.exceptions.empty() ||
-        UnitOfColumn(column.name).quantity == Quantity::kTemperature) {
-      return false;
-    }
-    const Steps steps = StepsOf(column.values);
-    return steps.back == 0 && 4 * steps.on > n;
-  }
-
-  void ChooseDefaultInputs() {
-    const std::unordered_set<std::string> excluded = ExcludedNames();
-    const MeasuredBeside measured(Name(roles_.target));
-    std::vector<std::string> texts;
-    std::vector<std::string> beside;
-    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
-      if (i == roles_.target || Is(roles_.group, i) || Is(roles_.weight, i) ||
-          Is(found_.time_column, i) || Is(found_.date_column, i) ||
-          (Is(roles_.direction, i) && !table_.At(i).is_text()) ||
-          Name(i) == found_.sessions.column || IsFiltered(i)) {
-        continue;
-      }
-      if (KeepsRecord(table_.At(i))) {
-        if (!table_.At(i).is_text()) chosen_.records.push_back(i);
-        continue;
-      }
-      const std::string name = NameInRemark(Name(i));
-      if (excluded.contains(Name(i))) {
-        had_candidates_ = had_candidates_ || !table_.At(i).is_text();
-      } else if (IsUnnamed(table_.At(i))) {
-        had_candidates_ = true;
-        Drop(i, "has no name in the header");
-        chosen_.remarks.push_back(
-            "column " + name +
-            " has no name in the header and is left out of the "
-            "inputs");
-      } else if (NamesPosition(Name(i)) && table_.At(i).is_text()) {
-        RefuseNumbersAsText(table_, table_.At(i));
-      } else if (IsAllMissing(table_.At(i))) {
-        Drop(i, "no number in any row");
-        chosen_.remarks.push_back("input " + name +
-                                  " has no number in any row and is left out");
-      } else if (table_.At(i).is_text()) {
-        if (HoldsTimes(table_.At(i))) continue;
-        RefuseNumbersAsText(table_, table_.At(i));
-        if (!PartsComponents(table_, table_.At(i))) texts.push_back(Name(i));
-        chosen_.words.push_back(i);
-      } else if (CountsRows(table_.At(i)) && Name(i) != selection_.position) {
-        had_candidates_ = true;
-        Drop(i, "counts the rows");
-      } else if (IsAnotherClock(table_.At(i))) {
-        had_candidates_ = true;
-        Drop(i, "is another clock");
-      } else if (CountsOn(table_.At(i)) && Name(i) != selection_.position) {
-        had_candidates_ = true;
-        Drop(i, "never falls from one session to another, as a counter");
-      } else if (IsCalled(Name(i), Word::kPart) &&
-                 Name(i) != selection_.position) {
-        had_candidates_ = true;
-        Drop(i, "tells which one, and measures nothing");
-        chosen_.words.push_back(i);
-      } else if (const std::string_view why = measured.Why(Name(i));
-                 !why.empty() && Name(i) != selection_.position) {
-        had_candidates_ = true;
-        Drop(i, std::string(why));
-        beside.push_back(Name(i));
-      } else {
-        chosen_.inputs.push_back(i);
-      }
-    }
-    const bool one = beside.size() == 1;
-    SayLeftOut(beside,
-               one ? "measures an error as the target does"
-                   : "measure errors as the target does",
-               "; name " + std::string(one ? "it" : "them") + " in " +
-                   ArgumentName("inputs") + " to use " + (one ? "it" : "them"));
-    SayLeftOut(texts,
-               texts.size() == 1 ? "holds text" : "hold text",
-               " of the inputs");
-    if (chosen_.inputs.empty() && found_.time_column >= 0) {
-      had_candidates_ = true;
-      Drop(static_cast<std::size_t>(found_.time_column), "is the time");
-    }
-    if (chosen_.inputs.empty() && had_candidates_) {
-      ThrowNoInputs(table_, chosen_.dropped);
-    }
-  }
-
-  const CsvTable& table_;
-  const DatasetSelection& selection_;
-  const ColumnRoles& roles_;
-  const FoundSessions& found_;
-  bool had_candidates_ = false;  // numeric columns that might have been inputs
-  ChosenInputs chosen_;
 };
 
 // Whether a word of a name says that it counts: "cycles" of "elapsed_cycles".
@@ -603,27 +341,6 @@ std::ptrdiff_t TimeColumn(const CsvTable& table) {
 ColumnRoles ChooseRoles(const CsvTable& table,
                         const DatasetSelection& selection) {
   return RoleChooser(table, selection).Choose();
-}
-
-ChosenInputs ChooseInputs(const CsvTable& table,
-                          const DatasetSelection& selection,
-                          const ColumnRoles& roles,
-                          const FoundSessions& found) {
-  return InputChooser(table, selection, roles, found).Choose();
-}
-
-void ThrowNoInputs(const CsvTable& table,
-                   const std::vector<DroppedColumn>& dropped) {
-  constexpr std::size_t kMostReasons = 3;
-  std::vector<std::string> reasons;
-  for (const DroppedColumn& column : dropped) {
-    reasons.push_back(QuotedName(column.column) + " " + column.why);
-  }
-  ThrowUnusable(table,
-                "no input is left" + std::string(reasons.empty() ? "" : ": ") +
-                    ShortList(reasons, kMostReasons, "; ", "; and ") +
-                    "; name inputs with " + ArgumentName("inputs") +
-                    ", or keep dead ones with " + ArgumentName("keep_dead"));
 }
 
 }  // namespace errmap::data

@@ -7,7 +7,6 @@
 
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
-#include "data/measurements/sessions.h"
 
 namespace errmap::data {
 
@@ -27,23 +26,6 @@ struct ColumnRoles {
 /// no or several candidates for the target, one column as two of them.
 ColumnRoles ChooseRoles(const CsvTable& table,
                         const DatasetSelection& selection);
-
-struct ChosenInputs {
-  std::vector<std::size_t> inputs;     // (p) as named, else ascending
-  std::vector<DroppedColumn> dropped;  // would-be inputs left out, and why
-  std::vector<std::string> remarks;    // one line each, for people
-  std::vector<std::size_t> words;      // columns that name things, not amounts
-  std::vector<std::size_t> records;    // of numbers that only tell rows apart
-};
-
-/// The inputs that `selection` names, else the defaults of MakeDataset, which
-/// are not what `roles` and `found` have taken. Throws InputError: unknown
-/// column, one without numbers, named twice, named and excluded, the target; or
-/// no input left where there were candidates.
-ChosenInputs ChooseInputs(const CsvTable& table,
-                          const DatasetSelection& selection,
-                          const ColumnRoles& roles,
-                          const FoundSessions& found);
 
 /// The column that numbers the cycles by its name, and the only one that is
 /// called a time; kNoColumn: none. For tables that are not read whole.
@@ -71,12 +53,7 @@ bool CountsCycles(const ColumnInfo& column);
 
 /// Whether the values of a column make errors of their own, as up and down
 /// motion differ by hysteresis: named direction, axis, machine or alike, with 2
-/// to 24
-/// values and no empty cell.
+/// to 24 values and no empty cell.
 bool PartsComponents(const CsvTable& table, const CsvColumn& column);
-
-/// Throws InputError with the first reasons why no input is left.
-[[noreturn]] void ThrowNoInputs(const CsvTable& table,
-                                const std::vector<DroppedColumn>& dropped);
 
 }  // namespace errmap::data

@@ -13,6 +13,7 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/log_channels.h"
 #include "data/measurements/reading/clock.h"
+#include "data/measurements/reading/midnight.h"
 #include "data/measurements/reading/reading.h"
 #include "data/measurements/sessions.h"
 #include "data/measurements/text_times.h"

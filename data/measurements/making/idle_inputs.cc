@@ -60,6 +60,15 @@ bool CountsOn(const Eigen::Ref<const Eigen::VectorXd>& values,
   return true;
 }
 
+bool NeverFalls(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  constexpr Eigen::Index kFewestRows = 24;
+  const Eigen::Index last = values.size() - 1;
+  if (last < kFewestRows) return false;
+  const auto steps = values.tail(last) - values.head(last);
+  return (steps.array() >= 0.0).all() &&
+         4 * (steps.array() > 0.0).count() > values.size();
+}
+
 bool NumberEach(const Eigen::Ref<const Eigen::VectorXd>& values,
                 Eigen::Index sessions) {
   constexpr Eigen::Index kFewest = 3;

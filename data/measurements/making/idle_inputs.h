@@ -26,6 +26,10 @@ IdleInput HowIdle(const Eigen::Ref<const Eigen::VectorXd>& values);
 bool CountsOn(const Eigen::Ref<const Eigen::VectorXd>& values,
               const std::vector<Eigen::Index>& sessions);
 
+/// Whether values (m) of more than a few rows rise in at least a quarter of
+/// these and fall in none.
+bool NeverFalls(const Eigen::Ref<const Eigen::VectorXd>& values);
+
 /// Whether values (m) are whole numbers, one for each of `sessions` (at least
 /// three): the day of the year.
 bool NumberEach(const Eigen::Ref<const Eigen::VectorXd>& values,

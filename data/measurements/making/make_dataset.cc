@@ -17,6 +17,7 @@
 #include "data/measurements/dataset.h"
 #include "data/measurements/faults/drift_faults.h"
 #include "data/measurements/faults/row_faults.h"
+#include "data/measurements/input_choice.h"
 #include "data/measurements/making/idle_inputs.h"
 #include "data/measurements/making/leaking_inputs.h"
 #include "data/measurements/making/parts.h"
@@ -486,8 +487,8 @@ class DatasetBuilder {
     KeepInputs(left_out);
   }
 
-  // What numbers the cycles on through the sessions is a thermal state in none
-  // of them.
+  // What numbers the cycles on through the sessions, or never falls in any of
+  // them (hours, kilometres, energy), is a thermal state in none.
   void LeaveOutCounters() {
     if (selection_.only_to_judge || NumSessions() < 2) return;
     const std::vector<Eigen::Index> sessions = SessionOfRows();
@@ -495,12 +496,13 @@ class DatasetBuilder {
     for (std::size_t i = 0; i < left_out.size(); ++i) {
       const ColumnInfo& input = parts_.inputs[i];
       const auto values = parts_.input_values.col(static_cast<Eigen::Index>(i));
-      if (IsNamed(input.name) ||
-          !(CountsCycles(input) ||
-            (input.unit.symbol.empty() && NumberEach(values, NumSessions()))) ||
-          !CountsOn(values, sessions)) {
-        continue;
-      }
+      const bool may_count =
+          CountsCycles(input) ||
+          (input.unit.symbol.empty() && NumberEach(values, NumSessions()));
+      const bool counts = (may_count && CountsOn(values, sessions)) ||
+                          (input.unit.quantity != Quantity::kTemperature &&
+                           !IsPosition(input) && NeverFalls(values));
+      if (!counts || IsNamed(input.name)) continue;
       left_out[i] = true;
       LeaveOutInput(input.name,
                     "counts on from session to session",
@@ -578,26 +580,15 @@ class DatasetBuilder {
 
   // Rows of several machines, tools or directions, which err differently.
   void LookForParts() {
-    constexpr double kDiffers = 0.7;
     if (selection_.only_to_judge) return;
-    for (const std::size_t index : words_) {
-      const PartingColumn column =
-          PartBy(table_, table_.At(index), parts_.rows);
-      const bool parts = PartsComponents(table_, table_.At(index));
-      // A map for each day is of no use on another.
-      if (!parts && NumSessions() > 1 && IsOneInEach(SessionOfRows(), column)) {
-        continue;
-      }
-      const PartingEffect effect =
-          EffectOfParting(column, parts_.target_values, parts_.input_values);
-      if (!(effect.each < kDiffers * effect.one)) {
-        if (!parts) continue;
-        remarks_.push_back("rows that differ in " + QuotedName(column.name) +
-                           " may need a map each, by " + ArgumentName("where"));
-        continue;
-      }
-      doubts_.push_back(PartingText(column, effect, parts_.target.unit));
-      remarks_.push_back(doubts_.back());
+    for (PartingRemark& remark :
+         FindParts(table_,
+                   words_,
+                   parts_,
+                   NumSessions() > 1 ? SessionOfRows()
+                                     : std::vector<Eigen::Index>())) {
+      if (remark.is_doubt) doubts_.push_back(remark.text);
+      remarks_.push_back(std::move(remark.text));
     }
   }
 

@@ -8,8 +8,10 @@
 #include "data/argument_name.h"
 #include "data/columns.h"
 #include "data/measurements/column_checks.h"
+#include "data/measurements/column_roles.h"
 #include "data/measurements/least_squares.h"
 #include "data/measurements/rounded.h"
+#include "data/text.h"
 
 namespace errmap::data {
 namespace {
@@ -19,6 +21,22 @@ using Eigen::Index;
 constexpr std::size_t kMostParts = 12;
 constexpr Index kMostInputsLooked = 8;
 constexpr std::size_t kMostRowsOfPart = 2000;
+
+// A column of a few values that may part the rows into things that err
+// differently: machines, tools, directions.
+struct PartingColumn {
+  std::string name;
+  std::vector<std::string> values = {};  // distinct, in order of appearance
+  std::vector<std::size_t> codes = {};   // (rows asked for) index into values
+};
+
+// Root mean squares of what plain linear maps miss, degrees of freedom taken
+// into account: one for all rows, and one for each value of the column. NaN
+// where the rows are too few to tell.
+struct PartingEffect {
+  double one = 0.0;
+  double each = 0.0;
+};
 
 // Sum of squares that a linear map of these rows misses.
 double SquaresLeft(const std::vector<Index>& rows,
@@ -33,8 +51,8 @@ double SquaresLeft(const std::vector<Index>& rows,
   return (wanted - design * b).squaredNorm();
 }
 
-}  // namespace
-
+// That column in these rows of the table; no values where it has one or more
+// than 12, or lacks one of them somewhere.
 PartingColumn PartBy(const CsvTable& table,
                      const CsvColumn& column,
                      const std::vector<Index>& rows) {
@@ -48,6 +66,7 @@ PartingColumn PartBy(const CsvTable& table,
           .codes = std::move(codes)};
 }
 
+// Whether it changes only where a session (codes of the same rows) does.
 bool IsOneInEach(const std::vector<Index>& sessions,
                  const PartingColumn& column) {
   for (std::size_t i = 1; i < column.codes.size(); ++i) {
@@ -89,6 +108,7 @@ PartingEffect EffectOfParting(const PartingColumn& column,
           std::sqrt(squares / free_of(parts))};
 }
 
+// That the rows differ by the column, as a sentence in the target's unit.
 std::string PartingText(const PartingColumn& column,
                         const PartingEffect& effect,
                         const Unit& target) {
@@ -104,6 +124,36 @@ std::string PartingText(const PartingColumn& column,
          "): plain linear maps, one for each, miss by " + shown(effect.each) +
          ", one for all by " + shown(effect.one) +
          "; give each a map of its own, by " + ArgumentName("where") + ".";
+}
+
+}  // namespace
+
+std::vector<PartingRemark> FindParts(const CsvTable& table,
+                                     const std::vector<std::size_t>& words,
+                                     const Dataset::Parts& parts,
+                                     const std::vector<Index>& sessions) {
+  constexpr double kDiffers = 0.7;
+  std::vector<PartingRemark> remarks;
+  for (const std::size_t index : words) {
+    const CsvColumn& cells = table.columns[index];
+    const PartingColumn column = PartBy(table, cells, parts.rows);
+    const bool is_named = PartsComponents(table, cells);
+    // A map for each day is of no use on another.
+    if (!is_named && !sessions.empty() && IsOneInEach(sessions, column)) {
+      continue;
+    }
+    const PartingEffect effect =
+        EffectOfParting(column, parts.target_values, parts.input_values);
+    if (effect.each < kDiffers * effect.one) {
+      remarks.push_back({PartingText(column, effect, parts.target.unit), true});
+    } else if (is_named) {
+      remarks.push_back({"rows that differ in " + QuotedName(column.name) +
+                             " may need a map each, by " +
+                             ArgumentName("where"),
+                         false});
+    }
+  }
+  return remarks;
 }
 
 }  // namespace errmap::data

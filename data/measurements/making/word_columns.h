@@ -1,44 +1,30 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
 
 namespace errmap::data {
 
-/// A column of a few values that may part the rows into things that err
-/// differently: machines, tools, directions.
-struct PartingColumn {
-  std::string name;
-  std::vector<std::string> values = {};  // distinct, in order of appearance
-  std::vector<std::size_t> codes = {};   // (rows asked for) index into values
+/// What is said of a column of words.
+struct PartingRemark {
+  std::string text;
+  bool is_doubt = false;  // its rows err differently
 };
 
-/// That column in these rows of the table; no values where it has one or more
-/// than 12, or lacks one of them somewhere.
-PartingColumn PartBy(const CsvTable& table,
-                     const CsvColumn& column,
-                     const std::vector<Eigen::Index>& rows);
-
-/// Whether it changes only where a session (codes of the same rows) does.
-bool IsOneInEach(const std::vector<Eigen::Index>& sessions,
-                 const PartingColumn& column);
-
-/// Root mean squares of what plain linear maps miss, degrees of freedom taken
-/// into account: one for all rows, and one for each value of the column. NaN
-/// where the rows are too few to tell.
-struct PartingEffect {
-  double one = 0.0;
-  double each = 0.0;
-};
-PartingEffect EffectOfParting(const PartingColumn& column,
-                              const Eigen::VectorXd& target,
-                              const Eigen::MatrixXd& input_values);
-/// That the rows differ by the column, as a sentence in the target's unit.
-std::string PartingText(const PartingColumn& column,
-                        const PartingEffect& effect,
-                        const Unit& target);
+/// Looks whether columns of words (indices into the table) part the rows of a
+/// data set into things that err differently, as machines, tools and directions
+/// do, by plain linear maps of all rows and of each value: columns of 2 to 12
+/// values that change within one of `sessions` (a code for each of the rows;
+/// empty: one). Those that PartsComponents are mentioned in any case.
+std::vector<PartingRemark> FindParts(const CsvTable& table,
+                                     const std::vector<std::size_t>& words,
+                                     const Dataset::Parts& parts,
+                                     const std::vector<Eigen::Index>& sessions);
 
 }  // namespace errmap::data

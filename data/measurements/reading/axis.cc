@@ -143,7 +143,7 @@ class AxisFinder {
     std::size_t looked = 0;
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       const Unit unit = UnitOfColumn(Name(i));
-      const bool may_err = IsUnitOfErrors(unit) && !IsAxisLetter(Name(i));
+      const bool may_err = IsInUnitOfErrors(Name(i));
       if (!IsFree(i) || (may_err && ErrorSign(Name(i)) != 0) ||
           IsCalledPosition(Name(i)) ||
           !(IsLengthOrAngle(unit) || unit.symbol.empty()) ||

@@ -41,11 +41,4 @@ Clock FindClock(const CsvTable& table,
                 const DatasetSelection& selection,
                 const std::vector<Eigen::Index>& rows);
 
-/// Times of day that pass midnight go on, and so does a clock that is set back
-/// by an hour, to three steps, where summer time ends (with a remark). For rows
-/// in the order of measurement.
-void GoOnOverMidnight(const CsvTable& table,
-                      const std::vector<Eigen::Index>& rows,
-                      Clock* clock);
-
 }  // namespace errmap::data

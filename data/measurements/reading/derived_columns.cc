@@ -10,6 +10,9 @@
 
 #include "data/argument_name.h"
 #include "data/columns.h"
+#include "data/measurements/reading/axis.h"
+#include "data/measurements/reading/directions.h"
+#include "data/measurements/reading/label_parts.h"
 #include "data/measurements/reading/reading.h"
 #include "data/measurements/rounded.h"
 #include "data/text.h"
@@ -149,6 +152,36 @@ std::optional<DerivedTarget> FindDerivedTarget(const CsvTable& table,
       });
   return DerivedTarget{.column = std::move(column),
                        .of = static_cast<std::size_t>(found)};
+}
+
+void AddDerivedColumns(const std::vector<ColumnFilter>& filters,
+                       const std::string& position,
+                       const std::string& target,
+                       const std::string& session,
+                       CsvTable* table) {
+  const std::vector<Index> rows = AllRows(table->num_rows);
+  for (std::size_t i = 0; table->Find(session) < 0 && i < table->columns.size();
+       ++i) {
+    const CsvColumn& labels = table->columns[i];
+    if (session != SessionsNamedIn(labels.name)) continue;
+    auto sessions = FindSessionsInLabels(*table, labels, rows, 1);
+    if (!sessions) break;
+    table->columns.push_back(std::move(*sessions));
+  }
+  if (std::optional<DerivedTarget> derived =
+          FindDerivedTarget(*table, target)) {
+    table->columns.push_back(std::move(derived->column));
+  }
+  const bool needs_direction =
+      std::ranges::any_of(filters, [&](const ColumnFilter& filter) {
+        return filter.column == kDirectionColumn &&
+               table->Find(kDirectionColumn) < 0;
+      });
+  if (!needs_direction) return;
+  constexpr auto kNoTarget = static_cast<std::size_t>(-1);
+  const Axis axis = FindAxis(*table, {.position = position}, kNoTarget, rows);
+  if (axis.column < 0 || axis.motion.directions.empty()) return;
+  table->columns.push_back(DirectionColumn(*table, rows, axis.motion));
 }
 
 std::optional<ReadBeside> FindReadBeside(const CsvTable& table) {

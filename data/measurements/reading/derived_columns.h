@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "data/csv.h"
+#include "data/measurements/dataset.h"
 
 namespace errmap::data {
 
@@ -29,6 +30,15 @@ struct DerivedTarget {
 };
 std::optional<DerivedTarget> FindDerivedTarget(const CsvTable& table,
                                                const std::string& name);
+
+/// The columns that `filters`, `target` and `session` name and a table lacks,
+/// where its positions or labels can tell them: for files that a map is used
+/// on.
+void AddDerivedColumns(const std::vector<ColumnFilter>& filters,
+                       const std::string& position,
+                       const std::string& target,
+                       const std::string& session,
+                       CsvTable* table);
 
 /// Columns of which one was read where the other was commanded: they agree but
 /// for a small part of their range, and the values of the second come again.

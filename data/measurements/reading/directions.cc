@@ -1,12 +1,11 @@
 #include "data/measurements/reading/directions.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "data/column_words.h"
 #include "data/columns.h"
-#include "data/measurements/reading/axis.h"
-#include "data/measurements/reading/derived_columns.h"
-#include "data/measurements/reading/label_parts.h"
 #include "data/measurements/row_filters.h"
 #include "data/text.h"
 #include "data/units.h"
@@ -76,6 +75,81 @@ std::vector<ColumnFilter> DirectionsOf(const Reading& reading,
   return filters;
 }
 
+namespace {
+
+// Of each label, in order of appearance: rows that go up less those that go
+// down.
+std::vector<Index> CountUps(const CsvTable& table,
+                            const CsvColumn& column,
+                            const std::vector<Index>& rows,
+                            const Motion& motion,
+                            std::vector<std::string>* labels) {
+  LabelsOfRows found = LabelsOf(table, column, rows, kNoLimit);
+  std::vector<Index> ups(found.labels.size(), 0);
+  for (std::size_t i = 0; i < motion.directions.size(); ++i) {
+    ups[found.codes[i]] += motion.directions[i];
+  }
+  *labels = std::move(found.labels);
+  return ups;
+}
+
+}  // namespace
+
+Reading::Direction ReadDirection(const CsvTable& table,
+                                 const CsvColumn& column,
+                                 const std::vector<Index>& rows,
+                                 const Motion& motion,
+                                 bool ordered) {
+  Reading::Direction direction{.column = column.name,
+                               .by = "column",
+                               .values = {},
+                               .labels = {},
+                               .evidence = Evidence::kName,
+                               .sure = true};
+  std::vector<std::string>& labels = direction.labels;
+  const std::vector<Index> ups = CountUps(table, column, rows, motion, &labels);
+  if (labels.size() != 2) {
+    direction.values = labels;
+    if (labels.size() != 1) return direction;
+    std::optional<bool> up = IsUpwards(labels[0]);
+    if (motion.is_commanded && ordered && ups[0] != 0) {
+      up = ups[0] > 0;  // "R" may be reverse, or to the right
+    }
+    if (up) direction.values = {*up ? "up" : "down"};
+    return direction;
+  }
+  std::optional<bool> first_is_up;
+  if (ups[0] != ups[1]) first_is_up = ups[0] > ups[1];
+  const bool moves = motion.both_ways && ordered;
+  bool contradicts = false;
+  if (const auto said = FirstIsUp(labels[0], labels[1])) {
+    contradicts = moves && first_is_up == !*said;
+    first_is_up = said;
+  } else if (!moves) {
+    if (const auto way = IsUpwards(labels[0])) first_is_up = way;
+  }
+  direction.sure = first_is_up.has_value() && !contradicts;
+  if (first_is_up && !*first_is_up) std::swap(labels[0], labels[1]);
+  direction.values = {"up", "down"};
+  return direction;
+}
+
+std::optional<std::size_t> PlaceOfWay(const Reading::Direction& found,
+                                      const std::string& wanted) {
+  const auto label = std::ranges::find(found.labels, wanted);
+  if (label != found.labels.end()) {
+    return static_cast<std::size_t>(label - found.labels.begin());
+  }
+  const std::optional<bool> upwards = IsUpwards(wanted);
+  const auto value =
+      std::ranges::find_if(found.values, [&](const std::string& way) {
+        return EqualsIgnoringCase(way, wanted) ||
+               (upwards && IsUpwards(way) == upwards);
+      });
+  if (value == found.values.end()) return std::nullopt;
+  return static_cast<std::size_t>(value - found.values.begin());
+}
+
 CsvColumn DirectionColumn(const CsvTable& table,
                           const std::vector<Index>& rows,
                           const Motion& motion) {
@@ -84,36 +158,6 @@ CsvColumn DirectionColumn(const CsvTable& table,
     codes[static_cast<std::size_t>(rows[i])] = motion.directions[i] > 0 ? 0 : 1;
   }
   return WordColumn(kDirectionColumn, codes, {"up", "down", ""});
-}
-
-void AddDerivedColumns(const std::vector<ColumnFilter>& filters,
-                       const std::string& position,
-                       const std::string& target,
-                       const std::string& session,
-                       CsvTable* table) {
-  const std::vector<Index> rows = AllRows(table->num_rows);
-  for (std::size_t i = 0; table->Find(session) < 0 && i < table->columns.size();
-       ++i) {
-    const CsvColumn& labels = table->columns[i];
-    if (session != SessionsNamedIn(labels.name)) continue;
-    auto sessions = FindSessionsInLabels(*table, labels, rows, 1);
-    if (!sessions) break;
-    table->columns.push_back(std::move(*sessions));
-  }
-  if (std::optional<DerivedTarget> derived =
-          FindDerivedTarget(*table, target)) {
-    table->columns.push_back(std::move(derived->column));
-  }
-  const bool needs_direction =
-      std::ranges::any_of(filters, [&](const ColumnFilter& filter) {
-        return filter.column == kDirectionColumn &&
-               table->Find(kDirectionColumn) < 0;
-      });
-  if (!needs_direction) return;
-  constexpr auto kNoTarget = static_cast<std::size_t>(-1);
-  const Axis axis = FindAxis(*table, {.position = position}, kNoTarget, rows);
-  if (axis.column < 0 || axis.motion.directions.empty()) return;
-  table->columns.push_back(DirectionColumn(*table, rows, axis.motion));
 }
 
 }  // namespace errmap::data

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,23 @@ std::ptrdiff_t DirectionByValues(const CsvTable& table,
                                  const std::vector<Eigen::Index>& rows,
                                  const Motion& motion);
 
+/// Which of the two values of a column is upwards, by words that say it of the
+/// positions ("up" and "down", "+" and "-"). Others ("forward", "A") say
+/// nothing of them, and the order of the rows tells. Where it contradicts the
+/// words it may be another than that of measurement: the file's words are kept,
+/// unsure. `motion` is that of `rows`, without passes where there is none;
+/// `ordered`: the rows are in the order of measurement.
+Reading::Direction ReadDirection(const CsvTable& table,
+                                 const CsvColumn& column,
+                                 const std::vector<Eigen::Index>& rows,
+                                 const Motion& motion,
+                                 bool ordered);
+
+/// Index of the way that somebody wants: the one that the file calls so, else
+/// the one that goes so; nothing where none does.
+std::optional<std::size_t> PlaceOfWay(const Reading::Direction& found,
+                                      const std::string& wanted);
+
 /// The rows of each of the two ways through the positions, as filters; none
 /// where there is one way, or `selection` has taken one.
 std::vector<ColumnFilter> DirectionsOf(const Reading& reading,
@@ -39,14 +57,5 @@ std::vector<ColumnFilter> DirectionsOf(const Reading& reading,
 CsvColumn DirectionColumn(const CsvTable& table,
                           const std::vector<Eigen::Index>& rows,
                           const Motion& motion);
-
-/// The columns that `filters`, `target` and `session` name and a table lacks,
-/// where its positions or labels can tell them: for files that a map is used
-/// on.
-void AddDerivedColumns(const std::vector<ColumnFilter>& filters,
-                       const std::string& position,
-                       const std::string& target,
-                       const std::string& session,
-                       CsvTable* table);
 
 }  // namespace errmap::data

@@ -16,6 +16,7 @@
 #include "data/measurements/reading/directions.h"
 #include "data/measurements/reading/label_parts.h"
 #include "data/measurements/reading/merged_cells.h"
+#include "data/measurements/reading/midnight.h"
 #include "data/measurements/reading/row_order.h"
 #include "data/measurements/row_filters.h"
 #include "data/text.h"
@@ -216,8 +217,11 @@ class TableReader {
     // Dates go back hardly ever; hours, and what begins anew, each day.
     const bool often =
         4 * back > n || (clock_.dated && back >= 3 && 50 * back > n);
-    const bool disorder = clock_.is_found() &&
-                          (often || (sorted && back > 0) || FilesInterleave());
+    const bool disorder =
+        clock_.is_found() &&
+        (often || (sorted && back > 0) ||
+         (clock_.dated && given_.parts.size() > 1 &&
+          FilesInterleave(clock_.time, base_rows_, given_.parts)));
     const bool mixed = !clock_.is_found() && CyclesAreMixed();
     if (disorder && SortByTime()) {
       read_.reading.order = "time";
@@ -236,28 +240,6 @@ class TableReader {
       std::ranges::copy(base_rows_, clock_.time.begin());
     }
     nights_ = NightsOf(clock_, Passes(), selection_);
-  }
-
-  // Whether a file begins before another ends, by dates: one for each way.
-  bool FilesInterleave() const {
-    if (!clock_.dated || given_.parts.size() < 2) return false;
-    std::vector<std::pair<double, double>> spans;
-    std::size_t part = 0;
-    for (std::size_t i = 0; i < base_rows_.size(); ++i) {
-      const double at = clock_.time[static_cast<Index>(i)];
-      while (part < given_.parts.size() &&
-             std::cmp_less_equal(given_.parts[part].first, base_rows_[i])) {
-        spans.emplace_back(at, at);
-        ++part;
-      }
-      auto& [begin, end] = spans.back();
-      begin = std::min(begin, at);
-      end = std::max(end, at);
-    }
-    std::ranges::sort(spans);
-    return std::ranges::adjacent_find(spans, [](const auto& a, const auto& b) {
-             return b.first < a.second;
-           }) != spans.end();
   }
 
   bool CyclesAreMixed() const {
@@ -333,7 +315,8 @@ class TableReader {
     }
     read_.roles.direction = named;
     if (named >= 0) {
-      ReadDirectionColumn(table().At(named));
+      direction = ReadDirection(
+          table(), table().At(named), base_rows_, Passes(), ordered_);
     } else if (tells) {
       AddColumn(DirectionColumn(table(), base_rows_, read_.axis.motion));
       direction = {.column = kDirectionColumn,
@@ -352,83 +335,14 @@ class TableReader {
     FilterByDirection();
   }
 
-  // Which of its two values is upwards, by words that say it of the positions
-  // ("up" and "down", "+" and "-"). Others ("forward", "A") say nothing of
-  // them, and the order of the rows tells. Where it contradicts the words it
-  // may be another than that of measurement: the file's words are kept, unsure.
-  void ReadDirectionColumn(const CsvColumn& column) {
-    Reading::Direction& direction = read_.reading.direction;
-    direction.column = column.name;
-    direction.by = "column";
-    direction.evidence = Evidence::kName;
-    direction.sure = true;
-    const std::vector<Index> ups = CountUps(column, &direction.labels);
-    if (direction.labels.size() != 2) {
-      direction.values = direction.labels;
-      if (direction.labels.size() != 1) return;
-      std::optional<bool> up = IsUpwards(direction.labels[0]);
-      if (read_.axis.motion.is_commanded && ordered_ && ups[0] != 0) {
-        up = ups[0] > 0;  // "R" may be reverse, or to the right
-      }
-      if (up) direction.values = {*up ? "up" : "down"};
-      return;
-    }
-    std::optional<bool> first_is_up;
-    if (ups[0] != ups[1]) first_is_up = ups[0] > ups[1];
-    const bool moves = read_.axis.motion.both_ways && ordered_;
-    bool contradicts = false;
-    if (const auto said = FirstIsUp(direction.labels[0], direction.labels[1])) {
-      contradicts = moves && first_is_up == !*said;
-      first_is_up = said;
-    } else if (!moves) {
-      if (const auto way = IsUpwards(direction.labels[0])) first_is_up = way;
-    }
-    direction.sure = first_is_up.has_value() && !contradicts;
-    if (first_is_up && !*first_is_up) {
-      std::swap(direction.labels[0], direction.labels[1]);
-    }
-    direction.values = {"up", "down"};
-  }
-
-  // Of each label, in order of appearance: rows that go up less those that go
-  // down.
-  std::vector<Index> CountUps(const CsvColumn& column,
-                              std::vector<std::string>* labels) const {
-    const LabelsOfRows found = LabelsOf(table(), column, base_rows_, kNoLimit);
-    *labels = found.labels;
-    std::vector<Index> ups(labels->size(), 0);
-    const std::vector<int>& ways = Passes().directions;
-    for (std::size_t i = 0; i < ways.size(); ++i) {
-      ups[found.codes[i]] += ways[i];
-    }
-    return ups;
-  }
-
-  // --direction up: the rows that the file calls so, else those that go so.
-  static std::size_t PlaceOfWay(const Reading::Direction& found,
-                                const std::string& wanted) {
-    const auto label = std::ranges::find(found.labels, wanted);
-    if (label != found.labels.end()) {
-      return static_cast<std::size_t>(label - found.labels.begin());
-    }
-    const std::optional<bool> upwards = IsUpwards(wanted);
-    const auto value =
-        std::ranges::find_if(found.values, [&](const std::string& way) {
-          return EqualsIgnoringCase(way, wanted) ||
-                 (upwards && IsUpwards(way) == upwards);
-        });
-    return static_cast<std::size_t>(value - found.values.begin());
-  }
-
   void FilterByDirection() {
     const std::string& wanted = selection_.direction;
     if (wanted.empty() || table().Find(wanted) >= 0) return;
     const Reading::Direction& found = read_.reading.direction;
-    const std::size_t way = PlaceOfWay(found, wanted);
-    if (way < found.values.size()) {
+    if (const auto way = PlaceOfWay(found, wanted)) {
       if (found.column) {  // else all rows go this way
         read_.where.push_back(
-            {.column = *found.column, .value = found.labels[way]});
+            {.column = *found.column, .value = found.labels[*way]});
       }
       return;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -75,6 +76,19 @@ std::optional<std::vector<Index>> OrderOfTime(
     return time[a] < time[b];
   });
   return places;
+}
+
+bool FilesInterleave(
+    const Eigen::VectorXd& time,
+    const std::vector<Index>& rows,
+    const std::vector<std::pair<std::size_t, std::string>>& parts) {
+  std::vector<std::string> files;
+  auto next = parts.begin();
+  for (const Index row : rows) {
+    while (next != parts.end() && std::cmp_less_equal(next->first, row)) ++next;
+    files.push_back(std::prev(next)->second);
+  }
+  return !LieApart(time, files);
 }
 
 bool AreMixed(const std::vector<double>& cycles,

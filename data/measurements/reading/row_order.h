@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -14,6 +16,13 @@ namespace errmap::data {
 /// come again in other rows, as those of a clock that starts anew would.
 std::optional<std::vector<Eigen::Index>> OrderOfTime(
     const Eigen::VectorXd& time, const std::vector<std::string>& sessions);
+
+/// Whether a file begins before another ends, as one for each way does: `time`
+/// (n) of `rows` (n, ascending), `parts` as CsvTable has them.
+bool FilesInterleave(
+    const Eigen::VectorXd& time,
+    const std::vector<Eigen::Index>& rows,
+    const std::vector<std::pair<std::size_t, std::string>>& parts);
 
 /// Whether the number of the cycle (n) changes every few rows, and not to the
 /// next one or to the first, or at one position (n codes; none: not known).
