@@ -23,12 +23,12 @@ struct Zone {
 const Zone* FindZone(std::string_view letters) {
   static constexpr auto kZones = std::to_array<Zone>({
       {"Z", 0.0},          {"UTC", 0.0},        {"GMT", 0.0},
-      {"WET", 0.0},        {"WEST", 1.0, true}, {"CET", 1.0},
-      {"CEST", 2.0, true}, {"MEZ", 1.0},        {"MESZ", 2.0, true},
-      {"EET", 2.0},        {"EEST", 3.0, true}, {"MSK", 3.0},
-      {"JST", 9.0},        {"KST", 9.0},        {"EST", -5.0},
-      {"EDT", -4.0, true}, {"CDT", -5.0, true}, {"MDT", -6.0, true},
-      {"PST", -8.0},       {"PDT", -7.0, true},
+      {"WET", 0.0},        {"WEST", 1.0, true}, {"BST", 1.0, true},
+      {"CET", 1.0},        {"CEST", 2.0, true}, {"MEZ", 1.0},
+      {"MESZ", 2.0, true}, {"EET", 2.0},        {"EEST", 3.0, true},
+      {"MSK", 3.0},        {"JST", 9.0},        {"KST", 9.0},
+      {"EST", -5.0},       {"EDT", -4.0, true}, {"CDT", -5.0, true},
+      {"MDT", -6.0, true}, {"PST", -8.0},       {"PDT", -7.0, true},
   });
   const auto* const zone = std::ranges::find(kZones, letters, &Zone::letters);
   return zone == kZones.end() ? nullptr : zone;
@@ -96,6 +96,11 @@ std::optional<double> HoursOf(const CsvColumn& column) {
 }
 
 }  // namespace
+
+bool IsSummerTime(std::string_view letters) {
+  const Zone* const zone = FindZone(letters);
+  return zone != nullptr && zone->is_summer;
+}
 
 std::optional<double> SecondsAheadOfUtc(
     const CsvTable& table, const std::vector<std::ptrdiff_t>& columns) {

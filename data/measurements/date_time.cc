@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "data/measurements/clock_zone.h"
 #include "data/measurements/date_scanner.h"
 #include "data/text.h"
 
@@ -240,8 +241,6 @@ std::optional<double> TakeTime(Scanner* text, bool points, DateTime* parsed) {
 // What a zone's letters add to the hours of its winter: they are the same down
 // a file but for summer time. Nothing where they are no zone's.
 std::optional<double> SecondsOfZone(std::string_view zone) {
-  constexpr auto kSummer = std::to_array<std::string_view>(
-      {"CEST", "MESZ", "BST", "EEST", "EDT", "CDT", "MDT", "PDT"});
   constexpr std::size_t kMostLetters = 5;
   const bool are_capitals =
       std::ranges::all_of(zone, [](char c) { return c >= 'A' && c <= 'Z'; });
@@ -249,7 +248,7 @@ std::optional<double> SecondsOfZone(std::string_view zone) {
       (zone.size() == 1 && zone != "Z")) {
     return std::nullopt;
   }
-  return std::ranges::count(kSummer, zone) > 0 ? kHour : 0.0;
+  return IsSummerTime(zone) ? kHour : 0.0;
 }
 
 // Of "Z", "UTC", "CET", "+01", "+01:00" or "-0530"; 0 where the text is at its

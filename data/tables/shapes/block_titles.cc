@@ -17,7 +17,7 @@ constexpr std::string_view kDigitsOfDates = "0123456789";
 
 // "2024-07-14" of "day 1, 2024-07-14": three numbers between the same marks;
 // "" where there is none.
-std::string DateIn(std::string_view text) {
+std::string DateTokenIn(std::string_view text) {
   for (std::size_t at = text.find_first_of(kDigitsOfDates); at != text.npos;) {
     const std::size_t end =
         std::min(text.find_first_not_of("0123456789-./", at), text.size());
@@ -67,7 +67,7 @@ std::string NameLabels(std::vector<std::string>* labels) {
     return "session";
   }
   std::vector<std::string> dates;
-  std::ranges::transform(*labels, std::back_inserter(dates), DateIn);
+  std::ranges::transform(*labels, std::back_inserter(dates), DateTokenIn);
   const std::set<std::string> distinct(dates.begin(), dates.end());
   if (!distinct.contains("") && distinct.size() == labels->size()) {
     *labels = std::move(dates);
@@ -93,7 +93,7 @@ bool HasColumnOf(const CsvTable& table, const std::string& name) {
 }  // namespace
 
 bool NamesSession(const std::string& text) {
-  return !DateIn(text).empty() || Says(text, Word::kSession) ||
+  return !DateTokenIn(text).empty() || Says(text, Word::kSession) ||
          Says(text, Word::kRun) || Says(text, Word::kCycle);
 }
 
@@ -111,8 +111,8 @@ void PartByTitles(const std::vector<TitleLine>& lines,
   if (tell) name = NameLabels(&labels);
   if (!tell || HasColumnOf(*table, name)) {
     const auto told = std::ranges::find_if(lines, [](const TitleLine& line) {
-      return line.row > 0 &&
-             (Says(line.text, Word::kSession) || !DateIn(line.text).empty());
+      return line.row > 0 && (Says(line.text, Word::kSession) ||
+                              !DateTokenIn(line.text).empty());
     });
     if (told != lines.end() && !tell) {
       say("lines among the rows part no sessions: " + QuotedText(told->text) +

@@ -180,67 +180,31 @@ TEST(MessyFiles, PositionsMayBeWordsOfAProgram) {
 // By the words that the first lines then have.
 TEST(MessyFiles, TextMayBeInAnEncodingOfThePlace) {
   const Dataset clean = Make(Joined(Measured())).dataset;
-  struct Place {
-    const char* encoding;
-    std::vector<std::string> names;
-  };
-  for (const Place& place : std::vector<Place>{{"LATIN1",
-                                                {"Tag",
-                                                 "Zyklus",
-                                                 "Zeit [s]",
-                                                 "Position [mm]",
-                                                 "T1 [°C]",
-                                                 "T2 [°C]",
-                                                 "Abweichung [µm]"}},
-                                               {"CP850",
-                                                {"Tag",
-                                                 "Zyklus",
-                                                 "Zeit [s]",
-                                                 "Position [mm]",
-                                                 "T1 [°C]",
-                                                 "T2 [°C]",
-                                                 "Abweichung [µm]"}},
-                                               {"CP1250",
-                                                {"Dzień",
-                                                 "Cykl",
-                                                 "Czas [s]",
-                                                 "Położenie [mm]",
-                                                 "T1 [°C]",
-                                                 "T2 [°C]",
-                                                 "Błąd [µm]"}},
-                                               {"CP1251",
-                                                {"День",
-                                                 "Цикл",
-                                                 "Время [s]",
-                                                 "Положение [мм]",
-                                                 "Темп. 1 [°C]",
-                                                 "Темп. 2 [°C]",
-                                                 "Погрешность [мкм]"}},
-                                               {"CP932",
-                                                {"day",
-                                                 "サイクル",
-                                                 "時間 [s]",
-                                                 "位置[mm]",
-                                                 "温度1[℃]",
-                                                 "温度2[℃]",
-                                                 "誤差[μm]"}},
-                                               {"GB18030",
-                                                {"day",
-                                                 "循环",
-                                                 "时间 [s]",
-                                                 "位置[mm]",
-                                                 "温度1[℃]",
-                                                 "温度2[℃]",
-                                                 "误差[μm]"}}}) {
-    SCOPED_TRACE(place.encoding);
+  const std::string german =
+      "Tag,Zyklus,Zeit [s],Position [mm],T1 [°C],T2 [°C],Abweichung [µm]";
+  for (const auto& [encoding, names] :
+       std::vector<std::pair<const char*, std::string>>{
+           {"LATIN1", german},
+           {"CP850", german},
+           {"CP1250",
+            "Dzień,Cykl,Czas [s],Położenie [mm],T1 [°C],T2 [°C],Błąd [µm]"},
+           {"CP1251",
+            "День,Цикл,Время [s],Положение [мм],Темп. 1 [°C],Темп. 2 [°C],"
+            "Погрешность [мкм]"},
+           {"CP932",
+            "day,サイクル,時間 [s],位置[mm],温度1[℃],温度2[℃],誤差[μm]"},
+           {"GB18030", "day,循环,时间 [s],位置[mm],温度1[℃],温度2[℃],误差[μm]"},
+           {"CP949",
+            "day,사이클,시간 [s],위치[mm],온도1[℃],온도2[℃],오차[㎛]"}}) {
+    SCOPED_TRACE(encoding);
     Rows rows = Measured();
-    rows[0] = place.names;
-    const PreparedDataset prepared =
-        Make(Encoded(Joined(rows), place.encoding));
+    rows[0] = {names};
+    const PreparedDataset prepared = Make(Encoded(Joined(rows), encoding));
     EXPECT_EQ(prepared.dataset.target_values(), clean.target_values());
     EXPECT_EQ(prepared.dataset.input_values(), clean.input_values());
     EXPECT_EQ(prepared.dataset.target().unit.symbol, "um");
-    EXPECT_EQ(prepared.dataset.target().name, place.names.back());
+    EXPECT_EQ(prepared.dataset.target().name,
+              names.substr(names.rfind(',') + 1));
   }
 }
 
