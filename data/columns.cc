@@ -117,6 +117,19 @@ std::vector<std::ptrdiff_t> AllRows(std::size_t count) {
   return rows;
 }
 
+std::vector<std::ptrdiff_t> PartsOfRows(
+    const CsvTable& table, const std::vector<std::ptrdiff_t>& rows) {
+  std::vector<std::ptrdiff_t> parts;
+  auto next = table.parts.begin();
+  for (const std::ptrdiff_t row : rows) {
+    while (next != table.parts.end() && std::cmp_less_equal(next->first, row)) {
+      ++next;
+    }
+    parts.push_back(next - table.parts.begin() - 1);
+  }
+  return parts;
+}
+
 std::string FreeName(const CsvTable& table, const std::string& name) {
   std::string free = name;
   for (int i = 2; table.Find(free) >= 0; ++i) {

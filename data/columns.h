@@ -45,6 +45,11 @@ inline constexpr auto kNoLimit = static_cast<std::size_t>(-1);
 /// The rows 0, 1, ... of a table.
 std::vector<std::ptrdiff_t> AllRows(std::size_t count);
 
+/// Which of several files each of these rows (ascending) is of: index into
+/// CsvTable::parts, which are not empty.
+std::vector<std::ptrdiff_t> PartsOfRows(
+    const CsvTable& table, const std::vector<std::ptrdiff_t>& rows);
+
 /// The first of "name", "name_2", "name_3" that no column has.
 std::string FreeName(const CsvTable& table, const std::string& name);
 

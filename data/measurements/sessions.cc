@@ -78,16 +78,7 @@ class SessionFinder : private RowColumns {
     if (file < 0 || table_.At(file).texts.size() >= table_.parts.size()) {
       return {};
     }
-    std::vector<Index> files;
-    std::size_t part = 0;
-    for (const Index row : rows_) {
-      while (part + 1 < table_.parts.size() &&
-             std::cmp_less_equal(table_.parts[part + 1].first, row)) {
-        ++part;
-      }
-      files.push_back(static_cast<Index>(part));
-    }
-    return files;
+    return PartsOfRows(table_, rows_);
   }
 
   // Whether the time goes back where nearly each pass or file begins, and

@@ -221,7 +221,7 @@ class TableReader {
         clock_.is_found() &&
         (often || (sorted && back > 0) ||
          (clock_.dated && given_.parts.size() > 1 &&
-          FilesInterleave(clock_.time, base_rows_, given_.parts)));
+          FilesInterleave(clock_.time, PartsOfRows(given_, base_rows_))));
     const bool mixed = !clock_.is_found() && CyclesAreMixed();
     if (disorder && SortByTime()) {
       read_.reading.order = "time";

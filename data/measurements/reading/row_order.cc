@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -31,9 +30,9 @@ bool AreDistinct(const Eigen::VectorXd& time,
 }
 
 // Whether no session begins before another ends.
-bool LieApart(const Eigen::VectorXd& time,
-              const std::vector<std::string>& sessions) {
-  std::map<std::string, Span> spans;
+template <typename Label>
+bool LieApart(const Eigen::VectorXd& time, const std::vector<Label>& sessions) {
+  std::map<Label, Span> spans;
   for (std::size_t i = 0; i < sessions.size(); ++i) {
     const double at = time[static_cast<Index>(i)];
     Span& span = spans.try_emplace(sessions[i], at, at).first->second;
@@ -78,16 +77,8 @@ std::optional<std::vector<Index>> OrderOfTime(
   return places;
 }
 
-bool FilesInterleave(
-    const Eigen::VectorXd& time,
-    const std::vector<Index>& rows,
-    const std::vector<std::pair<std::size_t, std::string>>& parts) {
-  std::vector<std::string> files;
-  auto next = parts.begin();
-  for (const Index row : rows) {
-    while (next != parts.end() && std::cmp_less_equal(next->first, row)) ++next;
-    files.push_back(std::prev(next)->second);
-  }
+bool FilesInterleave(const Eigen::VectorXd& time,
+                     const std::vector<Index>& files) {
   return !LieApart(time, files);
 }
 

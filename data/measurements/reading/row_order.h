@@ -1,9 +1,7 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,12 +15,10 @@ namespace errmap::data {
 std::optional<std::vector<Eigen::Index>> OrderOfTime(
     const Eigen::VectorXd& time, const std::vector<std::string>& sessions);
 
-/// Whether a file begins before another ends, as one for each way does: `time`
-/// (n) of `rows` (n, ascending), `parts` as CsvTable has them.
-bool FilesInterleave(
-    const Eigen::VectorXd& time,
-    const std::vector<Eigen::Index>& rows,
-    const std::vector<std::pair<std::size_t, std::string>>& parts);
+/// Whether a file begins before another ends, as one for each way does: the
+/// times (n) of rows, and the file that each is of.
+bool FilesInterleave(const Eigen::VectorXd& time,
+                     const std::vector<Eigen::Index>& files);
 
 /// Whether the number of the cycle (n) changes every few rows, and not to the
 /// next one or to the first, or at one position (n codes; none: not known).

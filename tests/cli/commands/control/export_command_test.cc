@@ -406,7 +406,7 @@ TEST_F(CliExport, SaysSignUnitsInputsAndAgreement) {
 
 TEST_F(CliExport, MakesNamesSafeWhateverTheyAre) {
   Write("hostile.csv",
-        "\"*/ #error (* \"\"\"\"\"\" ?\?/\",t\xc3\xa9mp [\xc2\xb0"
+        "\"*/ #include (* \"\"\"\"\"\" ?\?/\",t\xc3\xa9mp [\xc2\xb0"
         "C],IF,error_mm\n1,2,3,0.1\n2,3,5,0.2\n3,5,4,0.35\n4,1,1,0.4\n"
         "5,2,8,0.5\n6,3,9,0.7\n");
   ASSERT_EQ(Run({"fit",
