@@ -4,6 +4,15 @@
 
 namespace errmap::data {
 
+std::vector<double> RowColumns::ValuesOf(const CsvColumn& column) const {
+  std::vector<double> values;
+  values.reserve(rows_.size());
+  for (const Eigen::Index row : rows_) {
+    values.push_back(column.values[static_cast<std::size_t>(row)]);
+  }
+  return values;
+}
+
 bool RowColumns::IsMeasured(std::size_t column) const {
   const std::string& name = table_.columns[column].name;
   return name == selection_.target || name == selection_.weight;

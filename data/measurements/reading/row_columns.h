@@ -34,6 +34,9 @@ class RowColumns {
     return numbers;
   }
 
+  /// Of a column, in these rows.
+  std::vector<double> ValuesOf(const CsvColumn& column) const;
+
   /// What is measured tells no time: filters would see the error itself.
   bool IsMeasured(std::size_t column) const;
   /// Throws InputError where it is not there, or measured.

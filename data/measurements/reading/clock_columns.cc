@@ -1,0 +1,188 @@
+#include "data/measurements/reading/clock_columns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "data/column_words.h"
+#include "data/measurements/column_roles.h"
+#include "data/measurements/reading/axis.h"
+#include "data/measurements/reading/row_columns.h"
+#include "data/measurements/reading/time_units.h"
+#include "data/measurements/sessions.h"
+#include "data/measurements/text_times.h"
+#include "data/text.h"
+#include "data/units.h"
+
+namespace errmap::data {
+namespace {
+
+using Eigen::Index;
+
+class ClockColumns : private RowColumns {
+ public:
+  using RowColumns::RowColumns;
+
+  std::vector<std::vector<std::size_t>> Find() const {
+    std::vector<std::vector<std::size_t>> found(6);
+    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+      const CsvColumn& column = table_.columns[i];
+      if (IsMeasured(i)) continue;
+      if (column.is_text()) {
+        const bool named =
+            NamesTime(column.name) || Says(column.name, Word::kTime);
+        const TextTimes times = ReadTimes(column);
+        if (times.all && times.any && times.any_hours) {
+          found[times.all_dates ? 0 : 3].push_back(i);
+        } else if (named) {
+          found[5].push_back(i);  // to be said why not
+        }
+        continue;
+      }
+      if (NamesTime(column.name)) {
+        found[StartsWithIgnoringCase(column.name, "time") ? 1 : 2].push_back(i);
+      } else if (MayBeTime(column)) {
+        found[4].push_back(i);
+      }
+    }
+    // Hours and what counts on: the dates beside the hours tell more.
+    if (found[0].empty() && !found[3].empty() &&
+        ColumnOfDates(table_, selection_) >= 0) {
+      std::swap(found[0], found[3]);
+    }
+    if (std::ranges::all_of(found, [](const auto& of) { return of.empty(); })) {
+      for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+        const CsvColumn& column = table_.columns[i];
+        if (IsMeasured(i)) continue;
+        if (CountsFrom1970(column)) found[0].push_back(i);
+        if (!GoesOn(column)) continue;
+        (IsCalledTime(column.name) ? found[1] : found[2]).push_back(i);
+      }
+    }
+    return found;
+  }
+
+ private:
+  // Of a name that says a time or a date somewhere: in a unit of time, or by
+  // values as a clock has them. "temp data" and "heating time temp" are
+  // thermometers, "tempo" and "cas" may be, "elapsed_cycles" is a count.
+  bool MayBeTime(const CsvColumn& column) const {
+    const Unit unit = UnitOfColumn(column.name);
+    const bool says_time = Says(column.name, Word::kTime);
+    const bool says_date = Says(column.name, Word::kDate);
+    if (!(says_time || says_date)) return false;
+    if (unit.quantity == Quantity::kTime) return true;
+    if (Says(column.name, Word::kTemperature)) return false;
+    if (!unit.symbol.empty() || CountsCycles({column.name, {}})) return false;
+    const std::vector<double> values = ValuesOf(column);
+    const Pace pace = PaceOf(values);
+    const bool are_days = says_date && !AreWholeDays(values) &&
+                          EpochOf(pace, Named::kDate).has_value();
+    return are_days || CountsFrom1970(column) ||
+           (says_time &&
+            (StepsOf(values).GoForward(values.size()) ||
+             (IsCalled(column.name, Word::kTime) && AreEven(values))));
+  }
+
+  // In whatever order: a step apart from one another, nearly all.
+  static bool AreEven(std::vector<double> values) {
+    std::erase_if(values, [](double value) { return std::isnan(value); });
+    std::ranges::sort(values);
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      steps.push_back(values[i] - values[i - 1]);
+    }
+    const double step = MedianStep(steps);
+    const auto even = std::ranges::count_if(steps, [&](double other) {
+      return std::abs(other - step) < 0.01 * step;
+    });
+    constexpr std::ptrdiff_t kNearlyAll = 90;  // percent
+    return 100 * even >= kNearlyAll * std::ssize(steps);
+  }
+
+  // In a unit of time, or called by one ("ms", "t", "MJD").
+  static bool IsCalledTime(std::string_view name) {
+    return !StatesTemperature(name) &&
+           (UnitOfColumn(name).quantity == Quantity::kTime ||
+            StatedUnit(name) != nullptr || EqualsIgnoringCase(name, "t") ||
+            NamedDays(name).has_value());
+  }
+
+  // What goes on with the rows: in a unit of time most often, else with each
+  // row but where it begins anew, in steps that are not all the same, as those
+  // of a number of the row are. What costs least is looked at first: most
+  // columns are sensors.
+  bool GoesOn(const CsvColumn& column) const {
+    const bool called = IsCalledTime(column.name);
+    if (column.is_text() || !column.exceptions.empty() || rows_.size() < 2 ||
+        !(called || UnitOfColumn(column.name).symbol.empty())) {
+      return false;
+    }
+    const std::vector<double> values = ValuesOf(column);
+    const Steps steps = StepsOf(values);
+    if (called) {
+      return steps.GoForward(values.size()) || AreEven(values) ||
+             NamedEpoch(column.name, PaceOf(values));
+    }
+    constexpr std::size_t kFewest = 24;
+    constexpr std::size_t kHardly = 50;
+    return values.size() >= kFewest && kHardly * steps.back < values.size() &&
+           steps.on + steps.back + 1 == values.size() &&
+           !Says(column.name, Word::kTemperature) &&
+           !CountsCycles({column.name, {}}) && !IsCalledPosition(column.name) &&
+           !(Says(column.name, Word::kDate) && AreWholeDays(values)) &&
+           !AreNumbersOfRows(values);
+  }
+
+  // All steps alike, or whole numbers without pauses.
+  static bool AreNumbersOfRows(const std::vector<double>& values) {
+    bool even = true;
+    bool whole = values[0] == std::floor(values[0]);
+    double longest = 0.0;
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      whole = whole && values[i] == std::floor(values[i]);
+      longest = std::max(longest, values[i] - values[i - 1]);
+      even = even && (i < 2 || std::abs(values[i] + values[i - 2] -
+                                        2.0 * values[i - 1]) < 1e-9);
+    }
+    if (even || !whole) return even;
+    return longest <= kLeapSteps * PaceOf(values).step || !AreEven(values);
+  }
+
+  bool CountsFrom1970(const CsvColumn& column) const {
+    constexpr std::size_t kFewest = 4;
+    if (column.is_text() || !column.exceptions.empty() ||
+        rows_.size() < kFewest || column.values[DataRow(0)] < 6.3e8) {
+      return false;
+    }
+    const std::vector<double> values = ValuesOf(column);
+    return !std::isnan(SecondsOfDigits(values[0])) ||
+           EpochOf(PaceOf(values), Named::kNothing).has_value();
+  }
+};
+
+}  // namespace
+
+std::vector<std::vector<std::size_t>> ColumnsOfTime(
+    const CsvTable& table,
+    const DatasetSelection& selection,
+    const std::vector<Index>& rows) {
+  return ClockColumns(table, selection, rows).Find();
+}
+
+std::ptrdiff_t ColumnOfDates(const CsvTable& table,
+                             const DatasetSelection& selection) {
+  std::ptrdiff_t found = -1;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const CsvColumn& column = table.columns[i];
+    if (column.name == selection.target || column.name == selection.weight ||
+        !HoldsDates(column)) {
+      continue;
+    }
+    if (found >= 0) return -1;
+    found = static_cast<std::ptrdiff_t>(i);
+  }
+  return found;
+}
+
+}  // namespace errmap::data
