@@ -65,6 +65,25 @@ CsvColumn TakeRows(const CsvColumn& column,
   return taken;
 }
 
+CsvTable TakeRows(const CsvTable& table,
+                  const std::vector<std::ptrdiff_t>& rows) {
+  CsvTable taken{.file = table.file,
+                 .columns = {},
+                 .num_rows = rows.size(),
+                 .line_runs = {},
+                 .parts = {},
+                 .titles = table.titles,
+                 .remarks = table.remarks};
+  for (const CsvColumn& column : table.columns) {
+    taken.columns.push_back(TakeRows(column, rows));
+  }
+  for (std::size_t i = 0; !table.line_runs.empty() && i < rows.size(); ++i) {
+    taken.line_runs.emplace_back(
+        i, table.LineOfRow(static_cast<std::size_t>(rows[i])));
+  }
+  return taken;
+}
+
 void AppendCells(const CsvColumn& more, CsvColumn* column) {
   const std::size_t rows = column->values.size();
   TextIndex index;

@@ -22,6 +22,10 @@ CsvColumn WordColumn(const std::string& name,
 CsvColumn TakeRows(const CsvColumn& column,
                    const std::vector<std::ptrdiff_t>& rows);
 
+/// Rows of a table, in this order; each keeps its line of the file.
+CsvTable TakeRows(const CsvTable& table,
+                  const std::vector<std::ptrdiff_t>& rows);
+
 /// The cells of `more` below those of `column`.
 void AppendCells(const CsvColumn& more, CsvColumn* column);
 

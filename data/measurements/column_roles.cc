@@ -193,10 +193,11 @@ class RoleChooser {
     if (!pair) return;
     const std::string& read = Name(pair->read);
     const std::string& sent = Name(pair->commanded);
-    const Unit& unit = UnitOfColumn(sent);
+    const Unit unit = UnitOfColumn(sent);
+    const std::string symbol = unit.symbol.empty() ? "mm" : unit.symbol;
     std::string difference = read + "-" + sent;
-    if (UnitOfColumn(difference) != unit)
-      difference += " [" + unit.symbol + "]";
+    if (UnitOfColumn(difference).symbol != symbol)
+      difference += " [" + symbol + "]";
     throw OpenQuestion(
         PrintablePath(table_.file),
         {.topic = "target",
@@ -204,7 +205,9 @@ class RoleChooser {
                      " what was measured where " + QuotedName(sent) +
                      " was commanded?",
          .answers = {{.option = ArgumentName("target", difference),
-                      .means = "yes, the error is actual - nominal"}}});
+                      .means = "yes, the error is actual - nominal" +
+                               std::string(unit.symbol.empty() ? ", both in mm"
+                                                               : "")}}});
   }
 
   void ChooseGroup() {

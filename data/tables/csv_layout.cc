@@ -80,7 +80,7 @@ class LayoutFinder {
     CellCounts counts;
     for (std::size_t i = 0; i < cells.size(); ++i) {
       if (i >= is_numeric_.size() || !is_numeric_[i]) continue;
-      if (IsNumber(cells[i])) {
+      if (IsNumber(cells[i]) || HasLabel(cells[i], i)) {
         ++counts.numbers;
       } else if (!IsMissingNumber(cells[i])) {
         ++counts.words;
@@ -89,7 +89,28 @@ class LayoutFinder {
     return counts;
   }
 
+  // What all cells of each column say before their numbers ("T1=21.4"), the
+  // first one's too, or "".
+  void FindLabels() {
+    for (const CsvRecord& record : records_) {
+      if (record.cells.size() != usual_) continue;
+      const bool is_first = labels_.empty();
+      labels_.resize(usual_);
+      for (std::size_t i = 0; i < usual_; ++i) {
+        std::string_view cell = record.cells[i];
+        const std::string label = TakeLabel(&cell).text;
+        if (is_first) labels_[i] = label;
+        if (label != labels_[i]) labels_[i].clear();
+      }
+    }
+  }
+
+  bool HasLabel(std::string_view cell, std::size_t column) const {
+    return !labels_[column].empty() && TakeLabel(&cell).text == labels_[column];
+  }
+
   void FindNumericColumns() {
+    FindLabels();
     std::vector<CellCounts> counts(usual_);
     std::size_t rows = 0;
     for (const CsvRecord& record : records_) {
@@ -97,7 +118,7 @@ class LayoutFinder {
       // The first row may be names.
       if (++rows == 2) counts.assign(usual_, {});
       for (std::size_t i = 0; i < usual_; ++i) {
-        if (IsNumber(record.cells[i])) {
+        if (IsNumber(record.cells[i]) || HasLabel(record.cells[i], i)) {
           ++counts[i].numbers;
         } else if (!IsMissingNumber(record.cells[i])) {
           ++counts[i].words;
@@ -244,6 +265,7 @@ class LayoutFinder {
     }
     std::string& name = layout_.names.front();
     if (name.starts_with("$$")) name.erase(0, 2);
+    if (first == row + 2) TakeNamesOfIndex(row + 1);
     TakeNamesOfBlock(row, &layout_.names);
     const std::size_t titles = TakeUpperNames(row) ? row - 1 : row;
     TakeTitles(titles);
@@ -282,6 +304,21 @@ class LayoutFinder {
         " has the units of the columns" +
         (has_others ? ", and the line above their names" : ""));
     return true;
+  }
+
+  // Names below those of the others, as pandas writes an index's:
+  // "day,cycle,,," under ",,x_mm,error_um".
+  void TakeNamesOfIndex(std::size_t row) {
+    const std::vector<std::string>& cells = records_[row].cells;
+    const bool are_apart = std::ranges::equal(
+        cells, layout_.names, [](const auto& cell, const auto& name) {
+          return cell.empty() != name.empty();
+        });
+    if (!are_apart || std::ranges::count(layout_.names, "") == 0) return;
+    for (std::size_t i = 0; i < cells.size(); ++i) layout_.names[i] += cells[i];
+    layout_.data = After(row);
+    Say("line " + std::to_string(records_[row].start.line) +
+        " names the columns that the line above does not");
   }
 
   // "CH1,bed,TEMP" above the table says what the column CH1 is.
@@ -550,8 +587,9 @@ class LayoutFinder {
   const CsvDialect& dialect_;
   std::string_view text_above_;
   std::vector<CsvRecord> records_;
-  std::size_t usual_ = 1;         // cells of most rows
-  std::vector<bool> is_numeric_;  // (usual_) most cells are numbers
+  std::size_t usual_ = 1;            // cells of most rows
+  std::vector<std::string> labels_;  // (usual_) before all cells' numbers
+  std::vector<bool> is_numeric_;     // (usual_) most cells are numbers
   std::size_t num_numeric_ = 0;
   CsvLayout layout_;
 };

@@ -16,7 +16,6 @@
 #include "data/tables/row_builder.h"
 #include "data/tables/shapes/block_titles.h"
 #include "data/tables/shapes/folded_positions.h"
-#include "data/tables/shapes/title_notes.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -273,7 +272,6 @@ class Parser {
         cells_.SkipLine();
       }
     }
-    TakeUnitOfNotes(&table_);
     if (nearest > 0) {
       title_lines_.insert(title_lines_.begin(),
                           {.row = 0, .text = titles[nearest - 1]});

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "data/columns.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/measured_files.h"
@@ -107,7 +108,7 @@ data::ReadTable ReadRows(const FittedModel& fitted,
           "needs them as measured, or a column of times");
     }
   }
-  if (!read.order.empty()) *table = data::InOrder(*table, read.order);
+  if (!read.order.empty()) *table = data::TakeRows(*table, read.order);
   for (const TrainedInput& input : fitted.inputs) {
     if (data::IsReadBySensor(input.column)) {
       read.reading.sensors.push_back(input.column.name);

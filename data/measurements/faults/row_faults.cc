@@ -30,16 +30,18 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+// "Mean", "1 Average", "End of file".
 bool IsSummary(std::string_view text) {
-  while (text.ends_with(':') || text.ends_with('.')) text.remove_suffix(1);
-  return EqualsIgnoringCase(text, "end of file") ||
-         IsOneOf(text,
-                 "mean average avg total totals sum summe gesamt mittel "
-                 "mittelwert moyenne media min max minimum maximum std stdev "
-                 "sd sigma median count range rms anzahl eof end ende massimo "
-                 "minimo m\u00e1ximo m\u00ednimo medel gemiddelde suma celkem "
-                 "razem \u6700\u5927\u503c \u6700\u5c0f\u503c "
-                 "\u5e73\u5747\u503c \u5e73\u5747");
+  constexpr std::string_view kSummaries =
+      "mean average avg total totals subtotal sum summe gesamt mittel "
+      "mittelwert moyenne media min max minimum maximum std stdev sd sigma "
+      "median count range rms anzahl eof end ende massimo minimo medel "
+      "gemiddelde suma celkem razem \u6700\u5927\u503c \u6700\u5c0f\u503c "
+      "\u5e73\u5747\u503c \u5e73\u5747";
+  const std::vector<std::string> words = WordsOf(text);
+  return std::ranges::any_of(words, [&](const std::string& word) {
+    return IsOneOf(word, kSummaries);
+  });
 }
 
 // Of the rows, what numbers or times must be for a word to be out of place.

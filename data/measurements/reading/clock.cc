@@ -350,9 +350,16 @@ class ClockFinder : private RowColumns {
       return;
     }
     std::vector<const TimeUnit*> fitting;
+    // As spreadsheets write a time of day: "0.3076389".
+    if (pace.least >= 0.0 && pace.most < 1.0 && IsCalled(name, Word::kTime)) {
+      fitting.push_back(FindTimeUnit("days"));
+    }
     for (const char* likely : {"s", "ms", "us", "min", "h", "days"}) {
       const TimeUnit* candidate = FindTimeUnit(likely);
-      if (pace.MayBeIn(*candidate)) fitting.push_back(candidate);
+      if (pace.MayBeIn(*candidate) &&
+          std::ranges::count(fitting, candidate) == 0) {
+        fitting.push_back(candidate);
+      }
     }
     if (fitting.empty()) fitting.push_back(FindTimeUnit("s"));
     Scale(*fitting.front(), 0.0, values);

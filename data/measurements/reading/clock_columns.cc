@@ -27,7 +27,7 @@ class ClockColumns : private RowColumns {
     std::vector<std::vector<std::size_t>> found(6);
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       const CsvColumn& column = table_.columns[i];
-      if (IsMeasured(i)) continue;
+      if (IsMeasured(i) || Repeats(i)) continue;
       if (column.is_text()) {
         const bool named =
             NamesTime(column.name) || Says(column.name, Word::kTime);
@@ -63,6 +63,20 @@ class ClockColumns : private RowColumns {
   }
 
  private:
+  // Whether the column has the values of an earlier one of that name: scopes
+  // write the time before each channel.
+  bool Repeats(std::size_t column) const {
+    const CsvColumn& later = table_.columns[column];
+    return std::any_of(
+        table_.columns.begin(),
+        table_.columns.begin() + static_cast<std::ptrdiff_t>(column),
+        [&](const CsvColumn& earlier) {
+          return later.name.starts_with(earlier.name) &&
+                 earlier.exceptions.empty() && later.exceptions.empty() &&
+                 std::ranges::equal(earlier.values, later.values);
+        });
+  }
+
   // Of a name that says a time or a date somewhere: in a unit of time, or by
   // values as a clock has them. "temp data" and "heating time temp" are
   // thermometers, "tempo" and "cas" may be, "elapsed_cycles" is a count.
@@ -84,8 +98,8 @@ class ClockColumns : private RowColumns {
              (IsCalled(column.name, Word::kTime) && AreEven(values))));
   }
 
-  // In whatever order: a step apart from one another, nearly all.
-  static bool AreEven(std::vector<double> values) {
+  // In whatever order: a step apart from one another, this percentage of them.
+  static bool AreEven(std::vector<double> values, std::ptrdiff_t percent = 90) {
     std::erase_if(values, [](double value) { return std::isnan(value); });
     std::ranges::sort(values);
     std::vector<double> steps;
@@ -96,8 +110,7 @@ class ClockColumns : private RowColumns {
     const auto even = std::ranges::count_if(steps, [&](double other) {
       return std::abs(other - step) < 0.01 * step;
     });
-    constexpr std::ptrdiff_t kNearlyAll = 90;  // percent
-    return 100 * even >= kNearlyAll * std::ssize(steps);
+    return 100 * even >= percent * std::ssize(steps);
   }
 
   // In a unit of time, or called by one ("ms", "t", "MJD").
@@ -146,7 +159,9 @@ class ClockColumns : private RowColumns {
                                         2.0 * values[i - 1]) < 1e-9);
     }
     if (even || !whole) return even;
-    return longest <= kLeapSteps * PaceOf(values).step || !AreEven(values);
+    constexpr std::ptrdiff_t kBetweenPauses = 75;
+    return longest <= kLeapSteps * PaceOf(values).step ||
+           !AreEven(values, kBetweenPauses);
   }
 
   bool CountsFrom1970(const CsvColumn& column) const {

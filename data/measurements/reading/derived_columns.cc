@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "data/argument_name.h"
+#include "data/column_words.h"
 #include "data/columns.h"
 #include "data/measurements/reading/axis.h"
 #include "data/measurements/reading/directions.h"
@@ -49,24 +50,6 @@ CsvTable Borrowed(const CsvTable& table) {
   return borrowed;
 }
 
-CsvTable InOrder(const CsvTable& table, const std::vector<Index>& order) {
-  CsvTable sorted{.file = table.file,
-                  .columns = {},
-                  .num_rows = table.num_rows,
-                  .line_runs = {},
-                  .parts = {},
-                  .titles = table.titles,
-                  .remarks = table.remarks};
-  for (const CsvColumn& column : table.columns) {
-    sorted.columns.push_back(TakeRows(column, order));
-  }
-  for (std::size_t i = 0; !table.line_runs.empty() && i < order.size(); ++i) {
-    sorted.line_runs.emplace_back(
-        i, table.LineOfRow(static_cast<std::size_t>(order[i])));
-  }
-  return sorted;
-}
-
 namespace {
 
 // The values of a column by a function of them, under a name.
@@ -94,9 +77,10 @@ std::optional<DerivedTarget> Difference(const CsvTable& table,
     const std::ptrdiff_t a = table.Find(names.substr(0, at));
     const std::ptrdiff_t b = table.Find(names.substr(at + 1));
     if (a < 0 || b < 0) continue;
-    const Unit of_a = UnitOfColumn(table.At(a).name);
-    const Unit of_b = UnitOfColumn(table.At(b).name);
+    Unit of_a = UnitOfColumn(table.At(a).name);
+    Unit of_b = UnitOfColumn(table.At(b).name);
     const Unit& in = unit.symbol.empty() ? of_b : unit;
+    if (of_a.symbol.empty() && of_b.symbol.empty()) of_a = of_b = in;
     if (!AreConvertible(of_a, in) || !AreConvertible(of_b, in)) continue;
     const ColumnValues& taken_off = table.At(b).values;
     CsvColumn column =
@@ -190,8 +174,12 @@ std::optional<ReadBeside> FindReadBeside(const CsvTable& table) {
   const std::size_t count = std::min(table.columns.size(), kMostColumns);
   std::vector<std::size_t> positions;
   for (std::size_t i = 0; i < count; ++i) {
+    const std::string& name = table.columns[i].name;
+    const Unit unit = UnitOfColumn(name);
     if (!table.columns[i].is_text() &&
-        IsLengthOrAngle(UnitOfColumn(table.columns[i].name))) {
+        (IsLengthOrAngle(unit) ||
+         (unit.symbol.empty() && (IsCalled(name, Word::kNominal) ||
+                                  IsCalled(name, Word::kMeasured))))) {
       positions.push_back(i);
     }
   }

@@ -15,10 +15,6 @@ namespace errmap::data {
 /// The same numbers without a copy of them; `table` must outlive it.
 CsvTable Borrowed(const CsvTable& table);
 
-/// The rows of a table in another order (indices, each once); each keeps its
-/// line of the file.
-CsvTable InOrder(const CsvTable& table, const std::vector<Eigen::Index>& order);
-
 /// A target that the table has under another name: "-correction_um", its values
 /// with the other sign; "actual_mm-nominal_mm", a difference in the unit of
 /// what is taken off; "Error [um]" of a column "Error" without a unit. Each may

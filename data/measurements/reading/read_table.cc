@@ -285,7 +285,7 @@ class TableReader {
     for (std::size_t row = 0; row < taken.size(); ++row) {
       if (!taken[row]) order.push_back(static_cast<Index>(row));
     }
-    read_.table = InOrder(table(), order);
+    read_.table = data::TakeRows(table(), order);
     read_.order = std::move(order);
     base_rows_ = AllRows(base_rows_.size());
     return true;

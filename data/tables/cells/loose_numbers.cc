@@ -123,6 +123,36 @@ Loose ReadLooseNumber(std::string_view cell,
   return ParseNumber(sign + number, &form->value) ? kind : Loose::kNone;
 }
 
+CellLabel TakeLabel(std::string_view* cell) {
+  std::string_view rest = *cell;
+  while (rest.size() > 2 && (rest[0] == 'N' || rest[0] == 'G') &&
+         IsNumeral(rest[1])) {
+    rest = Trimmed(rest.substr(1 + DigitsOf(rest.substr(1))));
+  }
+  constexpr std::string_view kAxes = "XYZUVWABC";
+  constexpr std::string_view kLetters =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_";
+  std::size_t size = std::min(rest.find_first_not_of(kLetters), rest.size());
+  const std::size_t sign =
+      std::min(rest.find_first_not_of("0123456789", size), rest.size());
+  const bool has_sign = size > 0 && sign + 1 < rest.size() && rest[sign] == '=';
+  if (has_sign) size = sign;
+  CellLabel label{.text = std::string(rest.substr(0, size)), .is_axis = false};
+  label.is_axis = size == 1 && kAxes.find(rest[0]) != kAxes.npos;
+  rest = Trimmed(rest.substr(size + (has_sign ? 1 : 0)));
+  // "X1" may be the name of a place, "run-1" that of a run.
+  const std::size_t mark = rest.find_first_of(".,");
+  const bool has_decimals =
+      mark + 1 < rest.size() && mark > 0 && IsNumeral(rest[mark - 1]);
+  const bool is_number =
+      has_sign || has_decimals ||
+      (label.is_axis &&
+       (rest.find_first_of(".,-+") != rest.npos || rest.size() >= 3));
+  if (size == 0 || rest.empty() || !is_number) return {};
+  *cell = rest;
+  return label;
+}
+
 void LooseNumbers::Add(Loose kind, std::size_t line) {
   Seen& seen = seen_[static_cast<std::size_t>(kind)];
   if (seen.count++ == 0) seen.first_line = line;
@@ -152,10 +182,10 @@ std::vector<std::string> LooseNumbers::Remarks() const {
 
 namespace {
 
-// The numbers of cells that all carry one unit, or an axis, or are missing.
+// The numbers of cells that all carry one unit, or a label, or are missing.
 struct UnitCells {
   std::string unit;
-  std::string axis;  // "X" of a program's "X-215.9" or "N10 G1 X-215.9"
+  CellLabel label;
   std::vector<std::optional<NumberForm>> numbers;  // (texts) none: missing
 };
 
@@ -167,23 +197,6 @@ std::string WithPlainMinus(const std::string& cell) {
   return cell;
 }
 
-// Takes the words of a program before a number off a cell; the axis, or "".
-std::string TakeAxis(std::string_view* cell) {
-  std::string_view rest = *cell;
-  while (rest.size() > 2 && (rest[0] == 'N' || rest[0] == 'G') &&
-         IsNumeral(rest[1])) {
-    rest = Trimmed(rest.substr(1 + DigitsOf(rest.substr(1))));
-  }
-  constexpr std::string_view kAxes = "XYZUVWABC";
-  if (rest.size() < 2 || kAxes.find(rest[0]) == kAxes.npos) return "";
-  std::string axis(rest.substr(0, 1));
-  rest = Trimmed(rest.substr(rest[1] == '=' ? 2 : 1));
-  // "X1" may be the name of a place.
-  if (rest.find_first_of(".,-+") == rest.npos && rest.size() < 3) return "";
-  *cell = rest;
-  return axis;
-}
-
 std::optional<UnitCells> ReadUnitCells(const CsvColumn& column,
                                        bool decimal_comma) {
   UnitCells cells;
@@ -192,24 +205,24 @@ std::optional<UnitCells> ReadUnitCells(const CsvColumn& column,
     if (IsMissingNumber(text)) continue;
     const std::string plain = WithPlainMinus(text);
     std::string_view cell = plain;
-    const std::string axis = TakeAxis(&cell);
+    const CellLabel label = TakeLabel(&cell);
     const std::size_t size =
         std::min(cell.find_first_not_of("+-.,0123456789"), cell.size());
     NumberForm form;
     std::string unit(Trimmed(cell.substr(size)));
-    const bool is_bare = unit.empty() && axis.empty();
-    const bool is_first = cells.unit.empty() && cells.axis.empty();
+    const bool is_bare = unit.empty() && label.text.empty();
+    const bool is_first = cells.unit.empty() && cells.label.text.empty();
     if (is_bare || (!unit.empty() && IsNumeral(unit.back())) ||
         !ReadNumberForm(cell.substr(0, size), decimal_comma, &form) ||
-        !ReadUnitCell(&unit) || (unit.empty() && axis.empty()) ||
-        !(is_first || (cells.unit == unit && cells.axis == axis))) {
+        !ReadUnitCell(&unit) || (unit.empty() && label.text.empty()) ||
+        !(is_first || (cells.unit == unit && cells.label.text == label.text))) {
       return std::nullopt;
     }
     cells.unit = unit;
-    cells.axis = axis;
+    cells.label = label;
     cells.numbers.back() = form;
   }
-  return cells.unit.empty() && cells.axis.empty()
+  return cells.unit.empty() && cells.label.text.empty()
              ? std::nullopt
              : std::optional(std::move(cells));
 }
@@ -246,21 +259,25 @@ void TakeUnitsOfCells(bool decimal_comma, CsvTable* table) {
     if (!column.is_text() || column.values.empty()) continue;
     const auto cells = ReadUnitCells(column, decimal_comma);
     if (!cells) continue;
-    if (!cells->axis.empty()) {
+    const std::string& label = cells->label.text;
+    if (!label.empty()) {
       TakeNumbers(*cells, &column);
-      table->remarks.push_back(PrintablePath(table->file) + ": the cells of " +
-                               QuotedName(column.name) +
-                               " are words of a program, read as positions " +
-                               cells->axis);
-      if (!IsCalledPosition(column.name)) {
-        column.name = FreeName(*table, cells->axis);
+      table->remarks.push_back(
+          PrintablePath(table->file) + ": the cells of " +
+          QuotedName(column.name) +
+          (cells->label.is_axis ? " are words of a program, read as positions "
+                                : " begin with their name, ") +
+          label);
+      if (column.name.starts_with("column_") ||
+          (cells->label.is_axis && !IsCalledPosition(column.name))) {
+        column.name = FreeName(*table, label);
       }
     }
     if (cells->unit.empty()) continue;
     const auto name = FreeNameWithUnit(*table, column, cells->unit);
     if (!name) continue;
     column.name = *name;
-    if (cells->axis.empty()) TakeNumbers(*cells, &column);
+    if (label.empty()) TakeNumbers(*cells, &column);
     table->remarks.push_back(PrintablePath(table->file) + ": the cells of " +
                              QuotedName(column.name) + " carry their unit (" +
                              cells->unit + "), which is read as the column's");

@@ -25,6 +25,15 @@ Loose ReadLooseNumber(std::string_view cell,
                       bool other_mark,
                       NumberForm* form);
 
+/// What a cell says before its number: the axis "X" of a program's "X-215.9" or
+/// "N10 G1 X-215.9", "T1" of "T1=21.42"; no text where there is nothing.
+struct CellLabel {
+  std::string text = {};
+  bool is_axis = false;
+};
+/// Takes it off the cell.
+CellLabel TakeLabel(std::string_view* cell);
+
 /// Those of a file, counted for its remarks.
 class LooseNumbers {
  public:
@@ -41,8 +50,9 @@ class LooseNumbers {
   std::array<Seen, 6> seen_;  // of each Loose
 };
 
-/// Columns whose cells all are a number with one unit ("1.877 µm") become
-/// numbers, and the unit a part of the name.
+/// Columns whose cells all are a number with one unit ("1.877 µm") or behind
+/// one label ("T1=21.4") become numbers, the unit a part of the name, and the
+/// label the name where there was none.
 void TakeUnitsOfCells(bool decimal_comma, CsvTable* table);
 
 }  // namespace errmap::data

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -148,27 +149,49 @@ std::size_t RowsOfBlock(const CsvTable& table,
   return table.num_rows;
 }
 
+// A column of one run, or of one way.
+struct RunColumn {
+  std::size_t column;
+  RunName name;
+};
+
+// Ways of one run follow each other, in whatever order their columns stand.
+void SortByRun(std::vector<RunColumn>* runs) {
+  std::stable_sort(
+      runs->begin(), runs->end(), [](const RunColumn& a, const RunColumn& b) {
+        return std::pair(a.name.session, a.name.run) <
+               std::pair(b.name.session, b.name.run);
+      });
+}
+
 // Of runs that have numbers, or else of one column for each way.
 std::optional<Fold> FindRuns(const CsvTable& table, bool are_numbered) {
   Fold fold;
   fold.slot_by_slot = true;
-  std::set<std::pair<int, std::string>> runs;
-  std::vector<double> numbers;
-  std::vector<std::ptrdiff_t> ways;  // 0: up, 1: down, 2: nothing said
+  std::set<std::tuple<int, int, std::string>> runs;
+  std::vector<RunColumn> columns;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    const std::optional<RunName> name = ReadRunName(table.columns[i].name);
+    std::optional<RunName> name = ReadRunName(table.columns[i].name);
     if (!name || (name->run > 0) != are_numbered ||
         table.columns[i].is_text() ||
         !(are_numbered || MeasuresError(table.columns[i].name))) {
       fold.kept.push_back(i);
       continue;
     }
-    if (!runs.emplace(name->run, name->direction).second) return std::nullopt;
-    fold.quantities[name->quantity].push_back(i);
-    numbers.push_back(name->run);
-    ways.push_back(name->direction.empty()   ? 2
-                   : name->direction == "up" ? 0
-                                             : 1);
+    if (!runs.emplace(name->session, name->run, name->direction).second) {
+      return std::nullopt;
+    }
+    columns.push_back({i, *std::move(name)});
+  }
+  SortByRun(&columns);
+  std::vector<double> sessions;
+  std::vector<double> numbers;
+  std::vector<std::ptrdiff_t> ways;  // 0: up, 1: down, 2: nothing said
+  for (const auto& [column, name] : columns) {
+    fold.quantities[name.quantity].push_back(column);
+    sessions.push_back(name.session);
+    numbers.push_back(name.run);
+    ways.push_back(name.direction.empty() ? 2 : name.direction == "up" ? 0 : 1);
   }
   const auto unsaid = std::ranges::count(ways, 2);
   const std::size_t fewest = are_numbered ? 3 : 2;
@@ -189,6 +212,9 @@ std::optional<Fold> FindRuns(const CsvTable& table, bool are_numbered) {
   const bool descend = PositionsDescend(table, fold.kept, fold.block);
   for (const std::ptrdiff_t way : ways) {
     fold.backwards.push_back(way != 2 && (way == 1) != descend);
+  }
+  if (std::ranges::count(sessions, 0.0) == 0) {
+    fold.labels.push_back(NumberColumn("session", std::move(sessions)));
   }
   if (are_numbered) {
     fold.labels.push_back(NumberColumn("cycle", std::move(numbers)));

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 
+#include "data/column_words.h"
 #include "data/text.h"
 #include "data/units.h"
 
@@ -115,7 +116,7 @@ std::string SignBehind(std::string_view name, std::string_view unit) {
 
 // The next word of a name, or its next number; "" at its end.
 std::string_view TakePart(std::string_view* rest) {
-  constexpr std::string_view kBetween = " _.#:-+()";
+  constexpr std::string_view kBetween = " _.#:=-+()";
   rest->remove_prefix(
       std::min(rest->find_first_not_of(kBetween), rest->size()));
   if (rest->empty()) return "";
@@ -172,29 +173,35 @@ std::optional<PlacedName> ReadPlacedName(std::string_view name) {
 
 std::optional<RunName> ReadRunName(std::string_view name) {
   constexpr std::string_view kRuns =
-      "run cycle pass traverse lauf zyklus messung messlauf ciclo cyclus";
+      "j run cycle pass traverse lauf zyklus messung messlauf ciclo cyclus";
   constexpr std::string_view kUp =
       "up upwards fwd forward pos vor vorw\u00e4rts vorwaerts hin "
       "aufw\u00e4rts aufwaerts \u2191 \u2192 f";
   constexpr std::string_view kDown =
       "down downwards dn rev reverse neg bwd backward zur\u00fcck zurueck "
-      "r\u00fcckw\u00e4rts rueckwaerts abw\u00e4rts abwaerts \u2193 \u2190 r b";
+      "r\u00fcckw\u00e4rts rueckwaerts her abw\u00e4rts abwaerts \u2193 \u2190 "
+      "r b";
+  constexpr std::string_view kAxes = "x y z";
   const Header header = ReadHeader(name);
   RunName said{.direction = SignBehind(name, header.unit_text)};
   bool is_run = false;
+  int* number = &said.run;
   std::string_view rest = header.base;
   for (std::string_view word = TakePart(&rest); !word.empty();
        word = TakePart(&rest)) {
     const bool is_up = IsOneOf(word, kUp);
     if (IsDigitOfName(word.front())) {
-      std::from_chars(word.data(), word.data() + word.size(), said.run);
+      std::from_chars(word.data(), word.data() + word.size(), *number);
     } else if (IsOneOf(word, kRuns)) {
       is_run = true;
+      number = &said.run;
+    } else if (IsCalled(word, Word::kSession)) {
+      number = &said.session;
     } else if (is_up || IsOneOf(word, kDown)) {
       said.direction = is_up ? "up" : "down";
       // "f1" may be anything, "1 fwd" is a run.
       is_run = is_run || word.size() > 1;
-    } else if (!IsOneOf(word, kErrors)) {
+    } else if (!IsOneOf(word, kErrors) && !IsOneOf(word, kAxes)) {
       return std::nullopt;
     }
   }

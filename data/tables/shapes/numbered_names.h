@@ -18,9 +18,11 @@ struct PlacedName {
 std::optional<PlacedName> ReadPlacedName(std::string_view name);
 
 /// What the name of a column of one run says, such as "Run 3 up [um]",
-/// "Lauf 1 rückwärts", "2↓ (µm)"; the run is 0 in "Error up [um]".
+/// "Lauf 1 rückwärts", "x2↓ (µm)", "Day 2 Run 1"; what is not said is 0, as the
+/// run of "Error up [um]".
 struct RunName {
   std::string quantity = {};  // "error [um]"
+  int session = 0;
   int run = 0;
   std::string direction = {};  // "up", "down", or ""
 };

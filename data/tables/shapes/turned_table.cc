@@ -7,12 +7,13 @@
 
 #include "data/column_words.h"
 #include "data/columns.h"
+#include "data/tables/shapes/numbered_names.h"
 #include "data/text.h"
 
 namespace errmap::data {
 namespace {
 
-// Rows of numbers under names, some of which say that they are errors.
+// Rows of numbers under names, some of which say that they are errors or runs.
 bool NamesRows(const CsvTable& table) {
   constexpr std::size_t kFewestReadings = 4;
   const CsvColumn& names = table.columns.front();
@@ -20,9 +21,10 @@ bool NamesRows(const CsvTable& table) {
       !names.is_text() || names.texts.size() != table.num_rows) {
     return false;
   }
-  const auto errors = std::ranges::count_if(
-      names.texts,
-      [](const std::string& text) { return ErrorSign(text) != 0; });
+  const auto errors =
+      std::ranges::count_if(names.texts, [](const std::string& text) {
+        return ErrorSign(text) != 0 || ReadRunName(text).has_value();
+      });
   return errors > 0 && errors < std::ssize(names.texts) &&
          std::all_of(table.columns.begin() + 1,
                      table.columns.end(),

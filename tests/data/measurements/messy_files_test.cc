@@ -243,6 +243,7 @@ TEST(MessyFiles, AllElseIsOneLineThatSaysWhatToDo) {
       {text + "4,5,6\n", "line 122 (data row 120): 3 fields"},
       {text + "End of file,,,,,,\n", "'End of file' where the other rows"},
       {text + "Mean,,,200,24,21,9.5\n", "a row of totals or a remark"},
+      {text + "3 Average,,,,24,21,9.5\n", "column 'day': '3 Average'"},
       {text + "3,Mean,4380,200,24,21,9.5\n", "column 'cycle': 'Mean'"},
       {text + text.substr(text.find('\n') + 1), "120 rows repeat others"},
       {text + text, "120 rows repeat others"},

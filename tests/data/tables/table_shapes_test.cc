@@ -433,6 +433,45 @@ TEST(TableShape, TurnsARowForEachVariable) {
   EXPECT_THAT(table.columns[2].values, ElementsAre(1.5, 2.5, 3.5, 4.5));
 }
 
+TEST(TableShape, TurnsTheSheetOfAStandard) {
+  const CsvTable table = ParseCsv(
+      "Deviations in um\ni,1,2,3,4,5\nPosition Pi (mm),0,50,100,150,200\n"
+      "j=1 up,1.5,2.5,3.5,4.5,5.5\nj=1 down,-1,-2,-3,-4,-5\n"
+      "j=2 up,1.6,2.6,3.6,4.6,5.6\nj=2 down,-1.1,-2.1,-3.1,-4.1,-5.1\n",
+      "f.csv");
+  ASSERT_GE(table.Find("error [um]"), 0);
+  const CsvColumn& error = table.At(table.Find("error [um]"));
+  EXPECT_EQ(table.num_rows, 20U);
+  EXPECT_EQ(error.values[4], 5.5);
+  EXPECT_EQ(error.values[5], -5.0);  // down begins where up ended
+  EXPECT_EQ(table.At(table.Find("Position Pi (mm)")).values[5], 200.0);
+}
+
+TEST(TableShape, TakesLabelsOfCellsForNames) {
+  const CsvTable table = ParseCsv(
+      "2024/05/13,X50.000,DEV-2.91UM,T1=21.42\n"
+      "2024/05/13,X90.000,DEV-1.17UM,T1=21.52\n"
+      "2024/05/14,X50.000,DEV0.19UM,T1=21.54\n",
+      "f.csv");
+  EXPECT_THAT(NamesIn(table), ElementsAre("column_1", "X", "DEV [UM]", "T1"));
+  EXPECT_THAT(table.columns[1].values, ElementsAre(50, 90, 50));
+  EXPECT_THAT(table.columns[2].values, ElementsAre(-2.91, -1.17, 0.19));
+  EXPECT_THAT(table.columns[3].values, ElementsAre(21.42, 21.52, 21.54));
+  for (const char* name : {"run-1", "D1C1", "X1"}) {
+    const std::string cell = std::string(name) + ",1\n";
+    EXPECT_TRUE(
+        ParseCsv("id,error_um\n" + cell + cell, "f.csv").columns[0].is_text())
+        << name;
+  }
+}
+
+TEST(TableShape, TakesNamesOfAnIndexBelowTheOthers) {
+  const CsvTable table = ParseCsv(
+      ",,x_mm,error_um\nday,cycle,,\n1,1,0,2.5\n1,1,50,3.5\n", "f.csv");
+  EXPECT_THAT(NamesIn(table), ElementsAre("day", "cycle", "x_mm", "error_um"));
+  EXPECT_EQ(table.num_rows, 2U);
+}
+
 TEST(TableShape, TakesTheUnitOfALineAbove) {
   for (const std::string note : {"Units: um\n",
                                  "# Alle Ma\u00dfe in \u00b5m\n",
@@ -560,6 +599,33 @@ TEST(FoldedPositions, GoBlockByBlockInRunsAndWays) {
   EXPECT_THAT(table.columns[3].values,
               ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12));
   EXPECT_EQ(table.CellText(table.columns[2], 3), "down");
+}
+
+// One after the other, in whatever order their columns stand.
+TEST(FoldedPositions, GoRunByRunInBothWays) {
+  for (const std::string names :
+       {"Lauf 1 hin,Lauf 2 hin,Lauf 1 her,Lauf 2 her",
+        "x1\u2191 [um],x2\u2191 [um],x1\u2193 [um],x2\u2193 [um]"}) {
+    const CsvTable table =
+        ParseCsv("X [mm]," + names + "\n0,1,5,4,8\n50,2,6,3,7\n", "f.csv");
+    EXPECT_THAT(table.At(table.Find("cycle")).values,
+                ElementsAre(1, 1, 1, 1, 2, 2, 2, 2))
+        << names;
+    EXPECT_THAT(table.columns.back().values,
+                ElementsAre(1, 2, 3, 4, 5, 6, 7, 8))
+        << names;
+  }
+}
+
+TEST(FoldedPositions, MayBeOfSessionsAndTheirRuns) {
+  const CsvTable table = ParseCsv(
+      "X [mm],Day 1 Run 1 [um],Day 1 Run 2 [um],Day 2 Run 1 [um],"
+      "Day 2 Run 2 [um]\n0,1,2,3,4\n50,5,6,7,8\n",
+      "f.csv");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("X [mm]", "session", "cycle", "error [um]"));
+  EXPECT_THAT(table.columns[1].values, ElementsAre(1, 1, 1, 1, 2, 2, 2, 2));
+  EXPECT_THAT(table.columns[2].values, ElementsAre(1, 1, 2, 2, 1, 1, 2, 2));
 }
 
 TEST(ParseCsv, RefusesMoreColumnsThanMemoryShouldBeKeptFor) {

@@ -140,6 +140,44 @@ TEST(Clock, HasPausesWhateverItIsCalled) {
   }
 }
 
+// Between cycles there are short pauses, between days nights.
+TEST(Clock, MayPauseBetweenCyclesToo) {
+  const Reading reading =
+      MadeOf(Days("tick", [](int i, double /*warm*/) {
+        return std::to_string(1200 * i + 3600 * (i / 5) + 9000000 * (i / 40));
+      })).reading;
+  EXPECT_EQ(reading.time.column, "tick");
+  EXPECT_EQ(reading.sessions.count, 3);
+}
+
+// As scopes write it, before each channel.
+TEST(Clock, MayStandSeveralTimes) {
+  const Reading reading =
+      MadeOf(Days("Time [ms],T1,Time [ms],T2,Time [ms]",
+                  [](int i, double warm) {
+                    const std::string time =
+                        std::to_string(8000 * i + 54000000 * (i / 40));
+                    return time + "," + CsvNumber(warm) + "," + time + "," +
+                           CsvNumber(40.0 - warm + i % 3) + "," + time;
+                  }))
+          .reading;
+  EXPECT_EQ(reading.time.column, "Time [ms]");
+  EXPECT_EQ(reading.time.step_s, 8.0);
+  EXPECT_EQ(reading.sessions.count, 3);
+}
+
+// Of a day, as spreadsheets write it; hours would be possible, too.
+TEST(Clock, IsAPartOfTheDayBelowOne) {
+  const Reading reading =
+      MadeOf(Days("Uhrzeit", [](int i, double /*warm*/) {
+        return CsvNumber(std::round(1e7 * (8.0 / 24.0 + i % 40 / 2880.0)) /
+                         1e7);
+      })).reading;
+  EXPECT_EQ(reading.time.unit, "days");
+  EXPECT_FALSE(reading.time.sure);
+  EXPECT_EQ(reading.sessions.count, 3);
+}
+
 TEST(Clock, OfTwoFieldsIsInMinutesWhereHoursGoOverTheDay) {
   const auto shown = [](int i, double /*warm*/) {
     return TwoDigits(i / 2) + ":" + (i % 2 == 0 ? "00" : "30");

@@ -398,6 +398,30 @@ TEST(Reading, AsksForTheSignOfACorrection) {
   EXPECT_EQ(against.dataset.target().unit.symbol, "um");
 }
 
+TEST(Reading, AsksForTheDifferenceOfWhatWasReadAndCommanded) {
+  for (const std::string unit : {"", " [mm]"}) {
+    const std::string text = Text("T1," + ("Target" + unit) + ",Actual" + unit,
+                                  Log().Rows(),
+                                  [](const Log::Row& row) {
+                                    return std::vector<std::string>{
+                                        Fixed(row.warm),
+                                        Fixed(row.position),
+                                        Fixed(row.position + row.error / 1e3)};
+                                  });
+    try {
+      Read(text);
+      FAIL() << "no question";
+    } catch (const OpenQuestion& open) {
+      const std::string option = open.question().answers.front().option;
+      EXPECT_THAT(option, HasSubstr("Actual"));
+      const std::string target =
+          "Actual" + unit + "-Target" + (unit.empty() ? " [mm]" : unit);
+      EXPECT_THAT(option, HasSubstr(target));
+      EXPECT_EQ(Read(text, {.target = target}).target.unit, "mm");
+    }
+  }
+}
+
 TEST(Reading, GoesOnOverMidnight) {
   // Shifts from 21:00 on, by a clock without dates.
   Log log;
