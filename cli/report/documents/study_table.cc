@@ -292,6 +292,18 @@ void AddPart(const RecordPart& part, const Terminal& terminal, Screen* screen) {
   }
 }
 
+// How the one file was read that all components are of; else nothing.
+std::vector<std::string> SharedReading(const models::StudyRecord& record) {
+  std::vector<std::string> shared;
+  for (const models::ComponentRecord& component : record.components) {
+    if (component.data.reading.rows == 0) return {};
+    std::vector<std::string> lines = data::ReadingLines(component.data.reading);
+    if (!shared.empty() && lines != shared) return {};
+    shared = std::move(lines);
+  }
+  return shared;
+}
+
 std::string WhereMapsAre(const StudyTableOptions& options) {
   std::string words =
       options.folder.empty()
@@ -322,6 +334,11 @@ Screen StudyTable(const models::StudyRecord& record,
     if (options.details) one.Details();
   } else {
     const std::size_t width = options.terminal.text_columns();
+    const std::vector<std::string> reading = SharedReading(record);
+    for (const std::string& line : reading) {
+      screen.Add(WrapText(line, width) + "\n");
+    }
+    if (!reading.empty()) screen.Add("\n");
     screen.Add(WrapText(OverallWords(record), width) + "\n\n", true);
     screen.Add(TerminalTable(SummaryRows(record), options.terminal.columns));
     screen.Add("\n");

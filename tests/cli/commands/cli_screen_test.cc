@@ -5,6 +5,8 @@
 #include <regex>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "cli/report/wrap_text.h"
 #include "tests/cli/cli_fixture.h"
 #include "tests/cli/one_line.h"
@@ -514,6 +516,27 @@ TEST_F(Screens, TakeAGoalWithItsUnit) {
                    "--quiet"})
                   .out,
               HasSubstr("\"indifference\": 0.02"));
+}
+
+TEST_F(Screens, SayOnceHowTheFileOfBothWaysWasRead) {
+  std::string text = "day,x_mm,t_degC,error_um\n";
+  for (int i = 0; i < 160; ++i) {
+    const int at = i % 10 < 5 ? i % 10 : 9 - i % 10;
+    const double warm = 20.0 + 0.05 * (i % 40) + i / 40;
+    text += fmt::format("{},{},{:.2f},{:.3f}\n",
+                        i / 40,
+                        50 * at,
+                        warm,
+                        at + 3.0 * (warm - 20.0) + (i % 10 < 5 ? 0.0 : 4.0) +
+                            0.2 * std::sin(12.9898 * i * i));
+  }
+  Write("ways.csv", text);
+  const std::string screen =
+      Run({"compare", "ways.csv", "--models", "mean,poly:full:degree=1"}).out;
+  EXPECT_THAT(screen,
+              AllOf(StartsWith("Read: 160 rows in 4 sessions (by day)"),
+                    HasSubstr("both ways"),
+                    HasSubstr("\n\n2 components.")));
 }
 
 TEST_F(Screens, CarryTheAnswerInCsvAndMarkdown) {
