@@ -53,7 +53,7 @@ constexpr auto kWords = std::to_array<std::string_view>({
     // kDirection
     "direction dir bidir approach motion richtung anfahrrichtung direccion "
     "direzione direcao sens sentido senso richting kierunek riktning "
-    "retning smer suunta yon направление 方向 방향",
+    "retning smer suunta yon verso fangxiang направление 方向 방향",
     // kCycle
     "cycle zyklus takt ciclo cyclus cykl cykel cyklus цикл 循环 サイクル "
     "사이클",

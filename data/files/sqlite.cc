@@ -6,8 +6,6 @@
 #include <new>
 #include <sqlite3.h>
 
-#include <fmt/format.h>
-
 #include "data/files/file_descriptor.h"
 #include "data/text.h"
 
@@ -57,11 +55,9 @@ std::string Escaped(const std::string& path) {
 
 DamagedDatabase::DamagedDatabase(const std::string& file,
                                  const std::string& why)
-    : InputError(fmt::format(
-          "{} is damaged ({}); errmap merge STORE writes it anew, and deployed "
-          "maps stand in its folder maps",
-          PrintablePath(file),
-          why)) {}
+    : InputError(PrintablePath(file) + " is damaged (" + why +
+                 "); errmap merge STORE writes it anew, and deployed maps "
+                 "stand in its folder maps") {}
 
 bool SqliteError::is_busy() const { return (code_ & kPrimary) == SQLITE_BUSY; }
 

@@ -108,8 +108,8 @@ class RoleChooser {
       AskForSign(target);
     }
     if (is_opposite(target)) AskForSign(target);
-    if (const std::string* note = NoteOfOppositeSign(table_)) {
-      AskForSign(target, QuotedText(*note) + " stands above the table; ");
+    if (const std::string* note = NoteOfOtherSign(table_)) {
+      AskForSign(target, QuotedText(*note) + " stands in the file; ");
     }
     return target;
   }

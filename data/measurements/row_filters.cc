@@ -15,10 +15,11 @@ constexpr std::string_view kUp =
 constexpr std::string_view kDown =
     "down dn - -1 neg negative negativ minus decreasing ab <";
 constexpr std::string_view kForth =
-    "forward forwards fwd f vor vorw\u00e4rts hin aller avanti";
+    "forward forwards fwd f vor vorw\u00e4rts hin aller avanti andata ida "
+    "zheng";
 constexpr std::string_view kBack =
     "reverse rev r backward backwards bwd b r\u00fcck zur\u00fcck "
-    "r\u00fcckw\u00e4rts her retour indietro";
+    "r\u00fcckw\u00e4rts her retour indietro ritorno vuelta fan";
 
 }  // namespace
 

@@ -156,6 +156,10 @@ class SessionFinder : private RowColumns {
     }
     for (const std::size_t i : CalledSessions()) {
       if (!TakeSessions(i, false)) continue;
+      if (CyclesPartFurther()) {
+        found_.sessions = {};
+        return;
+      }
       const std::string why = WhyNoSessions(i);
       if (why.empty()) return;
       found_.remarks.push_back("column " + QuotedName(table_.columns[i].name) +
@@ -165,10 +169,48 @@ class SessionFinder : private RowColumns {
     // A column of dates tells the days where the time does not.
     if (found_.time_column >= 0 && !clock_.hours_alone) return;
     const std::optional<std::size_t> date = DateColumn();
-    if (date && !CyclesCountOver(table_.columns[*date]) &&
-        TakeSessions(*date, false)) {
-      found_.by = "dates";
+    if (!date || CyclesCountOver(table_.columns[*date]) ||
+        !TakeSessions(*date, false)) {
+      return;
     }
+    found_.by = "dates";
+    if (CyclesPartFurther()) found_.sessions = {};
+  }
+
+  // Whether cycles count anew more often than there are sessions, each time in
+  // another one or where what else is called a session changes: days and the
+  // shifts of each.
+  bool CyclesPartFurther() const {
+    const std::vector<Index>& codes = found_.sessions.codes;
+    for (const std::ptrdiff_t column : cycles_) {
+      if (column < 0 || !CountsAnew(table_.At(column))) continue;
+      const CsvColumn& cycle = table_.At(column);
+      const double way = FirstStep(cycle);
+      std::size_t anew = 1;
+      for (std::size_t i = 1; i < rows_.size(); ++i) {
+        const bool begins = way * StepOf(cycle, i) < 0.0;
+        const bool other = codes[i] != codes[i - 1];
+        if ((other && !begins) || (begins && !other && !OtherLabelChanges(i))) {
+          return false;
+        }
+        anew += begins ? 1 : 0;
+      }
+      return anew > found_.sessions.labels.size();
+    }
+    return false;
+  }
+
+  // Whether a row and the one before it differ in what may be called a session
+  // and is no cycle.
+  bool OtherLabelChanges(std::size_t i) const {
+    return std::ranges::any_of(table_.columns, [&](const CsvColumn& column) {
+      return !IsCalled(column.name, Word::kCycle) &&
+             (IsCalled(column.name, Word::kSession) ||
+              IsCalled(column.name, Word::kRun) ||
+              IsCalled(column.name, Word::kCounter)) &&
+             table_.CellText(column, DataRow(i)) !=
+                 table_.CellText(column, DataRow(i - 1));
+    });
   }
 
   // Whether cycles that count anew do so less often than the date changes: they

@@ -34,7 +34,11 @@ TextTimes ReadTimes(const CsvColumn& column, DateOrder order) {
     if (parsed) {
       times.any = true;
       times.all_dates = times.all_dates && parsed->has_date;
-      times.any_hours = times.any_hours || parsed->has_time;
+      // Midnight in every row is no hour: a sheet's date.
+      const bool tells_hour =
+          parsed->has_time &&
+          (!parsed->has_date || std::fmod(parsed->seconds, kSecondsOfDay) != 0);
+      times.any_hours = times.any_hours || tells_hour;
       times.by_order = times.by_order || parsed->by_order;
       times.in_halves = times.in_halves || parsed->in_halves;
       times.elapsed = times.elapsed || parsed->elapsed;
@@ -185,7 +189,10 @@ bool HoldsTimes(const CsvColumn& column) {
 
 bool HoldsDates(const CsvColumn& column) {
   const std::optional<DateTime> first = FirstTime(column);
-  if (!first || first->has_time) return false;
+  if (!first) return false;
+  if (first->has_time && std::fmod(first->seconds, kSecondsOfDay) != 0.0) {
+    return false;
+  }
   const TextTimes times = ReadTimes(column);
   return times.all && times.any && !times.any_hours;
 }

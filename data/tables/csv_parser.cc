@@ -277,6 +277,9 @@ class Parser {
                           {.row = 0, .text = titles[nearest - 1]});
     }
     PartByTitles(title_lines_, odd_rows_.num_names(), &table_);
+    for (const TitleLine& line : title_lines_) {
+      if (line.row > 0) titles.push_back(line.text);
+    }
   }
 
   // The words of a comment's line, which is passed over.
@@ -354,6 +357,17 @@ class Parser {
     }
   }
 
+  // Whether the last row, of so many cells, is a line of words: a remark, or
+  // the name or date of what follows, with or without empty cells.
+  bool IsTitle(std::size_t found) const {
+    const std::string text =
+        table_.CellText(table_.columns[0], table_.num_rows);
+    const bool is_date = !DateTokenIn(text).empty();
+    return (found == 1 && IsRemark(table_)) ||
+           ((is_date || IsRemark(table_)) && NamesSession(text) &&
+            HoldsRemarkAlone(table_, column_));
+  }
+
   void ReadRow(bool after_blank) {
     const std::size_t line = cells_.line();
     column_ = 0;
@@ -370,12 +384,8 @@ class Parser {
       cells_.Next();
       more = cells_.PassEnd();
     }
-    const bool is_remark =
-        layout_.width > 2 && num_numbers_ == 0 && IsRemark(table_) &&
-        (found == 1 ||
-         (HoldsRemarkAlone(table_, column_) &&
-          NamesSession(table_.CellText(table_.columns[0], table_.num_rows))));
-    if (is_remark || (found == 2 && AreTotals(table_))) {
+    if ((layout_.width > 2 && num_numbers_ == 0 && IsTitle(found)) ||
+        (found == 2 && AreTotals(table_))) {
       std::string words = table_.CellText(table_.columns[0], table_.num_rows);
       odd_rows_.AddWords(words);
       if (found == 2) {

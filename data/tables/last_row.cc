@@ -30,7 +30,7 @@ bool IsRemark(const CsvTable& table) {
 
 bool HoldsRemarkAlone(const CsvTable& table, std::size_t cells) {
   const CsvColumn& first = table.columns[0];
-  if (table.num_rows == 0 || !HoldsNumbers(table, first)) return false;
+  if (table.num_rows > 0 && !HoldsNumbers(table, first)) return false;
   for (std::size_t i = 1; i < cells; ++i) {
     if (!TextIn(table, i).empty()) return false;
   }

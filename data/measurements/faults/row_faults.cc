@@ -33,7 +33,8 @@ using Eigen::VectorXd;
 // "Mean", "1 Average", "End of file".
 bool IsSummary(std::string_view text) {
   constexpr std::string_view kSummaries =
-      "mean average avg total totals subtotal sum summe gesamt mittel "
+      "ergebnis teilergebnis gesamtergebnis mean average avg total totals "
+      "subtotal sum summe gesamt mittel "
       "mittelwert moyenne media min max minimum maximum std stdev sd sigma "
       "median count range rms anzahl eof end ende massimo minimo medel "
       "gemiddelde suma celkem razem \u6700\u5927\u503c \u6700\u5c0f\u503c "

@@ -45,6 +45,10 @@ class ClockColumns : private RowColumns {
         found[4].push_back(i);
       }
     }
+    // When each session was begun, beside the time since then.
+    if (found[0].size() == 1 && !found[4].empty() && Stands(found[0][0])) {
+      std::swap(found[0], found[4]);
+    }
     // Hours and what counts on: the dates beside the hours tell more.
     if (found[0].empty() && !found[3].empty() &&
         ColumnOfDates(table_, selection_) >= 0) {
@@ -63,6 +67,12 @@ class ClockColumns : private RowColumns {
   }
 
  private:
+  // Whether a column of text says the same in many rows.
+  bool Stands(std::size_t column) const {
+    constexpr std::size_t kMany = 10;
+    return kMany * table_.columns[column].texts.size() <= rows_.size();
+  }
+
   // Whether the column has the values of an earlier one of that name: scopes
   // write the time before each channel.
   bool Repeats(std::size_t column) const {

@@ -185,9 +185,12 @@ class DateParts {
   std::vector<std::optional<std::size_t>> columns_;
 };
 
-// By its form, or beside a date by its name.
+// By its form; by its name beside a date, or in so many rows that numbers of
+// seconds would have some that no clock shows.
 bool IsCalledTimeOfDay(const CsvColumn& column, bool has_date) {
-  return (has_date && IsCalled(column.name, Word::kTime)) ||
+  constexpr std::size_t kEnoughRows = 24;
+  const bool may_be = has_date || column.values.size() >= kEnoughRows;
+  return (may_be && IsCalled(column.name, Word::kTime)) ||
          std::ranges::count(WordsOf(column.name), "hhmmss") > 0;
 }
 

@@ -8,8 +8,8 @@ namespace errmap::data {
 
 /// Dates that a table holds as numbers, as columns of text in their place:
 /// YYYYMMDD whatever the name (20240304), days as Excel counts them under the
-/// name of a date (45355), hours, minutes and seconds (81446) beside a column
-/// of dates. Columns called year, month and day (hour, minute, second) become
+/// name of a date (45355), hours, minutes and seconds (81446) under the name
+/// of a time. Columns called year, month and day (hour, minute, second) become
 /// one more, named "Year + Month + Day". Indices and texts; the rest of the
 /// table stays as it is.
 struct DigitDates {

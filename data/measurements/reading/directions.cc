@@ -14,6 +14,32 @@ namespace errmap::data {
 
 using Eigen::Index;
 
+namespace {
+
+// Whether a column of this name holds 1, "yes" or alike in rows that go up, or
+// in those that go down; nothing where its name is no way.
+std::optional<bool> WayOfFlag(std::string_view name) {
+  std::optional<bool> up;
+  for (const std::string& word : WordsOf(name)) {
+    const bool forth = IsOneOf(word, "up forward forwards fwd hinweg vorwarts");
+    const bool back = IsOneOf(word,
+                              "down backward backwards bwd reverse reversed "
+                              "rev return ruckweg ruckwarts");
+    if (forth || back) {
+      up = forth;
+    } else if (word != "is") {
+      return std::nullopt;
+    }
+  }
+  return up;
+}
+
+bool IsYes(std::string_view label) {
+  return IsOneOf(label, "1 true yes y ja j oui si x on");
+}
+
+}  // namespace
+
 std::ptrdiff_t NamedDirection(const CsvTable& table,
                               const DatasetSelection& selection,
                               const std::vector<Index>& rows) {
@@ -22,7 +48,7 @@ std::ptrdiff_t NamedDirection(const CsvTable& table,
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const CsvColumn& column = table.columns[i];
     if (column.name == selection.target || column.name == selection.weight ||
-        !Says(column.name, Word::kDirection) ||
+        !(Says(column.name, Word::kDirection) || WayOfFlag(column.name)) ||
         !UnitOfColumn(column.name).symbol.empty()) {
       continue;
     }
@@ -126,7 +152,12 @@ Reading::Direction ReadDirection(const CsvTable& table,
     contradicts = moves && first_is_up == !*said;
     first_is_up = said;
   } else if (!moves) {
-    if (const auto way = IsUpwards(labels[0])) first_is_up = way;
+    const std::optional<bool> flag = WayOfFlag(column.name);
+    if (flag && IsYes(labels[0]) != IsYes(labels[1])) {
+      first_is_up = *flag == IsYes(labels[0]);
+    } else if (const auto way = IsUpwards(labels[0])) {
+      first_is_up = way;
+    }
   }
   direction.sure = first_is_up.has_value() && !contradicts;
   if (first_is_up && !*first_is_up) std::swap(labels[0], labels[1]);

@@ -195,10 +195,19 @@ class TableReader {
     if (read_.roles.group != kNoColumn) {
       numbering[static_cast<std::size_t>(read_.roles.group)] = true;
     }
-    for (const Index row :
-         LeaveOutRowsOfWords(table(), numbering, selection_.missing, passes)) {
+    const std::vector<Index> left_out =
+        LeaveOutRowsOfWords(table(), numbering, selection_.missing, passes);
+    if (left_out.empty()) return;
+    std::vector<Index> kept = AllRows(table().num_rows);
+    for (const Index row : left_out) {
+      kept[static_cast<std::size_t>(row)] = -1;
       read_.reading.rows_left_out.push_back(
           {.row = row, .why = "holds words where the others have numbers"});
+    }
+    // Their words are no times either.
+    if (!read_.table) read_.table = Borrowed(given_);
+    for (CsvColumn& column : read_.table->columns) {
+      if (column.is_text()) column = data::TakeRows(column, kept);
     }
   }
 

@@ -159,7 +159,8 @@ std::optional<PlacedName> ReadPlacedName(std::string_view name) {
   std::string_view rest = name.substr(at);
   if (!TakePlace(&rest, &placed)) return std::nullopt;
   if (placed.unit.empty() && has_at) placed.unit = "mm";
-  if (placed.unit.empty() && before->empty() && !MayBeBare(at, rest)) {
+  if (placed.unit.empty() && before->empty() &&
+      !MayBeBare(placed.is_marked ? 1 : at, rest)) {
     return std::nullopt;
   }
   // What follows is the unit of the quantity: "_um", " [um]", or nothing.
@@ -173,7 +174,8 @@ std::optional<PlacedName> ReadPlacedName(std::string_view name) {
 
 std::optional<RunName> ReadRunName(std::string_view name) {
   constexpr std::string_view kRuns =
-      "j run cycle pass traverse lauf zyklus messung messlauf ciclo cyclus";
+      "j run cycle pass test series serie messreihe traverse lauf zyklus "
+      "messung messlauf ciclo cyclus";
   constexpr std::string_view kUp =
       "up upwards fwd forward pos vor vorw\u00e4rts vorwaerts hin "
       "aufw\u00e4rts aufwaerts \u2191 \u2192 f";
@@ -181,7 +183,7 @@ std::optional<RunName> ReadRunName(std::string_view name) {
       "down downwards dn rev reverse neg bwd backward zur\u00fcck zurueck "
       "r\u00fcckw\u00e4rts rueckwaerts her abw\u00e4rts abwaerts \u2193 \u2190 "
       "r b";
-  constexpr std::string_view kAxes = "x y z";
+  constexpr std::string_view kLetters = "x y z m";
   const Header header = ReadHeader(name);
   RunName said{.direction = SignBehind(name, header.unit_text)};
   bool is_run = false;
@@ -201,10 +203,13 @@ std::optional<RunName> ReadRunName(std::string_view name) {
       said.direction = is_up ? "up" : "down";
       // "f1" may be anything, "1 fwd" is a run.
       is_run = is_run || word.size() > 1;
-    } else if (!IsOneOf(word, kErrors) && !IsOneOf(word, kAxes)) {
+    } else if (!IsOneOf(word, kErrors) && !IsOneOf(word, kLetters)) {
       return std::nullopt;
     }
   }
+  // "1+ (um)"
+  is_run = is_run || (!said.direction.empty() && said.run > 0 &&
+                      IsLengthOrAngle(header.unit));
   if (!is_run || (said.run <= 0 && said.direction.empty())) {
     return std::nullopt;
   }

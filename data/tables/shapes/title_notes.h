@@ -6,13 +6,14 @@
 
 namespace errmap::data {
 
-/// Gives errors whose names have no unit the one that a line above the table
-/// states of all ("All deviations in micrometres", "Units: mm"), with a remark,
-/// and positions, where it is not said of errors alone.
+/// Gives columns whose names have no unit the one that a line states of all,
+/// or of errors, positions or temperatures ("All deviations in micrometres",
+/// "Units: inch, deg F", "position in m"), with a remark.
 void TakeUnitOfNotes(CsvTable* table);
 
-/// The line above the table that calls an error the nominal value less the
-/// actual one ("Abweichung = Soll - Ist"); null without one.
-const std::string* NoteOfOppositeSign(const CsvTable& table);
+/// The line that tells how an error is signed, where that is not plainly the
+/// actual value less the nominal one ("Abweichung = Soll - Ist", "positive
+/// error: the axis stops short"); null without one.
+const std::string* NoteOfOtherSign(const CsvTable& table);
 
 }  // namespace errmap::data

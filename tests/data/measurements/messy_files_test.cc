@@ -225,6 +225,16 @@ TEST(MessyFiles, WordsForMissingCellsAreMissingCells) {
   }
 }
 
+TEST(MessyFiles, RowsOfTotalsTellNoSessionsAndNoTimes) {
+  for (const std::string row :
+       {"3 Average,,,200,24,21,9.5\n", "Gesamtergebnis,,,200,24,21,9.5\n"}) {
+    const PreparedDataset prepared =
+        Make(Joined(Measured()) + row, {.missing = MissingPolicy::kDropRows});
+    EXPECT_EQ(prepared.reading.sessions.count, kDays);
+    EXPECT_EQ(prepared.dataset.num_rows(), kDays * kCycles * kPositions);
+  }
+}
+
 TEST(MessyFiles, AllElseIsOneLineThatSaysWhatToDo) {
   const Rows rows = Measured();
   const std::string text = Joined(rows);

@@ -487,6 +487,28 @@ TEST(TableShape, TakesTheUnitOfALineAbove) {
             2);
 }
 
+TEST(TableShape, TakesTheUnitsOfPositionsAndTemperaturesToo) {
+  const auto names_under = [](const std::string& note) {
+    return NamesIn(ParseCsv(note + "\nPosition,T1,Error\n" + Rows(), "f.csv"));
+  };
+  EXPECT_THAT(names_under("# position in m"),
+              ElementsAre("Position [m]", "T1", "Error"));
+  EXPECT_THAT(names_under("# temperatures in degrees Fahrenheit"),
+              ElementsAre("Position", "T1 [degF]", "Error"));
+  EXPECT_THAT(names_under("Units: inch, deg F"),
+              ElementsAre("Position [in]", "T1 [degF]", "Error [in]"));
+}
+
+// With the separators of a sheet behind them.
+TEST(TableShape, TakesDatesAmongTheRowsForDays) {
+  const CsvTable table = ParseCsv(
+      "Cycle,X [mm],Error [um]\n04.03.2024,,\n1,0,2.5\n1,50,3.5\n"
+      "05.03.2024,,\n1,0,2.6\n1,50,3.6\n",
+      "f.csv");
+  EXPECT_EQ(table.num_rows, 4U);
+  EXPECT_EQ(table.CellText(table.At(table.Find("date")), 3), "05.03.2024");
+}
+
 // ---- Numbers.
 
 TEST(TableShape, ReadsOneColumnOfDecimalCommas) {
@@ -571,8 +593,9 @@ TEST(FoldedPositions, AreSeveralQuantitiesOrNoneByTheirPositions) {
 }
 
 TEST(FoldedPositions, MayStandInParenthesesOrBehindAnAxis) {
-  for (const std::string names :
-       {"err_um(0),err_um(50),err_um(100)", "X0 [um],X50 [um],X100 [um]"}) {
+  for (const std::string names : {"err_um(0),err_um(50),err_um(100)",
+                                  "X0 [um],X50 [um],X100 [um]",
+                                  "X=0 (um),X=50 (um),X=100 (um)"}) {
     const CsvTable table = ParseCsv("T1," + names + "\n20,1,2,3\n", "f.csv");
     EXPECT_THAT(table.At(table.Find("position_mm")).values,
                 ElementsAre(0, 50, 100));
@@ -605,7 +628,10 @@ TEST(FoldedPositions, GoBlockByBlockInRunsAndWays) {
 TEST(FoldedPositions, GoRunByRunInBothWays) {
   for (const std::string names :
        {"Lauf 1 hin,Lauf 2 hin,Lauf 1 her,Lauf 2 her",
-        "x1\u2191 [um],x2\u2191 [um],x1\u2193 [um],x2\u2193 [um]"}) {
+        "x1\u2191 [um],x2\u2191 [um],x1\u2193 [um],x2\u2193 [um]",
+        "1+ (um),2+ (um),1- (um),2- (um)",
+        "Test 1 Fwd,Test 2 Fwd,Test 1 Bwd,Test 2 Bwd",
+        "Series 1 up,Series 2 up,Series 1 down,Series 2 down"}) {
     const CsvTable table =
         ParseCsv("X [mm]," + names + "\n0,1,5,4,8\n50,2,6,3,7\n", "f.csv");
     EXPECT_THAT(table.At(table.Find("cycle")).values,

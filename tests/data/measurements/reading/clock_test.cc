@@ -150,6 +150,40 @@ TEST(Clock, MayPauseBetweenCyclesToo) {
   EXPECT_EQ(reading.sessions.count, 3);
 }
 
+TEST(Clock, OfDigitsShowsHoursMinutesAndSeconds) {
+  const Reading reading =
+      MadeOf(Days("time", [](int i, double /*warm*/) {
+        const int minutes = 41 + i % 40 / 2;
+        return std::to_string(70000 + minutes / 60 * 10000 +
+                              minutes % 60 * 100 + i % 2 * 30);
+      })).reading;
+  EXPECT_EQ(reading.time.step_s, 30.0);
+  EXPECT_EQ(reading.sessions.count, 3);
+}
+
+TEST(Clock, IsTheTimeSinceADateThatStands) {
+  const Reading reading =
+      MadeOf(Days("start,elapsed_min", [](int i, double /*warm*/) {
+        return "2024-09-0" + std::to_string(7 + i / 40) + " 07:22," +
+               CsvNumber(0.5 * (i % 40));
+      })).reading;
+  EXPECT_EQ(reading.time.column, "elapsed_min");
+  EXPECT_EQ(reading.time.step_s, 30.0);
+  EXPECT_EQ(reading.sessions.count, 3);
+}
+
+// A sheet's date is one at midnight.
+TEST(Clock, OfADayCountsWithADateAtMidnight) {
+  const Reading reading =
+      MadeOf(Days("Date,Time", [](int i, double /*warm*/) {
+        return "2024-09-0" + std::to_string(4 + i / 40) + " 00:00:00," +
+               CsvNumber(std::round(1e9 * (0.3 + i % 40 / 2880.0)) / 1e9);
+      })).reading;
+  EXPECT_EQ(reading.time.column, "Date + Time");
+  EXPECT_NEAR(reading.time.step_s.value_or(0.0), 30.0, 1e-3);
+  EXPECT_EQ(reading.sessions.count, 3);
+}
+
 // As scopes write it, before each channel.
 TEST(Clock, MayStandSeveralTimes) {
   const Reading reading =

@@ -301,6 +301,64 @@ TEST(Reading, KeepsTheWordsForTheWaysWhereTheRowsGoOtherWays) {
   EXPECT_EQ(rows(WithWays(log, "rev", "fwd"), "fwd").front(), 6);
 }
 
+// Both ways at each position, one row below the other: the names alone tell.
+TEST(Reading, TakesTheWayFromColumnsThatAreCalledOne) {
+  struct Column {
+    const char* name;
+    const char* up;
+    const char* down;
+  };
+  for (const Column& column : {Column{"backward", "FALSE", "TRUE"},
+                               Column{"reversed", "no", "yes"},
+                               Column{"is_up", "1", "0"},
+                               Column{"R\u00fcckweg", "0", "1"},
+                               Column{"verso", "andata", "ritorno"}}) {
+    bool up = false;
+    const std::string text =
+        Text(std::string("day,cycle,way,").replace(10, 3, column.name) +
+                 "position_mm,t1_degC,error_um",
+             Log().Rows(),
+             [&](const Log::Row& row) {
+               up = !up;
+               const int at = static_cast<int>(row.position / 50.0) / 2;
+               return std::vector<std::string>{std::to_string(row.day),
+                                               std::to_string(row.cycle),
+                                               up ? column.up : column.down,
+                                               std::to_string(100 * at),
+                                               Fixed(row.warm),
+                                               Fixed(row.error)};
+             });
+    const Reading reading = Read(text);
+    EXPECT_EQ(reading.direction.column, column.name);
+    EXPECT_THAT(reading.direction.labels, ElementsAre(column.up, column.down));
+    EXPECT_TRUE(reading.direction.sure) << column.name;
+  }
+}
+
+// Two shifts a day, and the cycles of each from 1 on.
+TEST(Reading, PartsDaysWhereCyclesCountAnewInAnotherShift) {
+  for (const bool dated : {true, false}) {
+    const std::string text =
+        Text(dated ? "Date,Shift,Cycle,position_mm,t1_degC,error_um"
+                   : "Day,Session,Cycle,position_mm,t1_degC,error_um",
+             Log().Rows(),
+             [&](const Log::Row& row) {
+               const std::string day = std::to_string(1 + row.day / 2);
+               return std::vector<std::string>{
+                   dated ? "2024-03-0" + day : day,
+                   dated ? (row.day % 2 == 0 ? "A" : "B")
+                         : std::to_string(1 + row.day % 2),
+                   std::to_string(1 + row.cycle % 5),
+                   Fixed(row.position),
+                   Fixed(row.warm),
+                   Fixed(row.error)};
+             });
+    const Reading reading = Read(text);
+    EXPECT_EQ(reading.sessions.count, 4) << dated;
+    EXPECT_EQ(reading.cycles.count, 20) << dated;
+  }
+}
+
 TEST(Reading, PutsShuffledRowsInTheOrderOfTheirClock) {
   const std::vector<Log::Row> rows = Log().Rows();
   std::vector<Log::Row> sorted = rows;
@@ -396,6 +454,23 @@ TEST(Reading, AsksForTheSignOfACorrection) {
             Eigen::VectorXd(-error.dataset.target_values()));
   EXPECT_EQ(against.reading.target.sign, -1);
   EXPECT_EQ(against.dataset.target().unit.symbol, "um");
+}
+
+// Of notes above or below the table.
+TEST(Reading, AsksForTheSignThatANoteTells) {
+  const std::string rows = Text("time_s,position_mm,t1_degC,error_um",
+                                Log().Rows(),
+                                TimePositionTempError);
+  for (const char* note : {"sign convention: nominal minus actual",
+                           "error = target - reading",
+                           "positive error: the axis stops short",
+                           "Vorzeichen: Soll minus Ist"}) {
+    EXPECT_THROW(Read("# " + std::string(note) + "\n" + rows), OpenQuestion)
+        << note;
+  }
+  EXPECT_THROW(Read(rows + "\nNote: Deviation = nominal - actual\n"),
+               OpenQuestion);
+  EXPECT_NO_THROW(Read("# error = measured - target\n" + rows));
 }
 
 TEST(Reading, AsksForTheDifferenceOfWhatWasReadAndCommanded) {
