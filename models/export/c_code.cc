@@ -372,7 +372,7 @@ std::string CWriter::ReadFunction() const {
   const auto parts = program_.parts();
   text += Locals({parts.begin(), parts.end()}) +
           fmt::format("  {} e;\n  double passed = dt_s;\n", Real());
-  for (const Cell cell : {Cell::kCommon, Cell::kAway, Cell::kSpan}) {
+  for (const Cell cell : {Cell::kCommon, Cell::kAway, Cell::kChanged}) {
     if (!program_.Uses(cell)) continue;
     text += fmt::format("  double {};\n", InfoOf(cell).name);
   }

@@ -391,7 +391,7 @@ std::vector<TextVariable> Locals(const MapProgram& program,
                           Cell::kTarget,
                           Cell::kBound,
                           Cell::kPace,
-                          Cell::kSpan,
+                          Cell::kChanged,
                           Cell::kError}) {
     if (program.Uses(cell) || cell == Cell::kError) {
       locals.push_back({.name = language.VariableOf(cell)});

@@ -38,13 +38,13 @@ RESTARTS = 1e-12  # of the error's limit
 WHY = {"range": "OUTSIDE", "relation": "RELATION", "distance": "DISTANCE",
        "leverage": "LEVERAGE", "start": "SETTLING", "gap": "GAP"}
 
-WITH_STATUS = ["ridge", "stepwise", "strict", "pair"]
+WITH_STATUS = ["ridge", "stepwise", "strict", "pair", "raw"]
 
 # A fault in the exported Python, which the checks must find.
 PLANTS = {
-    "no limit": [("if target < (-bound):", "if False:"),
-                 ("if not ((self.given >=", "if False and not ((self.given >=")],
-    "no rate": [("if target < (self.given - self.room):", "if False:")],
+    "no limit": [("if abs(target) > bound:", "if False:"),
+                 ("if not (abs(self.given) <=", "if False and not (abs(self.given) <=")],
+    "no rate": [("if abs(target - self.given) > self.room:", "if False:")],
     "steps are always taken": [("if not (status & NOT_TAKEN):", "if True:")],
     "a gap is no time": [("self.waited = self.waited + passed",
                           "self.waited = passed")],

@@ -1,19 +1,20 @@
 """What exported maps do while something is wrong, counted over many runs.
 
-  exports_hold_test.py ERRMAP [MAPS]
+  exports_hold_test.py ERRMAP [MAPS [SEED]]
 
-Twelve maps of six simulated days run through two further ones in C, in Python
-and, where matiec is at hand, in structured text with LREAL and with REAL, while
-each sensor in turn is dead, hangs from the first row, a quarter or a half of the
-day, is 3 or 10 K off or exchanged with the next, all hang together, the limits
-are negative, no number or huge, a retained number is damaged, the axis is
-beyond its travel or Start is held. Counted is how often the error leaves the
-limit, how often it is long worse than none while the map calls itself healthy,
-how soon a sensor that hangs is found, and how good the map is while one is
-lost. Twenty healthy machines of another kind run ten days each with their
-nights. Needs a C compiler; skips (status 77) without.
+Twelve maps of six simulated days run through two further ones in C, in Python,
+as LinuxCNC's component and, where matiec is at hand, in structured text with
+LREAL and with REAL, while each sensor in turn is dead, hangs from the first
+row, a quarter or a half of the day, is 3 or 10 K off or exchanged with the
+next, all hang together, the limits are negative, no number or huge, a retained
+number is damaged, the axis is beyond its travel or Start is held. Counted is
+how often the error leaves the limit, how often it is long worse than none while
+the map calls itself healthy, how soon a sensor that hangs is found, and how
+good the map is while one is lost. Twenty healthy machines of another kind run
+ten days each with their nights. Needs a C compiler; skips (status 77) without.
 """
 
+import functools
 import math
 import os
 import pathlib
@@ -25,6 +26,7 @@ import sys
 import tempfile
 
 import exported_maps as bench
+from component_in_c import component_in_c
 from exported_maps import Exported, check, run
 from healthy_machines import DRIVER, answers, check_healthy_machines
 
@@ -83,6 +85,31 @@ class Map(Exported):
         sensors = [i + 1 for i in range(len(self.map.INPUTS))
                    if i != self.position]
         self.sensors = sensors
+        hal = "hal_" + self.name
+        maps = (self.files if len(self.files) == 1 else
+                ["--increasing", self.files[0], "--decreasing", self.files[1]])
+        run(self.errmap, "export", *maps, "--hal", "--name", self.name, "-o",
+            hal, "--quiet", folder=self.folder)
+        component, self.kept = component_in_c(
+            (self.folder / hal / f"errmap_{self.name}.comp").read_text(),
+            len(self.map.INPUTS))
+        (self.folder / hal / "hold.c").write_text(component)
+        run("cc", "-std=c99", "-O1", "-w", "hold.c", "-o", "hold", "-lm",
+            folder=self.folder / hal)
+        self.component = str(self.folder / hal / "hold")
+
+    def languages(self):
+        """Name, runner (rows, limits) -> answers, and how near to C's."""
+        yield "Python", self.by_python, 1e-12
+        yield "HAL", self.by_hal, 1e-12
+        if bench.has_compiler():
+            yield "ST", self.by_text, 1e-12
+            yield "ST, REAL", functools.partial(
+                self.by_text, where="single"), None
+
+    def by_hal(self, rows, limits=None, flags=None):
+        return answers(run(self.component,
+                           text=self.lines_of(rows, limits, flags)))
 
     def lines_of(self, rows, limits=None, flags=None):
         limits = limits or (self.own.max_error, self.own.max_rate)
@@ -135,9 +162,9 @@ class Map(Exported):
             str(out), str(out / "driver.c"), "-o", str(exe), "-lm")
         return exe, places
 
-    def by_text(self, rows, where=".", **how):
+    def by_text(self, rows, limits=None, flags=None, where="."):
         exe, _ = self.compile_text(where)
-        return answers(run(str(exe), text=self.lines_of(rows, **how)))
+        return answers(run(str(exe), text=self.lines_of(rows, limits, flags)))
 
 
 def filled(day, errors):
@@ -223,8 +250,10 @@ def rms(values):
 
 
 class Counts:
+    """What was counted of one language."""
+
     def __init__(self):
-        self.runs = self.worse = self.beyond = 0
+        self.runs = self.worse = self.beyond = self.other = 0
         self.hang = {}
         self.by_fault = {}
 
@@ -235,60 +264,84 @@ class Counts:
         runs, worse = self.by_fault.get(what, (0, 0))
         self.by_fault[what] = runs + 1, worse + (longest > HOLD)
 
+    def told(self):
+        return [one for some in self.hang.values() for one in some]
+
 
 def beyond_limit(found, limit, share=1e-12):
     return sum(not abs(error) <= limit * (1 + share) for error, _ in found)
 
 
-def check_sensors(exported, days, counts, chance):
-    limit = exported.own.max_error
-    for rows, truth in days:
-        # Where the map itself is worse than nothing no fault shows.
-        alone = longest_worse(rows, truth, exported.by_c(rows), exported.alarm)
-        print(f"{exported.name}: {sum(row[0] for row in rows):.0f} s, healthy "
-              f"it is worse than nothing for {alone:.0f} s")
-        for what, failed, which, begin in faults(exported, rows):
-            found = exported.by_c(failed)
-            longest = longest_worse(failed, truth, found, exported.alarm)
-            counts.add(what, longest if alone <= HOLD else 0.0,
-                       beyond_limit(found, limit))
-            if what == "hangs":
-                told = found_in_time(exported, rows, which, begin, found)
-                if told is not None:
-                    counts.hang.setdefault(exported.name, []).append(told)
-            if chance.random() < 0.1:
-                check_alike(exported, what, failed, found)
+class Trial:
+    """Runs of faults of one map, counted by language."""
 
+    def __init__(self, exported, counts):
+        self.exported, self.counts = exported, counts
 
-def check_alike(exported, what, rows, found):
-    limit = exported.own.max_error
-    others = [(exported.by_python(rows), 1e-12)]
-    if bench.has_compiler():
-        others.append((exported.by_text(rows), 1e-12))
-        single = exported.by_text(rows, where="single")
-        check(f"{exported.name}, {what}: REAL stays within the limit",
-              beyond_limit(single, limit, SINGLE) == 0)
-    for other, share in others:
-        check(f"{exported.name}, {what}: the languages agree",
-              all(abs(a[0] - b[0]) <= share * limit and a[1] == b[1]
-                  for a, b in zip(found, other)) and len(found) == len(other),
-              next(((i, a, b) for i, (a, b) in enumerate(zip(found, other))
+    def alone(self, rows, truth):
+        """How long the map itself is worse than nothing: no fault shows then."""
+        return longest_worse(rows, truth, self.exported.by_c(rows),
+                             self.exported.alarm)
+
+    def run(self, what, rows, truth, limits=None, hangs=None):
+        """What C gives, once all languages are counted; no truth, none worse."""
+        mine = self.exported
+        found = mine.by_c(rows, limits)
+        for name, given, near in [("C", found, 0.0)] + [
+                (name, by(rows, limits), near)
+                for name, by, near in mine.languages()]:
+            self.count(self.counts.setdefault(name, Counts()), what, rows,
+                       truth, given, hangs,
+                       1e-12 if near is not None else SINGLE)
+            if near is not None:
+                self.compare(name, what, found, given, near)
+        return found
+
+    def count(self, counts, what, rows, truth, given, hangs, share):
+        mine = self.exported
+        counts.add(what, longest_worse(rows, truth, given, mine.alarm)
+                   if truth else 0.0,
+                   beyond_limit(given, mine.own.max_error, share))
+        if hangs:
+            told = found_in_time(mine, *hangs, given)
+            if told is not None:
+                counts.hang.setdefault(mine.name, []).append(told)
+
+    def compare(self, name, what, found, given, near):
+        limit = self.exported.own.max_error
+        self.counts[name].other += found != given
+        check(f"{self.exported.name}, {what}: {name} agrees with C",
+              len(found) == len(given) and all(
+                  abs(a[0] - b[0]) <= near * limit and a[1] == b[1]
+                  for a, b in zip(found, given)),
+              next(((i, a, b) for i, (a, b) in enumerate(zip(found, given))
                     if a != b), None))
 
 
-def check_limits(exported, rows, counts):
+def check_sensors(trial, days):
+    exported = trial.exported
+    for rows, truth in days:
+        alone = trial.alone(rows, truth)
+        print(f"{exported.name}: {sum(row[0] for row in rows):.0f} s, healthy "
+              f"it is worse than nothing for {alone:.0f} s")
+        for what, failed, which, begin in faults(exported, rows):
+            trial.run(what, failed, truth if alone <= HOLD else None,
+                      hangs=((rows, which, begin) if what == "hangs"
+                             else None))
+
+
+def check_limits(trial, rows, truth):
+    exported = trial.exported
     own = exported.own
     for limits in ((-own.max_error, own.max_rate), (math.nan, own.max_rate),
                    (1e30, own.max_rate), (0.0, own.max_rate),
                    (own.max_error, -own.max_rate), (own.max_error, math.nan),
                    (own.max_error, 1e30), (own.max_error, 0.0)):
-        found = exported.by_c(rows, limits)
-        counts.add("limits", 0.0, beyond_limit(found, own.max_error))
+        found = trial.run("limits", rows, truth, limits)
         usable = limits == (own.max_error, 1e30)
         check(f"{exported.name}, limits {limits}: said",
               all(bool(status & exported.map.PARAMETER) != usable
                   for _, status in found))
-        check_alike_limits(exported, rows, limits, found)
     lowered = 0.1 * own.max_error
     session = exported.map.Map()
     session.begin()
@@ -300,22 +353,10 @@ def check_limits(exported, rows, counts):
               i < len(rows) // 2 or abs(error) <= lowered, error)
 
 
-def check_alike_limits(exported, rows, limits, found):
-    others = [exported.by_python(rows, limits)]
-    if bench.has_compiler():
-        others.append(exported.by_text(rows, limits=limits))
-        check(f"{exported.name}, limits {limits}: REAL stays within",
-              beyond_limit(exported.by_text(rows, where="single",
-                                            limits=limits),
-                           exported.own.max_error, SINGLE) == 0)
-    for other in others:
-        check(f"{exported.name}, limits {limits}: the languages agree",
-              all(abs(a[0] - b[0]) <= 1e-12 * exported.own.max_error
-                  for a, b in zip(found, other)))
-
-
-def check_damage(exported, rows):
+def check_damage(trial, rows):
     """A state of which one number was changed is not gone on from."""
+    exported = trial.exported
+    limit = exported.own.max_error
     session = exported.map.Map()
     session.begin()
     for dt, *inputs in rows[:20]:
@@ -323,6 +364,7 @@ def check_damage(exported, rows):
     saved = session.get_state()
     check(exported.name + ": its own state is taken",
           exported.map.Map().set_state(saved, 1.0))
+    counts = trial.counts.setdefault("Python", Counts())
     for name, value in saved.items():
         places = range(len(value)) if isinstance(value, list) else [None]
         for at in places:
@@ -333,45 +375,49 @@ def check_damage(exported, rows):
                     changed[name] += wrong
                 else:
                     changed[name][at] += wrong
+                anew = exported.map.Map()
                 check(f"{exported.name}: no state with another {name}",
-                      not exported.map.Map().set_state(changed, 1.0))
-    if not bench.has_compiler():
-        return
-    for where, share in ((".", 1e-12), ("single", SINGLE)):
-        _, places = exported.compile_text(where)
-        for i in range(-1, len(places)):
-            for wrong in (math.nan, 1e9, -7.25):
-                text = exported.lines_of(rows[:20])
-                after = exported.lines_of([[0.0] + rows[20][1:]], flags={0: 9})
-                out = answers(run(str(exported.compile_text(where)[0]),
-                                  text=text + after.rstrip("\n")
-                                  + f" {i} {wrong!r}\n"))
-                goes_on = abs(out[-1][0] - out[-2][0]) <= abs(out[-2][0]) / 2
-                if i < 0:
-                    check(f"{exported.name}, {where}: goes on", goes_on, out)
-                    break
-                check(f"{exported.name}, {where}: {places[i]} = {wrong} is "
-                      "not gone on from",
-                      out[-1][0] == 0.0 or abs(out[-1][0])
-                      <= share * exported.own.max_error, out[-2:])
+                      not anew.set_state(changed, 1.0))
+                counts.add("damaged", 0.0, beyond_limit(
+                    [anew.step(0.0, rows[20][1:])], limit))
+    programs = [("HAL", exported.component, range(exported.kept), 1e-12)]
+    if bench.has_compiler():
+        programs += [("ST", *exported.compile_text("."), 1e-12),
+                     ("ST, REAL", *exported.compile_text("single"), SINGLE)]
+    for name, exe, places, share in programs:
+        counts = trial.counts.setdefault(name, Counts())
+        text = exported.lines_of(rows[:20]) + exported.lines_of(
+            [[0.0] + rows[20][1:]], flags={0: 9}).rstrip("\n")
+        for i, wrong in [(-1, 0.0)] + [
+                (i, wrong) for i in range(len(places))
+                for wrong in (math.nan, 1e9, -7.25)]:
+            out = answers(run(str(exe), text=f"{text} {i} {wrong!r}\n"))
+            if i < 0:
+                check(f"{exported.name}, {name}: goes on", abs(
+                    out[-1][0] - out[-2][0]) <= abs(out[-2][0]) / 2, out[-2:])
+                continue
+            check(f"{exported.name}, {name}: {places[i]} = {wrong} is not gone "
+                  "on from", abs(out[-1][0]) <= share * limit, out[-2:])
+            counts.add("damaged", 0.0, beyond_limit(out[-1:], limit, share))
 
 
-def check_travel(exported, rows):
+def check_travel(trial, rows):
     """At the end of the travel, then refused."""
+    exported = trial.exported
     at = exported.position + 1
     ends = [min(row[at] for row in rows), max(row[at] for row in rows)]
     travel = ends[1] - ends[0]
     for end, way in zip(ends, (-1, 1)):
+        held = [list(row) for row in rows]
+        for row in held[10:]:
+            row[at] = end
+        expected = exported.by_c(held)
         for beyond in (0.5, 1.0, 2.0):
             there = [list(row) for row in rows]
             for row in there[10:]:
                 row[at] = end + way * (beyond * travel + 1e-3 * (beyond == 1.0))
-            held = [list(row) for row in rows]
-            for row in held[10:]:
-                row[at] = end
-            found, expected = exported.by_c(there), exported.by_c(held)
-            check(f"{exported.name}: {beyond} travels beyond",
-                  beyond_limit(found, exported.own.max_error) == 0)
+            # What was measured was measured elsewhere.
+            found = trial.run("beyond", there, None)
             if beyond < 1.0:
                 check(f"{exported.name}: as at the end of the travel",
                       all(abs(a[0] - b[0]) <= 1e-12
@@ -382,14 +428,19 @@ def check_travel(exported, rows):
                       for _, status in found[10:]))
 
 
-def check_start_held(exported, rows):
-    if not bench.has_compiler():
-        return
+def check_start_held(trial, rows, truth):
+    exported = trial.exported
     flags = {i: 5 for i in range(1, len(rows))}
-    for where in (".", "single"):
-        held = exported.by_text(rows, where=where, flags=flags)
-        check(f"{exported.name}: Start acts by its edge",
-              held == exported.by_text(rows, where=where))
+    runners = [("HAL", exported.by_hal, {}, 1e-12)]
+    if bench.has_compiler():
+        runners += [("ST", exported.by_text, {}, 1e-12),
+                    ("ST, REAL", exported.by_text, {"where": "single"}, SINGLE)]
+    for name, by, how, share in runners:
+        held = by(rows, flags=flags, **how)
+        check(f"{exported.name}, {name}: Start acts by its edge",
+              held == by(rows, **how))
+        trial.count(trial.counts.setdefault(name, Counts()), "Start held", rows,
+                    truth, held, None, share)
 
 
 def check_mixed(exported, errmap):
@@ -444,18 +495,32 @@ def days_of(exported, file):
             for day, rows in exported.read_days(file).items()]
 
 
+def table(counts):
+    lines = ["runs, steps beyond the limit, runs healthy and worse than "
+             "nothing for longer than the hold, hanging sensors found in time, "
+             "runs whose answers are not C's bit for bit:"]
+    for name, of in counts.items():
+        told = of.told()
+        lines.append(f"{name:9} {of.runs:6} {of.beyond:4} {of.worse:4} "
+                     f"{sum(told):4} of {len(told):4} {of.other:4}; "
+                     + ", ".join(f"{what} {worse}/{runs}" for what,
+                                 (runs, worse) in of.by_fault.items()))
+    return "\n".join(lines)
+
+
 def main():
     errmap = os.path.abspath(sys.argv[1])
-    names = sys.argv[2].split(",") if len(sys.argv) > 2 else list(bench.MAPS)
+    names = (sys.argv[2].split(",") if len(sys.argv) > 2 and sys.argv[2]
+             else list(bench.MAPS))
+    seed = sys.argv[3] if len(sys.argv) > 3 else "3"
     if shutil.which("cc") is None:
         print("skipped: no C compiler")
         sys.exit(77)
-    chance = random.Random(11)
-    counts = Counts()
+    counts = {}
     with tempfile.TemporaryDirectory(prefix="errmap_hold_") as name:
         folder = pathlib.Path(name)
         run(errmap, "simulate", "turning-centre", "-o", "sim", "--days", "8",
-            "--cycles", "6", "--seed", "3", "--quiet", folder=folder)
+            "--cycles", "6", "--seed", seed, "--quiet", folder=folder)
         known, further = bench.split_days(folder / "sim", 6)
         own, lost = [], []
         for name in names:
@@ -464,12 +529,15 @@ def main():
             ways = ["up", "down"] if name == "pair" else ["down"]
             days = days_of(exported, bench.write_days(
                 further / (name + ".csv"), ways))
-            check_sensors(exported, days, counts, chance)
-            rows = days[0][0][:300]
-            check_limits(exported, rows, counts)
-            check_damage(exported, rows)
-            check_travel(exported, rows)
-            check_start_held(exported, rows)
+            trial = Trial(exported, counts)
+            check_sensors(trial, days)
+            rows, truth = days[0][0][:300], days[0][1][:300]
+            if trial.alone(rows, truth) > HOLD:
+                truth = None
+            check_limits(trial, rows, truth)
+            check_damage(trial, rows)
+            check_travel(trial, rows)
+            check_start_held(trial, rows, truth)
             if name != "pair":
                 check_mixed(exported, errmap)
             of_map, of_lost = lost_and_moving(exported, days)
@@ -478,20 +546,16 @@ def main():
             print(f"{name}: own RMS {1e3 * rms(of_map):.2f} um, with a sensor "
                   f"lost {1e3 * rms(of_lost):.2f} um")
         check_healthy_machines(folder, errmap, 20, 10)
-    told = [one for some in counts.hang.values() for one in some]
-    print(f"{counts.runs} runs: {counts.beyond} steps beyond the limit, "
-          f"{counts.worse} runs long worse than none and healthy; by fault "
-          + ", ".join(f"{what} {worse}/{runs}" for what, (runs, worse)
-                      in counts.by_fault.items()))
-    print(f"hanging sensors found in time: {sum(told)} of {len(told)}; "
-          + ", ".join(f"{name} {sum(some)}/{len(some)}"
-                      for name, some in counts.hang.items()))
+    print(table(counts))
     print(f"a sensor lost, over the hold: {1e3 * rms(lost):.2f} um, the maps' "
           f"own {1e3 * rms(own):.2f} um")
-    check("no step beyond the limit", counts.beyond == 0, counts.beyond)
-    check("healthy and worse than nothing in one run of a hundred at most",
-          counts.worse <= 0.01 * counts.runs, counts.by_fault)
-    check("hanging sensors are found", sum(told) >= 0.95 * len(told))
+    for name, of in counts.items():
+        told = of.told()
+        check(name + ": no step beyond the limit", of.beyond == 0, of.beyond)
+        check(name + ": healthy and worse than nothing in one run of a hundred "
+              "at most", of.worse <= 0.01 * of.runs, of.by_fault)
+        check(name + ": hanging sensors are found",
+              sum(told) >= 0.95 * len(told))
     check("the hold is as good as the map", rms(lost) <= 1.5 * rms(own))
     if not bench.has_compiler():
         print("structured text was not run: no iec2c (matiec) on the PATH, in "

@@ -133,6 +133,28 @@ void SetBounds(const FittedModel& fitted, MapProgram* program) {
   }
 }
 
+// Guards of the form's inputs that no reading reaches, now that it is checked.
+void DropIdleGuards(MapProgram* program) {
+  const auto is_idle = [&](const Instruction& clip, const Instruction& copy) {
+    if (copy.to != clip.to || copy.a.space != Space::kReading) return false;
+    const ProgramReading& reading =
+        program->readings[static_cast<std::size_t>(copy.a.index)];
+    const bool is_held = reading.is_position && reading.far_high < kHuge;
+    return clip.op == Op::kFloor
+               ? clip.c <= (is_held ? reading.trained_min : reading.far_low)
+               : clip.c >= (is_held ? reading.trained_max : reading.far_high);
+  };
+  for (MapForm& form : program->forms) {
+    const Instructions all = form.evaluate;
+    std::erase_if(form.evaluate, [&](const Instruction& clip) {
+      return clip.guards && clip.to.space == Space::kForm &&
+             std::ranges::any_of(all, [&](const Instruction& copy) {
+               return copy.op == Op::kCopy && is_idle(clip, copy);
+             });
+    });
+  }
+}
+
 // Limits from training for sensors that hang (models/sensors/standing_still.h).
 void WatchForStandingStill(const std::vector<const FittedModel*>& maps,
                            MapProgram* program) {
@@ -169,6 +191,38 @@ void WatchForStandingStill(const std::vector<const FittedModel*>& maps,
   }
 }
 
+// `to` = `by` times `from`: a few term by term, or a table.
+void Multiply(const MatrixXd& by,
+              Space from,
+              Space to,
+              bool are_few,
+              MapProgram* program,
+              Instructions* part) {
+  if (!are_few) {
+    part->push_back({.op = Op::kAffine,
+                     .to = {to, 0},
+                     .a = {from, 0},
+                     .table = program->tables.size(),
+                     .count = static_cast<int>(by.rows())});
+    MatrixXd& table = program->tables.emplace_back(by.rows(), by.cols() + 1);
+    table << by, VectorXd::Zero(by.rows());
+    return;
+  }
+  for (Index row = 0; row < by.rows(); ++row) {
+    const Operand sum{to, static_cast<int>(row)};
+    if (by.row(row).isZero(0.0)) {
+      part->push_back({.op = Op::kSet, .to = sum});
+      continue;
+    }
+    for (Index i = 0; i < by.cols(); ++i) {
+      part->push_back({.op = i == 0 ? Op::kLinear : Op::kAccumulate,
+                       .to = sum,
+                       .a = {from, static_cast<int>(i)},
+                       .c = by(row, i)});
+    }
+  }
+}
+
 // As MeasureStates in models/sensors/applicability.cc: x_j less its mean given
 // the others is (P x)_j / P_jj with variance 1 / P_jj. The inverse of
 // diag(rest) + W W' is taken by way of the few directions (Woodbury), so that a
@@ -198,16 +252,9 @@ void AddJudgement(const FittedModel& fitted,
     return form->readings[static_cast<std::size_t>(
         trained.columns[static_cast<std::size_t>(sensor)])];
   };
-  MatrixXd scores = MatrixXd::Zero(directions, sensors + 1);
-  scores.leftCols(sensors) =
+  const MatrixXd scores =
       inner * weighted.transpose() * trained.scale.cwiseInverse().asDiagonal();
-  // Readings that are no sensors, such as positions, have no doubt.
-  MatrixXd told = MatrixXd::Zero(static_cast<Index>(program->readings.size()),
-                                 directions + 1);
-  for (Index i = 0; i < sensors; ++i) {
-    told.row(reading_of(i)).head(directions) =
-        -per_limit[i] * trained.directions.row(i);
-  }
+  const VectorXd of_itself = per_limit.cwiseQuotient(trained.scale);
 
   Instructions& judge = form->judge;
   for (Index i = 0; i < sensors; ++i) {
@@ -216,30 +263,38 @@ void AddJudgement(const FittedModel& fitted,
                      .a = {Space::kReading, reading_of(i)},
                      .c = trained.mean[i]});
   }
-  const auto affine =
-      [&](Instructions* part, Space to, Space from, MatrixXd table) {
-        part->push_back({.op = Op::kAffine,
-                         .to = {to, 0},
-                         .a = {from, 0},
-                         .table = program->tables.size(),
-                         .count = static_cast<int>(table.rows())});
-        program->tables.push_back(std::move(table));
-      };
   // Scores as in MeasureStates: the columns of W are orthogonal.
-  MatrixXd whitened = MatrixXd::Zero(directions, sensors + 1);
-  whitened.leftCols(sensors) =
+  const MatrixXd whitened =
       trained.directions.colwise().squaredNorm().cwiseInverse().asDiagonal() *
       trained.directions.transpose() *
       trained.scale.cwiseInverse().asDiagonal();
-  affine(&form->measure, Space::kScore, Space::kStanding, std::move(whitened));
+  const bool are_few = sensors <= kFewSensors;
+  Multiply(whitened,
+           Space::kStanding,
+           Space::kScore,
+           are_few,
+           program,
+           &form->measure);
   const auto rows = static_cast<double>(trained.rows);
   form->states = trained.states;
   form->reach = trained.distance_limit * trained.distance_limit;
   form->most_spread = (trained.leverage_limit - 1.0 / rows) * (rows - 1.0);
   form->has_relations = sensors > 1;  // one alone has no others to go with
   if (!form->has_relations) return;
-  affine(&judge, Space::kScore, Space::kStanding, std::move(scores));
-  affine(&judge, Space::kDoubt, Space::kScore, std::move(told));
+  // Readings that are no sensors, such as positions, have no doubt.
+  MatrixXd told =
+      MatrixXd::Zero(static_cast<Index>(program->readings.size()), directions);
+  for (Index i = 0; i < sensors; ++i) {
+    told.row(reading_of(i)) = -per_limit[i] * trained.directions.row(i);
+  }
+  if (are_few) {
+    MatrixXd all = told * scores;
+    for (Index i = 0; i < sensors; ++i) all(reading_of(i), i) += of_itself[i];
+    Multiply(all, Space::kStanding, Space::kDoubt, true, program, &judge);
+  } else {
+    Multiply(scores, Space::kStanding, Space::kScore, false, program, &judge);
+    Multiply(told, Space::kScore, Space::kDoubt, false, program, &judge);
+  }
   for (Index i = 0; i < sensors; ++i) {
     const int column = reading_of(i);
     ProgramReading& reading =
@@ -251,10 +306,11 @@ void AddJudgement(const FittedModel& fitted,
       reading.believed = std::max(
           reading.believed, InUnitOf(reading, contradicts.kelvin) / limit);
     }
+    if (are_few) continue;
     judge.push_back({.op = Op::kAccumulate,
                      .to = {Space::kDoubt, column},
                      .a = {Space::kStanding, static_cast<int>(i)},
-                     .c = per_limit[i] / trained.scale[i]});
+                     .c = of_itself[i]});
   }
 }
 
@@ -522,6 +578,7 @@ void AddController(const std::vector<const FittedModel*>& maps,
                    const LimitOptions& options,
                    MapProgram* program) {
   SetBounds(*maps.front(), program);
+  DropIdleGuards(program);
   WatchForStandingStill(maps, program);
   for (std::size_t k = 0; k < maps.size(); ++k) {
     if (maps[k]->applicability == nullptr) continue;

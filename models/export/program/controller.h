@@ -76,6 +76,9 @@ constexpr bool IsOfSession(Cell cell) {
   return cell == Cell::kBegun || cell == Cell::kFresh ||
          cell == Cell::kSettling || cell == Cell::kLeapt;
 }
+/// So many sensors are written out one by one: a loop takes longer than its
+/// body.
+inline constexpr int kFewSensors = 4;
 /// A limit set at run time may be up to this multiple of the map's own limit.
 inline constexpr double kMostTimesOwn = 10.0;
 

@@ -33,13 +33,21 @@ void Append(Routine more, Routine* routine) {
   for (Statement& statement : more) routine->push_back(std::move(statement));
 }
 
-// Of readings, or of what is derived from them.
-Routine CheckRanges(const MapProgram& program, bool are_readings) {
+// True if it is asked only beyond the end of its travel whether it is outside.
+bool IsAskedAtEnd(const MapProgram& program, const Operand& place) {
+  if (place.space != Space::kReading || program.has_directions()) return false;
+  const auto& reading = program.readings[static_cast<std::size_t>(place.index)];
+  return reading.is_position && reading.far_high < kHuge;
+}
+
+// Of the places that `is_one` holds for.
+template <typename IsOne>
+Routine CheckRanges(const MapProgram& program, const IsOne& is_one) {
   return OfTheForm(program, [&](int form) {
     Routine ranges;
     for (const TrainedRange& range :
          program.forms[static_cast<std::size_t>(form)].ranges) {
-      if ((range.place.space == Space::kReading) != are_readings) continue;
+      if (!is_one(range.place)) continue;
       const Expression number{range.place};
       ranges.push_back(If(!(number >= range.low && number <= range.high),
                           {Flag(kMapOutside)}));
@@ -48,15 +56,22 @@ Routine CheckRanges(const MapProgram& program, bool are_readings) {
   });
 }
 
+// A value that is not a number is not within.
+Statement CheckFar(int at) {
+  const Expression x{Cell::kReading, at};
+  return If(
+      !(x >= Expression{Cell::kFarLow, at} &&
+        x <= Expression{Cell::kFarHigh, at}),
+      {If(x > -kHuge && x < kHuge, {Flag(kMapFar)}, {Flag(kMapInvalid)})});
+}
+
 Routine CheckReadings(const MapProgram& program) {
   const std::vector<ProgramReading>& readings = program.readings;
-  const Expression x{Cell::kReading};
   if (readings.empty()) return {};
-  Routine checks = CheckRanges(program, true);
-  // A value that is not a number is not within.
-  Statement far = EachReading({If(
-      !(x >= Cell::kFarLow && x <= Cell::kFarHigh),
-      {If(x > -kHuge && x < kHuge, {Flag(kMapFar)}, {Flag(kMapInvalid)})})});
+  Routine checks = CheckRanges(program, [&](const Operand& place) {
+    return place.space == Space::kReading && !IsAskedAtEnd(program, place);
+  });
+  Statement far = EachReading({CheckFar(Expression::kLoop)});
   // A healthy reading is asked least; two maps may read different ones.
   checks.push_back(program.has_directions()
                        ? std::move(far)
@@ -71,68 +86,75 @@ Routine CheckReadings(const MapProgram& program) {
   return checks;
 }
 
-// The last step may have been long ago, but not while a reading is refused.
-Statement SpanOfChange() {
-  return If(Read(Cell::kLeapt) > 0.0,
-            {Set(Cell::kSpan, Cell::kDt)},
-            {Set(Cell::kSpan, Cell::kWaited)});
+bool Jumps(const MapProgram& program) {
+  return std::ranges::any_of(program.readings, [](const auto& reading) {
+    return reading.jump < kHuge;
+  });
 }
 
-// What is kept of one that changed, or is new.
-Routine WatchAnew(int at, bool has_others) {
-  Routine anew{SetAt(Cell::kHeld, at, 0.0)};
-  if (has_others) {
-    anew.push_back(SetAt(Cell::kSince, at, Cell::kCommon));
-    anew.push_back(SetAt(Cell::kAlike, at, 0.0));
-  }
-  return anew;
+// How the others move is told from where it changed, or is new.
+Routine WatchOthersFrom(int at, bool has_others) {
+  if (!has_others) return {};
+  return {SetAt(Cell::kSince, at, Cell::kCommon), SetAt(Cell::kAlike, at, 0.0)};
 }
 
 // It holds its value.
 Routine WatchHeld(int at, bool has_others) {
   const Expression alike{Cell::kAlike, at};
-  const Expression held{Cell::kHeld, at};
-  Routine watch{SetAt(Cell::kHeld, at, held + Cell::kDt)};
-  if (!has_others) return watch;
-  const Expression moved =
-      Absolute(Read(Cell::kCommon) - Expression{Cell::kSince, at});
-  watch.push_back(
-      If(alike < kQuietSteps, {SetAt(Cell::kAlike, at, alike + 1.0)}));
-  watch.push_back(
-      If((alike > kFrozenSteps && moved > Expression{Cell::kOthersMove, at}) ||
-             (alike >= kQuietSteps && held > Expression{Cell::kQuiet, at} &&
-              moved > Expression{Cell::kFinest, at}),
-         {Flag(kMapFrozen)}));
+  Routine watch{
+      SetAt(Cell::kHeld, at, Expression{Cell::kHeld, at} + Cell::kDt)};
+  if (has_others) {
+    watch.push_back(
+        If(alike < kQuietSteps, {SetAt(Cell::kAlike, at, alike + 1.0)}));
+  }
   return watch;
 }
 
-// It has another value than in the step before.
-Routine WatchChanged(int at, bool has_others, bool jumps, bool has_silence) {
+// It held its value for some steps, in which the others moved.
+Statement CheckHeld(int at) {
+  const Expression alike{Cell::kAlike, at};
+  const Expression moved =
+      Absolute(Read(Cell::kCommon) - Expression{Cell::kSince, at});
+  return If(
+      alike > kFrozenSteps,
+      {If(moved > Expression{Cell::kOthersMove, at} ||
+              (alike >= kQuietSteps &&
+               Expression{Cell::kHeld, at} > Expression{Cell::kQuiet, at} &&
+               moved > Expression{Cell::kFinest, at}),
+          {Flag(kMapFrozen)})});
+}
+
+// It has another value than in the step before. What it may change by grows
+// with the time since the last step taken, but not while one is refused for a
+// leap.
+Routine WatchChanged(int at, bool has_others, bool jumps) {
   Routine changed;
   if (jumps) {
-    const Expression allowed = Expression{Cell::kJump, at} +
-                               Expression{Cell::kFastest, at} *
-                                   (Expression{Cell::kHeld, at} + Cell::kSpan);
-    changed.push_back(If(Absolute(Expression{Cell::kReading, at} -
-                                  Expression{Cell::kLast, at}) > allowed,
-                         {Flag(kMapJumped)}));
+    const Expression jump{Cell::kJump, at};
+    const Expression change =
+        Absolute(Expression{Cell::kReading, at} - Expression{Cell::kLast, at});
+    const Expression span =
+        Expression{Cell::kHeld, at} + Cell::kWaited - Cell::kLeapt;
+    changed.push_back(
+        If(change > jump,
+           {If(change > jump + Expression{Cell::kFastest, at} * span,
+               {Flag(kMapJumped), Set(Cell::kLeapt, Cell::kWaited)})}));
   }
-  Append(WatchAnew(at, has_others), &changed);
-  if (has_silence) changed.push_back(Set(Cell::kStood, 0.0));
+  changed.push_back(SetAt(Cell::kHeld, at, 0.0));
+  Append(WatchOthersFrom(at, has_others), &changed);
+  changed.push_back(Set(Cell::kChanged, 1.0));
   return changed;
 }
 
-// Applies `of_one` to the index of each watched reading. A few are written one
-// by one, since a loop takes longer than its body.
+// Applies `of_one` to the index of each watched reading.
 template <typename OfOne>
 Routine OfTheWatched(const MapProgram& program, const OfOne& of_one) {
-  constexpr int kFew = 4;
   std::vector<int> watched;
   for (std::size_t i = 0; i < program.readings.size(); ++i) {
     if (program.readings[i].weight > 0.0)
       watched.push_back(static_cast<int>(i));
   }
-  if (std::ssize(watched) > kFew) {
+  if (std::ssize(watched) > kFewSensors) {
     return {EachReading(
         {If(Read(Cell::kWeight) > 0.0, of_one(Expression::kLoop))})};
   }
@@ -141,44 +163,69 @@ Routine OfTheWatched(const MapProgram& program, const OfOne& of_one) {
   return all;
 }
 
+// No watched reading changed. A pause says little: it counts as a part of the
+// time that is too long.
+Routine WatchSilence(double silence) {
+  const double most = silence / kFrozenSteps;
+  const Expression stood{Cell::kStood};
+  return {If(Read(Cell::kDt) < most,
+             {Set(Cell::kStood, stood + Cell::kDt)},
+             {Set(Cell::kStood, stood + most)}),
+          If(stood > silence, {Flag(kMapFrozen)})};
+}
+
+Routine CheckDoubts(const MapForm& form) {
+  const auto check = [](int at) {
+    const Expression r = Absolute(Expression{Cell::kDoubt, at});
+    return If(
+        r > 1.0,
+        {Flag(kMapRelation),
+         If(r > Expression{Cell::kBelieved, at}, {Flag(kMapContradicts)})});
+  };
+  Routine checks;
+  for (const Instruction& it : form.judge) {
+    if (it.a.space == Space::kReading) checks.push_back(check(it.a.index));
+  }
+  if (std::ssize(checks) <= kFewSensors) return checks;
+  return {EachReading({check(Expression::kLoop)})};
+}
+
 // Of the watched readings, which hang or jump, in a session that has begun.
 Routine WatchTheStill(const MapProgram& program) {
   const auto& readings = program.readings;
-  const bool jumps = std::ranges::any_of(
-      readings, [](const auto& reading) { return reading.jump < kHuge; });
+  const bool jumps = Jumps(program);
   const bool has_others = std::ranges::count_if(readings, [](const auto& it) {
                             return it.weight > 0.0;
                           }) > 1;
-  const double silence = program.limits.silence;
-  const Expression stood{Cell::kStood};
+  const bool has_silence = program.limits.silence > 0.0;
 
-  Routine watch;
-  if (jumps) watch.push_back(SpanOfChange());
-  if (silence > 0.0) {
-    const double most = silence / kFrozenSteps;
-    watch.push_back(If(Read(Cell::kDt) < most,
-                       {Set(Cell::kStood, stood + Cell::kDt)},
-                       {Set(Cell::kStood, stood + most)}));
-  }
-  Append(OfTheWatched(
-             program,
-             [&](int at) -> Routine {
-               const Expression x{Cell::kReading, at};
-               return {If(x == Expression{Cell::kLast, at},
-                          WatchHeld(at, has_others),
-                          WatchChanged(at, has_others, jumps, silence > 0.0))};
-             }),
+  Routine watch{Set(Cell::kChanged, 0.0)};
+  Append(OfTheWatched(program,
+                      [&](int at) -> Routine {
+                        const Expression x{Cell::kReading, at};
+                        return {If(x == Expression{Cell::kLast, at},
+                                   WatchHeld(at, has_others),
+                                   WatchChanged(at, has_others, jumps))};
+                      }),
          &watch);
-  if (silence > 0.0) {
-    watch.push_back(If(stood > silence, {Flag(kMapFrozen)}));
+  Routine moves;
+  if (has_others) {
+    moves = OfTheWatched(program,
+                         [](int at) -> Routine { return {CheckHeld(at)}; });
   }
-  if (jumps) {
-    watch.push_back(If(
-        Any(kMapJumped), {Set(Cell::kLeapt, 1.0)}, {Set(Cell::kLeapt, 0.0)}));
+  Routine silent;
+  if (has_silence) {
+    moves.push_back(Set(Cell::kStood, 0.0));
+    silent = WatchSilence(program.limits.silence);
   }
-  Routine first =
-      OfTheWatched(program, [&](int at) { return WatchAnew(at, has_others); });
-  if (silence > 0.0) first.push_back(Set(Cell::kStood, 0.0));
+  watch.push_back(
+      If(Read(Cell::kChanged) > 0.0, std::move(moves), std::move(silent)));
+  Routine first = OfTheWatched(program, [&](int at) {
+    Routine anew{SetAt(Cell::kHeld, at, 0.0)};
+    Append(WatchOthersFrom(at, has_others), &anew);
+    return anew;
+  });
+  if (has_silence) first.push_back(Set(Cell::kStood, 0.0));
 
   Routine all;
   if (has_others) {
@@ -284,7 +331,8 @@ Routine Settle(const MapProgram& program) {
 
 // The position of the axis, or the end of its range if it is beyond. The axis'
 // motion lets the error change by more.
-Routine FollowPositions(const std::vector<ProgramReading>& readings) {
+Routine FollowPositions(const MapProgram& program) {
+  const std::vector<ProgramReading>& readings = program.readings;
   Routine follow;
   for (std::size_t i = 0; i < readings.size(); ++i) {
     const ProgramReading& reading = readings[i];
@@ -292,22 +340,34 @@ Routine FollowPositions(const std::vector<ProgramReading>& readings) {
     const auto at = static_cast<int>(i);
     const Expression x{Cell::kReading, at};
     const Expression last{Cell::kLast, at};
-    Routine known;
-    if (reading.far_high < kHuge) {
-      known = {If(x < reading.trained_min,
-                  {SetAt(Cell::kReading, at, reading.trained_min)}),
-               If(x > reading.trained_max,
-                  {SetAt(Cell::kReading, at, reading.trained_max)})};
+    const double low =
+        reading.far_high < kHuge ? reading.trained_min : reading.far_low;
+    const double high =
+        reading.far_high < kHuge ? reading.trained_max : reading.far_high;
+    const auto stop_at = [&](double end) {
+      return SetAt(Cell::kReading, at, end);
+    };
+    Routine beyond;
+    if (const Operand place{Space::kReading, at};
+        IsAskedAtEnd(program, place)) {
+      beyond = CheckRanges(
+          program, [&](const Operand& other) { return other == place; });
+      beyond.push_back(CheckFar(at));
     }
+    // One that is refused stays where it was.
+    beyond.push_back(If(x >= reading.far_low && x < low,
+                        {stop_at(low)},
+                        {If(x > high && x <= reading.far_high,
+                            {stop_at(high)},
+                            {SetAt(Cell::kReading, at, last)})}));
+    follow.push_back(If(!(x >= low && x <= high), std::move(beyond)));
     if (reading.slope > 0.0) {
-      known.push_back(
+      follow.push_back(
           If(Read(Cell::kBegun) > 0.0,
              {Set(Cell::kRoom,
                   Cell::kRoom + reading.slope * Absolute(x - last))}));
     }
-    known.push_back(SetAt(Cell::kLast, at, x));
-    follow.push_back(
-        If(x >= reading.far_low && x <= reading.far_high, std::move(known)));
+    follow.push_back(SetAt(Cell::kLast, at, x));
   }
   return follow;
 }
@@ -337,12 +397,15 @@ Routine Advance(const MapProgram& program) {
                       {Do(Part::kZero), Set(Cell::kZeroDue, 0.0)}));
   }
   take.push_back(Set(Cell::kWaited, 0.0));
+  if (Jumps(program)) take.push_back(Set(Cell::kLeapt, 0.0));
   return take;
 }
 
 // What is said of a step that is taken.
 Routine JudgeStep(const MapProgram& program) {
-  Routine taken = CheckRanges(program, false);
+  Routine taken = CheckRanges(program, [](const Operand& place) {
+    return place.space != Space::kReading;
+  });
   Routine measure = OfTheForm(program, [&](int form) -> Routine {
     const MapForm& of = program.forms[static_cast<std::size_t>(form)];
     if (of.measure.empty()) return {};
@@ -373,7 +436,7 @@ Statement TakeStep(const MapProgram& program) {
              program,
              [](int form) -> Routine { return {Do(Part::kEvaluate, form)}; }),
          &take);
-  take.push_back(If(e > -kHuge && e < kHuge,
+  take.push_back(If(Absolute(e) < kHuge,
                     {Set(Cell::kWanted, e), If(is_taken, JudgeStep(program))},
                     {Flag(kMapInvalid)}));
   return If(is_taken || Read(Cell::kBegun) > 0.0, std::move(take));
@@ -391,9 +454,11 @@ Routine UseLimit(Cell to, Cell set, double own, Expression is_one) {
   // A map without an error has nothing to set, but the parameter.
   if (!(own > 0.0))
     return {Set(to, set), If(!(Read(to) == 0.0), {Set(to, 0.0)})};
-  return {Set(to, set),
-          If(!std::move(is_one),
-             {Set(to, own), Flag(kMapParameter), Flag(kMapUnhealthy)})};
+  return {Set(to, own),
+          If(!(Read(set) == own),
+             {If(std::move(is_one),
+                 {Set(to, set)},
+                 {Flag(kMapParameter), Flag(kMapUnhealthy)})})};
 }
 
 }  // namespace
@@ -401,18 +466,16 @@ Routine UseLimit(Cell to, Cell set, double own, Expression is_one) {
 Routine ReadRoutine(const MapProgram& program) {
   const Expression missed{Cell::kMissed};
   Routine read{TidyTime(true),
-               Set(Cell::kWaited, Cell::kWaited + Expression{Cell::kDt}),
-               Set(Cell::kMissed, missed + Cell::kDt)};
+               Set(Cell::kWaited, Cell::kWaited + Expression{Cell::kDt})};
   if (program.has_directions()) read.push_back(FollowDirection(program));
   Append(CheckReadings(program), &read);
-  Append(FollowPositions(program.readings), &read);
+  Append(FollowPositions(program), &read);
   Routine doubt;
   if (std::ranges::any_of(program.readings, [](const ProgramReading& reading) {
         return reading.weight > 0.0;
       })) {
     doubt = WatchTheStill(program);
   }
-  const Expression r = Absolute(Cell::kDoubt);
   Append(
       OfTheForm(
           program,
@@ -420,21 +483,23 @@ Routine ReadRoutine(const MapProgram& program) {
             if (program.part(Part::kJudge, form).empty()) return {};
             Routine judge{Do(Part::kJudge, form)};
             if (program.forms[static_cast<std::size_t>(form)].has_relations) {
-              judge.push_back(EachReading(
-                  {If(r > 1.0,
-                      {Flag(kMapRelation),
-                       If(r > Cell::kBelieved, {Flag(kMapContradicts)})})}));
+              Append(CheckDoubts(program.forms[static_cast<std::size_t>(form)]),
+                     &judge);
             }
             return judge;
           }),
       &doubt);
   if (!doubt.empty()) read.push_back(If(!Any(kMapNotTaken), std::move(doubt)));
   read.push_back(TakeStep(program));
-  read.push_back(If(Any(kMapNotTaken) && missed > program.limits.hold,
-                    {Set(Cell::kWanted, 0.0), Flag(kMapFaded)}));
-  read.push_back(
-      If(Any(kMapAlarms) || (Any(kMapRelation) && Any(kMapBesideRelation)),
-         {Flag(kMapUnhealthy)}));
+  read.push_back(If(Any(kMapNotTaken),
+                    {Set(Cell::kMissed, missed + Cell::kDt),
+                     If(missed > program.limits.hold,
+                        {Set(Cell::kWanted, 0.0), Flag(kMapFaded)})}));
+  Expression is_alarm = Any(kMapAlarms);
+  if (std::ranges::any_of(program.forms, &MapForm::has_relations)) {
+    is_alarm = is_alarm || (Any(kMapRelation) && Any(kMapBesideRelation));
+  }
+  read.push_back(If(std::move(is_alarm), {Flag(kMapUnhealthy)}));
   return read;
 }
 
@@ -443,6 +508,12 @@ Routine MoveRoutine(const ControllerLimits& limits) {
   const Expression limit{Cell::kBound};
   const Expression room{Cell::kRoom};
   const Expression target{Cell::kTarget};
+  // What is no number is 0.
+  const auto to_limit = [&](Cell cell) {
+    return If(Read(cell) > limit,
+              {Set(cell, limit)},
+              {If(Read(cell) < -limit, {Set(cell, -limit)}, {Set(cell, 0.0)})});
+  };
   Routine move{TidyTime(false)};
   const double own = limits.max_error;
   const Expression bound{Cell::kMostError};
@@ -459,23 +530,19 @@ Routine MoveRoutine(const ControllerLimits& limits) {
          &move);
   Append({Set(Cell::kRoom, room + Cell::kPace * Expression{Cell::kDt}),
           Set(Cell::kTarget, Cell::kWanted),
-          If(target > limit, {Set(Cell::kTarget, limit), Flag(kMapLimited)}),
-          If(target < -limit, {Set(Cell::kTarget, -limit), Flag(kMapLimited)}),
-          If(target > given + room,
-             {Set(Cell::kGiven, given + room), Flag(kMapRamping)},
-             {If(target < given - room,
-                 {Set(Cell::kGiven, given - room), Flag(kMapRamping)},
-                 {Set(Cell::kGiven, target)})}),
+          If(Absolute(target) > limit,
+             {to_limit(Cell::kTarget), Flag(kMapLimited)}),
+          If(Absolute(target - given) > room,
+             {If(target > given,
+                 {Set(Cell::kGiven, given + room)},
+                 {Set(Cell::kGiven, given - room)}),
+              Flag(kMapRamping)},
+             {Set(Cell::kGiven, target)}),
           Set(Cell::kRoom, 0.0),
           // The last check, in any case: the limit may have been lowered, or
           // the value may not be a number.
-          If(!(given >= -limit && given <= limit),
-             {Flag(kMapLimited),
-              If(given > limit,
-                 {Set(Cell::kGiven, limit)},
-                 {If(given < -limit,
-                     {Set(Cell::kGiven, -limit)},
-                     {Set(Cell::kGiven, 0.0)})})})},
+          If(!(Absolute(given) <= limit),
+             {to_limit(Cell::kGiven), Flag(kMapLimited)})},
          &move);
   return move;
 }

@@ -13,7 +13,7 @@ constexpr std::array<CellInfo, kNumCells> kCells{{
     {Cell::kTarget, "target", CellKind::kLocal, false},
     {Cell::kBound, "bound", CellKind::kLocal, false},
     {Cell::kPace, "pace", CellKind::kLocal, false},
-    {Cell::kSpan, "span", CellKind::kLocal, false},
+    {Cell::kChanged, "changed", CellKind::kLocal, false},
     {Cell::kReading, "x", CellKind::kLocal, true},
     {Cell::kDoubt, "r", CellKind::kLocal, true},
     {Cell::kError, "e", CellKind::kLocal, false},

@@ -20,7 +20,7 @@ enum class Cell {
   kTarget,   // kWanted within the limit
   kBound,    // kMostError if that is a valid limit
   kPace,     // kMostRate if that is a valid limit
-  kSpan,     // s in which a reading could change
+  kChanged,  // 1: a watched reading changed in this step
   kReading,  // array
   kDoubt,    // array
   kError,    // of the map, before any limit
@@ -38,7 +38,7 @@ enum class Cell {
   kSettling,  // s until the filters have settled again
   kPending,   // s of them that have passed, less than one
   kStood,     // s since one of the watched readings changed
-  kLeapt,     // 1: a reading jumped, and has not come back
+  kLeapt,     // kWaited when a reading last jumped; 0: it is back
   kKnown,     // map whose state kNear is, from 1; 0: none
   kDown,      // 1: the map for decreasing positions acts
   kTurn,      // the furthest position in the direction of motion

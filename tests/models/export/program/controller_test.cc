@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -23,7 +24,8 @@ using Eigen::Vector4d;
 // trained in 0 to 100 mm and `low` to 20 degC.
 MapProgram LinearMap(double low = 10.0,
                      const LimitOptions& options = {},
-                     std::shared_ptr<const Applicability> trained = nullptr) {
+                     std::shared_ptr<const Applicability> trained = nullptr,
+                     std::optional<double> input_margin = std::nullopt) {
   PolynomialForm form;
   form.input_offset = Vector4d(0.0, 15.0, 15.0, 15.0);
   form.input_scale = Vector4d(0.01, 1.0, 1.0, 1.0);
@@ -45,6 +47,13 @@ MapProgram LinearMap(double low = 10.0,
   }
   fitted.model = std::make_shared<PolynomialModel>(form, Eigen::Index{5});
   fitted.applicability = std::move(trained);
+  if (input_margin) {
+    fitted.guards = {.input_margin = *input_margin,
+                     .input_min = Vector4d(0.0, low, low, low),
+                     .input_max = Vector4d(100.0, 20.0, 20.0, 20.0),
+                     .error_min = -20.0,
+                     .error_max = 20.0};
+  }
   MapProgram program = MakeMapProgram(fitted);
   AddController({&fitted}, options, &program);
   return program;
@@ -259,6 +268,28 @@ TEST(Controller, GivesTheLimitTheLastWord) {
   }
   run.SetLimits(own, 10.0);
   EXPECT_EQ(run.Step(kLong, warm, &error), 0);
+}
+
+// A reading is refused, and a position held, before the guards act.
+TEST(Controller, LeavesOutGuardsThatNoBelievedReadingReaches) {
+  const auto guards_of_inputs = [](double margin) {
+    const MapProgram program = LinearMap(10.0, {}, nullptr, margin);
+    return std::ranges::count_if(
+        program.forms[0].evaluate, [](const Instruction& it) {
+          return it.guards && it.to.space == Space::kForm;
+        });
+  };
+  EXPECT_EQ(guards_of_inputs(2.0), 0);
+  // Thermometers are believed 8 K beyond their range of 10 K.
+  EXPECT_EQ(guards_of_inputs(0.8), 0);
+  EXPECT_EQ(guards_of_inputs(0.7), 6);
+  const MapProgram near = LinearMap(10.0, {}, nullptr, 0.1);
+  ControllerRun run(near, Precision::kDouble);
+  double error = kNaN;
+  EXPECT_NE(
+      run.Step(kLong, Vector4d(50.0, 22.0, 16.0, 16.0), &error) & kMapClipped,
+      0);
+  EXPECT_DOUBLE_EQ(error, 0.5 + 6.0 + 1.0 + 1.0);
 }
 
 TEST(Controller, RefusesLimitsThatAreNone) {
