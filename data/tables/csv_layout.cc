@@ -7,9 +7,10 @@
 #include <set>
 
 #include "data/column_words.h"
-#include "data/tables/cells/loose_numbers.h"
 #include "data/tables/cells/missing_cells.h"
 #include "data/tables/cells/unit_cells.h"
+#include "data/tables/comment_names.h"
+#include "data/tables/number_columns.h"
 #include "data/text.h"
 #include "data/units.h"
 
@@ -17,13 +18,6 @@ namespace errmap::data {
 namespace {
 
 constexpr std::size_t kNone = std::string::npos;
-
-// Of some of a row's cells: how many are numbers, and words that stand for
-// none.
-struct CellCounts {
-  std::size_t numbers = 0;
-  std::size_t words = 0;
-};
 
 std::string NumberOf(std::size_t count, const char* what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
@@ -37,12 +31,12 @@ class LayoutFinder {
       : cells_(cells),
         dialect_(dialect),
         text_above_(text_above),
-        records_(FirstRecords(cells)) {}
+        records_(FirstRecords(cells)),
+        usual_(records_.empty() ? 1 : UsualWidth(records_, 0)),
+        columns_(records_, usual_, dialect) {}
 
   CsvLayout Find() {
     if (records_.empty()) return OfUnreadable();
-    usual_ = UsualWidth(records_, 0);
-    FindNumericColumns();
     const std::size_t first = FirstDataRow();
     const std::size_t names = first == kNone ? 0 : NamesAbove(first);
     if (names != kNone) {
@@ -67,80 +61,15 @@ class LayoutFinder {
     return std::move(layout_);
   }
 
-  bool IsNumber(std::string_view cell) const {
-    NumberForm form;
-    return ReadNumberForm(cell, dialect_.decimal_comma, &form) ||
-           ReadLooseNumber(
-               cell, dialect_.decimal_comma, dialect_.decimal_points, &form) !=
-               Loose::kNone;
-  }
-
-  // In the columns that hold numbers.
-  CellCounts CountsOf(const std::vector<std::string>& cells) const {
-    CellCounts counts;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (i >= is_numeric_.size() || !is_numeric_[i]) continue;
-      if (IsNumber(cells[i]) || HasLabel(cells[i], i)) {
-        ++counts.numbers;
-      } else if (!IsMissingNumber(cells[i])) {
-        ++counts.words;
-      }
-    }
-    return counts;
-  }
-
-  // What all cells of each column say before their numbers ("T1=21.4"), the
-  // first one's too, or "".
-  void FindLabels() {
-    for (const CsvRecord& record : records_) {
-      if (record.cells.size() != usual_) continue;
-      const bool is_first = labels_.empty();
-      labels_.resize(usual_);
-      for (std::size_t i = 0; i < usual_; ++i) {
-        std::string_view cell = record.cells[i];
-        const std::string label = TakeLabel(&cell).text;
-        if (is_first) labels_[i] = label;
-        if (label != labels_[i]) labels_[i].clear();
-      }
-    }
-  }
-
-  bool HasLabel(std::string_view cell, std::size_t column) const {
-    return !labels_[column].empty() && TakeLabel(&cell).text == labels_[column];
-  }
-
-  void FindNumericColumns() {
-    FindLabels();
-    std::vector<CellCounts> counts(usual_);
-    std::size_t rows = 0;
-    for (const CsvRecord& record : records_) {
-      if (record.cells.size() != usual_) continue;
-      // The first row may be names.
-      if (++rows == 2) counts.assign(usual_, {});
-      for (std::size_t i = 0; i < usual_; ++i) {
-        if (IsNumber(record.cells[i]) || HasLabel(record.cells[i], i)) {
-          ++counts[i].numbers;
-        } else if (!IsMissingNumber(record.cells[i])) {
-          ++counts[i].words;
-        }
-      }
-    }
-    for (const CellCounts& column : counts) {
-      is_numeric_.push_back(column.numbers > 0 &&
-                            column.numbers >= column.words);
-      num_numeric_ += is_numeric_.back() ? 1 : 0;
-    }
-  }
-
   // The first row with more numbers than words there, as long as the others
   // or with half of their numbers ("Targets,17" is a line above the table);
   // kNone where the table has none.
   std::size_t FirstDataRow() const {
     for (std::size_t i = 0; i < records_.size(); ++i) {
       const std::vector<std::string>& cells = records_[i].cells;
-      const CellCounts counts = CountsOf(cells);
+      const CellCounts counts = columns_.CountsOf(cells);
       const bool is_whole =
-          cells.size() + 1 >= usual_ || 2 * counts.numbers >= num_numeric_;
+          cells.size() + 1 >= usual_ || 2 * counts.numbers >= columns_.count();
       if (is_whole && counts.numbers > counts.words && !AreNumberNames(i) &&
           !IsShortAboveWords(i)) {
         return i;
@@ -153,7 +82,7 @@ class LayoutFinder {
   bool IsShortAboveWords(std::size_t row) const {
     if (records_[row].cells.size() >= usual_ || row + 1 >= records_.size())
       return false;
-    const CellCounts below = CountsOf(records_[row + 1].cells);
+    const CellCounts below = columns_.CountsOf(records_[row + 1].cells);
     return below.words > below.numbers;
   }
 
@@ -165,7 +94,7 @@ class LayoutFinder {
       return false;
     }
     for (std::size_t i = 0; i < row; ++i) {
-      if (MayBeNames(records_[i].cells)) return false;
+      if (columns_.MayBeNames(records_[i].cells)) return false;
     }
     std::vector<double> numbers;
     bool is_named = false;
@@ -197,23 +126,17 @@ class LayoutFinder {
                 numbers.end());
   }
 
-  // A separator at the rows' ends, or columns that no row reaches, make a line
-  // of names shorter by one, or longer.
-  bool MayBeNames(const std::vector<std::string>& cells) const {
-    const CellCounts counts = CountsOf(cells);
-    return cells.size() + 1 >= usual_ && (cells.size() > 1 || usual_ == 1) &&
-           counts.numbers == 0 && 2 * counts.words >= num_numeric_;
-  }
-
   // The row of names above the first data row, or kNone.
   std::size_t NamesAbove(std::size_t first) const {
     if (first > 0 && AreNumberNames(first - 1)) return first - 1;
     for (std::size_t i = first; i-- > 0;) {
-      if (!MayBeNames(records_[i].cells)) continue;
-      const bool is_below_names = i > 0 && MayBeNames(records_[i - 1].cells);
+      if (!columns_.MayBeNames(records_[i].cells)) continue;
+      const bool is_below_names =
+          i > 0 && columns_.MayBeNames(records_[i - 1].cells);
       if (is_below_names && AreUnitCells(records_[i].cells)) continue;
-      if (is_below_names && i > 1 && AreUnitsOfNumbers(i - 1) &&
-          !CallATime(records_[i].cells) && MayBeNames(records_[i - 2].cells)) {
+      if (is_below_names && i > 1 && columns_.AreUnits(records_[i - 1].cells) &&
+          !CallATime(records_[i].cells) &&
+          columns_.MayBeNames(records_[i - 2].cells)) {
         return i - 2;
       }
       return i;
@@ -222,17 +145,6 @@ class LayoutFinder {
     // all the same: to be told what is wrong with it.
     if (first == 1 && (records_[0].cells.size() > 1 || usual_ == 1)) return 0;
     return kNone;
-  }
-
-  // Whether a row has units for most columns of numbers.
-  bool AreUnitsOfNumbers(std::size_t row) const {
-    const std::vector<std::string>& cells = records_[row].cells;
-    std::size_t units = 0;
-    for (std::size_t i = 0; i < cells.size() && i < usual_; ++i) {
-      std::string unit = AsUtf8(cells[i]);
-      units += is_numeric_[i] && ReadUnitCell(&unit) && !unit.empty() ? 1 : 0;
-    }
-    return units >= 2 && 4 * units >= 3 * num_numeric_;
   }
 
   static bool CallATime(const std::vector<std::string>& cells) {
@@ -247,7 +159,7 @@ class LayoutFinder {
     for (std::size_t i = 0; i < std::min(units.size(), usual_); ++i) {
       std::string unit = AsUtf8(units[i]);
       std::string& name = layout_.names[i];
-      if (!is_numeric_[i] || !ReadUnitCell(&unit) || unit.empty()) continue;
+      if (!columns_.Holds(i) || !ReadUnitCell(&unit) || unit.empty()) continue;
       name = NameWithUnit(AsUtf8(name), unit).value_or(name);
     }
     layout_.data = After(row + 2);
@@ -260,7 +172,8 @@ class LayoutFinder {
     layout_.header_line = records_[row].start.line;
     layout_.data = After(row);
     if (first != kNone && first == row + 3 && layout_.names.size() >= usual_ &&
-        AreUnitsOfNumbers(row + 1) && MayBeNames(records_[row + 2].cells)) {
+        columns_.AreUnits(records_[row + 1].cells) &&
+        columns_.MayBeNames(records_[row + 2].cells)) {
       TakeUnitsBelow(row);
     }
     std::string& name = layout_.names.front();
@@ -283,20 +196,22 @@ class LayoutFinder {
 
   // Units right above the names, and other names above these: "Tag", "Unit".
   bool TakeUnitsAbove(std::size_t row) {
-    if (!AreUnitsOfNumbers(row - 1) || AreUnitsOfNumbers(row)) return false;
+    if (!columns_.AreUnits(records_[row - 1].cells) ||
+        columns_.AreUnits(records_[row].cells))
+      return false;
     const std::vector<std::string>& units = records_[row - 1].cells;
     std::vector<std::string> meant = layout_.names;
     if (row > 1 && records_[row - 2].cells.size() == usual_) {
       for (std::size_t i = 0; i < usual_; ++i) {
         const std::string& name = records_[row - 2].cells[i];
-        if (is_numeric_[i] && !name.empty()) meant[i] = name;
+        if (columns_.Holds(i) && !name.empty()) meant[i] = name;
       }
     }
     const bool has_others = TellAnError(layout_.names, meant);
     if (has_others) layout_.names = std::move(meant);
     for (std::size_t i = 0; i < usual_; ++i) {
       std::string unit = AsUtf8(units[i]);
-      if (!is_numeric_[i] || !ReadUnitCell(&unit) || unit.empty()) continue;
+      if (!columns_.Holds(i) || !ReadUnitCell(&unit) || unit.empty()) continue;
       std::string& name = layout_.names[i];
       name = NameWithUnit(AsUtf8(name), unit).value_or(name);
     }
@@ -350,7 +265,7 @@ class LayoutFinder {
     TakeNamesOfBlock(row - 1, &upper);
     const auto num_words = std::ranges::count_if(
         upper, [](const std::string& cell) { return !cell.empty(); });
-    if (num_words < 2 || CountsOf(upper).numbers > 0) return false;
+    if (num_words < 2 || columns_.CountsOf(upper).numbers > 0) return false;
     const std::set<std::string> distinct(layout_.names.begin(),
                                          layout_.names.end());
     const bool tells = distinct.size() == usual_ && !distinct.contains("") &&
@@ -389,79 +304,22 @@ class LayoutFinder {
     layout_.data = records_[first].start;
     layout_.names.assign(usual_, "");
     TakeTitles(first);
-    if (TakeNamesOfComment(first)) return;
+    const char* const end = records_[first].start.cursor;
+    CommentNames said = FindNamesInComments(
+        text_above_.substr(0,
+                           static_cast<std::size_t>(end - text_above_.data())),
+        dialect_.delimiter,
+        columns_);
+    if (said.line > 0) {
+      layout_.names = std::move(said.names);
+      layout_.header_line = said.line;
+      layout_.num_names = usual_;
+      Say("the names of the columns are those of the comment on line " +
+          std::to_string(said.line));
+      return;
+    }
     Say("no line of names: the columns are called column_1" +
         (usual_ == 1 ? std::string() : " to column_" + std::to_string(usual_)));
-  }
-
-  // Names in the nearest comment above that has as many as there are cells.
-  bool TakeNamesOfComment(std::size_t first) {
-    const char* const end = records_[first].start.cursor;
-    const std::string_view above(
-        text_above_.data(), static_cast<std::size_t>(end - text_above_.data()));
-    std::size_t line = 1;
-    std::vector<std::string> units;
-    for (std::size_t at = 0; at < above.size(); ++line) {
-      const char* const begin = above.data() + at;
-      const char* const stop = std::find_if(begin, end, IsLineEnd);
-      at = static_cast<std::size_t>(PastLineEnd(stop, end) - above.data());
-      std::string_view text(begin, static_cast<std::size_t>(stop - begin));
-      constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-      if (text.starts_with(kByteOrderMark)) {
-        text.remove_prefix(kByteOrderMark.size());
-      }
-      if (!text.starts_with('#')) continue;
-      // "#" alone is the name of a column that counts.
-      std::string_view words = text;
-      words.remove_prefix(
-          std::min(words.find_first_not_of("# \t"), words.size()));
-      // "columns: time;X", "units: s;mm".
-      const std::size_t label = words.find(": ");
-      const bool has_label = label < words.find(' ');
-      const bool is_name =
-          !has_label && text.size() > 1 && text[1] == dialect_.delimiter;
-      if (!is_name) text = words;
-      if (has_label) text.remove_prefix(label + 2);
-      std::vector<std::string> cells = CellsOf(text);
-      // "# day cycle", where blanks part the columns: the sign is no name.
-      if (is_name && dialect_.delimiter == ' ' && cells.size() == usual_ + 1) {
-        cells.erase(cells.begin());
-      }
-      // The rows may end in a separator.
-      if (cells.size() + 1 == usual_ && is_name) cells.emplace_back();
-      if (cells.size() != usual_ || !MayBeNames(cells)) continue;
-      if (AreUnitCells(cells)) {
-        units = cells;
-        continue;
-      }
-      layout_.names = cells;
-      layout_.header_line = line;
-    }
-    if (layout_.header_line == 0) return false;
-    for (std::size_t i = 0; i < units.size(); ++i) {
-      std::string unit = AsUtf8(units[i]);
-      if (!ReadUnitCell(&unit) || unit.empty()) continue;
-      std::string& name = layout_.names[i];
-      name = NameWithUnit(AsUtf8(name), unit).value_or(name);
-    }
-    layout_.num_names = usual_;
-    Say("the names of the columns are those of the comment on line " +
-        std::to_string(layout_.header_line));
-    return true;
-  }
-
-  std::vector<std::string> CellsOf(std::string_view line) const {
-    CsvCells cells(line, [](std::size_t) { return std::string(); });
-    cells.delimiter = dialect_.delimiter;
-    std::vector<std::string> texts;
-    try {
-      do {
-        texts.emplace_back(cells.Next());
-      } while (cells.PassEnd());
-    } catch (const InputError&) {
-      texts.clear();
-    }
-    return texts;
   }
 
   void TakeTitles(std::size_t count) {
@@ -587,10 +445,8 @@ class LayoutFinder {
   const CsvDialect& dialect_;
   std::string_view text_above_;
   std::vector<CsvRecord> records_;
-  std::size_t usual_ = 1;            // cells of most rows
-  std::vector<std::string> labels_;  // (usual_) before all cells' numbers
-  std::vector<bool> is_numeric_;     // (usual_) most cells are numbers
-  std::size_t num_numeric_ = 0;
+  std::size_t usual_;  // cells of most rows
+  NumberColumns columns_;
   CsvLayout layout_;
 };
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/reading/read_table.h"
 #include "data/text.h"
+#include "data/units.h"
 #include "models/study/record/record_json.h"
 
 namespace errmap::cli {
@@ -78,6 +80,17 @@ std::string Why(data::Evidence evidence, bool sure) {
   return std::string(ToString(evidence)) + (sure ? "" : ", unsure");
 }
 
+// Many are cut short; the unit that all of them are taken to be in.
+std::string InUnit(const std::vector<std::string>& names) {
+  const std::string unit = data::UnitOfColumn(names.front()).symbol;
+  const bool is_shared =
+      !unit.empty() && std::ranges::all_of(names, [&](const std::string& name) {
+        return data::UnitOfColumn(name).symbol == unit;
+      });
+  constexpr std::size_t kMostNames = 100;
+  return data::ShortList(names, kMostNames) + (is_shared ? " in " + unit : "");
+}
+
 std::string Described(const data::Reading& reading) {
   std::string text;
   const std::size_t columns = OutputTerminal().text_columns();
@@ -108,7 +121,7 @@ std::string Described(const data::Reading& reading) {
       Why(reading.target.evidence, reading.target.sure),
       "--target");
   row("axis",
-      reading.position.column.value_or("none"),
+      reading.position.column ? InUnit({*reading.position.column}) : "none",
       Why(reading.position.evidence, reading.position.sure),
       "--position");
   std::string ways;
@@ -139,7 +152,7 @@ std::string Described(const data::Reading& reading) {
   const auto list = [&](const std::string& role,
                         const std::vector<std::string>& names) {
     if (names.empty()) return;
-    row(role, data::JoinWords(names, ", "), "", "--inputs, --exclude");
+    row(role, InUnit(names), "", "--inputs, --exclude");
   };
   list("sensors", reading.sensors);
   list("switches", reading.switches);

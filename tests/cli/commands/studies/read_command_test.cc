@@ -56,7 +56,7 @@ TEST_F(ReadCommand, NamesEachRoleAndWhatWasLeftOut) {
               AllOf(HasSubstr("axis       where"),
                     HasSubstr("cycles     12 by pass"),
                     HasSubstr("sessions   3 by day"),
-                    HasSubstr("sensors    heat_degC"),
+                    HasSubstr("sensors    heat_degC in degC"),
                     HasSubstr("left out   spare (is dead")));
 }
 
