@@ -262,8 +262,8 @@ TEST_F(CliPlantedFaults, KelvinUnderANameOfDegreesIsDoubted) {
   Measurements file = healthy_;
   file.Change(kT3, [](double t) { return t + 273.15; });
   EXPECT_THAT(Compare(file.Csv()).err,
-              AllOf(HasSubstr("warning: t3_degC 120 of its values are beyond "
-                              "any thermometer"),
+              AllOf(HasSubstr("warning: t3_degC has 120 values that no "
+                              "thermometer reads"),
                     HasSubstr("as if in K")));
 }
 

@@ -212,7 +212,7 @@ TEST_F(CliPromise, CheckJudgesTheLastSessionAndSaysSo) {
   const Outcome found = Run({"check", "map.json", "three.csv"});
   EXPECT_EQ(found.status, 0) << found.out;
   EXPECT_THAT(OneLine(found.out),
-              AllOf(HasSubstr("Judged is the last of 3 sessions, day '13'; "
+              AllOf(HasSubstr("This judges the last of 3 sessions, day '13'. "
                               "errmap evaluate judges the others."),
                     HasSubstr("on 40 probes of three.csv")));
   const Json of_three =

@@ -62,7 +62,7 @@ TEST_F(CliResiduals, OneScreenSaysWhatTheReportSawAndWhatIsThere) {
   const Outcome outcome = Run(AppendixBWith({}));
   EXPECT_EQ(outcome.status, 0);
   EXPECT_THAT(outcome.out,
-              AllOf(HasSubstr("so calls them not normal"),
+              AllOf(HasSubstr("So it calls them not normal"),
                     HasSubstr("K-S D 0.0915 for 0.0380"),
                     HasSubstr("the slip decided"),
                     HasSubstr("The shape is close to normal"),
@@ -84,10 +84,11 @@ TEST_F(CliResiduals, BlamesTheSlipOnlyWhereNoTestRejects) {
   }
   std::string text = TextOf(values);
   std::ranges::replace(text, '\n', ' ');
-  EXPECT_THAT(text,
-              AllOf(HasSubstr("so calls them not normal"),
-                    HasSubstr("(Lilliefors), but other tests reject at 1 %."),
-                    Not(HasSubstr("the slip decided"))));
+  EXPECT_THAT(
+      text,
+      AllOf(HasSubstr("So it calls them not normal"),
+            HasSubstr("by Lilliefors' test, but other tests reject at 1 %."),
+            Not(HasSubstr("the slip decided"))));
 }
 
 // With the right divisors Eq. 140 says the same, so they are not to blame.
@@ -99,9 +100,9 @@ TEST_F(CliResiduals, BlamesTheGivenMeanAndSdWhereTheDivisorsChangeNothing) {
   std::string text = TextOf(values);
   std::ranges::replace(text, '\n', ' ');
   EXPECT_THAT(text,
-              AllOf(HasSubstr("so calls them normal, as it would with the "
+              AllOf(HasSubstr("So it calls them normal, as it would with the "
                               "right divisors (p 0.3"),
-                    HasSubstr("(Lilliefors)."),
+                    HasSubstr("Lilliefors' test allows for their estimate"),
                     Not(HasSubstr("the slip decided"))));
 }
 

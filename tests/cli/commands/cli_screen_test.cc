@@ -305,7 +305,7 @@ TEST_F(Screens, TellHowManyRowsWereExtrapolated) {
       "compare", kDown, "--models", "poly:full:degree=3", "--quiet"};
   EXPECT_THAT(Squeezed(Run(words).out),
               ContainsRegex("extrapolated +[0-9]+ % of the test readings were "
-                            "beyond all that the map had learnt from"));
+                            "beyond all training data"));
   Run(With(words, {"--out", "study"}));
   const Json component =
       Json::parse(Read("study/results.json"))["components"][0];
@@ -319,8 +319,13 @@ TEST_F(Screens, TellHowManyRowsWereExtrapolated) {
   EXPECT_DOUBLE_EQ(
       outside / rows,
       component["recommendation"]["extrapolated_share"].get<double>());
-  // The first and the last cycles, whose like no other fold saw.
+  // The first and the last cycles, whose like no other fold saw. What is asked
+  // for lies beyond all rows of the file, and no cycle counts below the first.
   EXPECT_GT(outside, 0.0);
+  const Json& beyond = component["recommendation"]["beyond"][0];
+  EXPECT_EQ(beyond["column"], "elapsed_cycles");
+  EXPECT_TRUE(beyond["below"].is_null());
+  EXPECT_EQ(beyond["above"], 34.0);
 }
 
 TEST_F(Screens, SayWhatTwoDaysHeldOutWholeTell) {

@@ -55,8 +55,8 @@ std::string WhatIsWrong(const ColumnFault& fault,
     case FaultKind::kImpossible:
       if (!fault.of_cells) {
         return fmt::format(
-            "{} of its values are beyond any thermometer, such "
-            "as {:g}{} in data row {}{}",
+            "has {} values that no thermometer reads, such as {:g}{} in data "
+            "row {}{}",
             fault.rows.size(),
             fault.value,
             symbol,
