@@ -56,7 +56,7 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
   visit(StudyOption{.key = "group",
                     .value = "COL",
                     .help = "Column of warm-up cycles (default: cycle)\nAny "
-                            "that groups the rows will do",
+                            "column that groups the rows will do",
                     .reach = Reach::kAlike,
                     .example = "group = \"cycle\""},
         selection.group);
@@ -170,10 +170,11 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
 template <typename Config, typename Visit>
 void ForErrorOptions(Config& config, const Visit& visit) {
   visit(
-      StudyOption{.key = "goal",
-                  .value = "X",
-                  .help = "RMSE wanted of held-out rows: 2um (default: no "
-                          "goal)\nA bare number is in the unit of the target"},
+      StudyOption{
+          .key = "goal",
+          .value = "X",
+          .help = "RMSE wanted: 2um (default: no goal)\nIt is that of held-out "
+                  "rows. A bare number is in the unit of the target"},
       config.goal);
   visit(StudyOption{.key = "indifference",
                     .value = "X",
@@ -206,21 +207,19 @@ void ForStudyOptions(Config& config, const Visit& visit) {
       std::vector{models::Choose::kAuto,
                   models::Choose::kBest,
                   models::Choose::kBlend});
-  visit(
-      StudyOption{
-          .key = "prefer",
-          .help = "small: the fewest sensors that cost at most 5 % more error"},
-      config.prefer,
-      std::vector{models::Prefer::kLeastError, models::Prefer::kSmall});
+  visit(StudyOption{.key = "prefer",
+                    .help = "small: fewest sensors, at most 5 % more error"},
+        config.prefer,
+        std::vector{models::Prefer::kLeastError, models::Prefer::kSmall});
   visit(
       StudyOption{
           .key = "rezero",
           .value = "2h|session|probe",
-          .help = "Judge maps that are re-zeroed at this interval, or "
-                  "there\nAn interval is 2h or 90min, or 5 where time counts "
-                  "cycles. session: where one begins. probe: every cycle, or "
-                  "every row without cycles. 2h:noise=0.5um: by probes of this "
-                  "noise. No map is re-zeroed alike",
+          .help = "Judge maps that are re-zeroed this often\nAn interval is 2h "
+                  "or 90min, or 5 where time counts cycles. session: where one "
+                  "begins. probe: every cycle, or every row without cycles. "
+                  "2h:noise=0.5um: by probes of this noise. The error without "
+                  "a map is re-zeroed alike",
           .check = [](const std::string& text) { CheckRezero(text); }},
       config.rezero);
 }

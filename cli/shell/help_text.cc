@@ -90,7 +90,8 @@ std::string Explained(const OptionReference& option, HelpOptions options) {
   std::string text = FirstStatement(option.description);
   const std::string rest = option.description.substr(text.size());
   if (options == HelpOptions::kAll && !rest.empty()) {
-    text += (rest[1] >= 'A' && rest[1] <= 'Z' ? "." : ";") + rest;
+    const bool is_sentence = rest[1] >= 'A' && rest[1] <= 'Z';
+    text += (is_sentence ? "." : rest[1] == '(' ? "" : ";") + rest;
   }
   std::ranges::replace(text, '\n', ' ');
   if (!option.fallback.empty()) {

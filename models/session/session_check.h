@@ -36,7 +36,7 @@ enum class Remedy {
 /// "none", "re-zero", "refit", "unknown", "gain", "sign".
 std::string_view ToString(Remedy remedy);
 
-/// A session is off where its RMSE is above so many times the one promised.
+/// A session is off if its RMSE is above this many times the promised one.
 inline constexpr double kOffRatio = 1.5;
 
 /// Whether an offset explains errors of this mean and RMS. It must be at least

@@ -324,8 +324,8 @@ void AddCheckCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "--goal X",
             command->goal,
-            "Also say how often to probe to keep 90 % of the errors "
-            "within this: 2um\n(errmap when has more)");
+            "Also say how often to probe to keep 90 % of the errors within "
+            "this: 2um\nerrmap when has more");
   AddRowOptions(command, &command->rows.missing, &command->rows.faults);
   AddFormatOption(command, &command->format);
   AddMapLogArguments(command, &command->rows.log);

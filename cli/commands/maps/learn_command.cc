@@ -324,7 +324,7 @@ void AddLearnCommand(CLI::App* app, Run* run) {
       app,
       run,
       "learn",
-      "Show how the error changes with more days or cycles, or fewer sensors");
+      "Show what more days, cycles or fewer sensors do to the error");
   AddDataArguments(command, &command->data);
   AddOption(
       command,

@@ -358,7 +358,7 @@ void AddPredictCommand(CLI::App* app, Run* run) {
   SetFooter(
       command,
       R"(Columns: record; cycle, time and position if the data have them; predicted,
-lower_90 to upper_95 (empty without an interval), inside, why, offender,
+lower_90 to upper_95 (empty without an interval), inside, why, offender and
 unit. inside is 1 for rows like those in training, else 0, and why says
 what differs.
 - range: a column (offender) leaves its trained range

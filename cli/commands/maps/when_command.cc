@@ -183,7 +183,7 @@ void AddWhenCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "--goal X",
             command->goal,
-            "Limit that 90 % of the errors must keep: 2um\n(default: no goal, "
+            "Limit that 90 % of the errors must keep: 2um (default: no goal, "
             "the table alone)");
   AddMapLogArguments(command, &command->log);
   FindOption(command, "--after").About("Readings from the last probe to now");

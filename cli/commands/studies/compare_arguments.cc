@@ -79,9 +79,9 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
             "--holdout SPEC",
             arguments->holdouts,
             "Rows to hold out, may be repeated: every:K, groups:K, sessions:K, "
-            "forward:K\nAll forms:  " +
+            "forward:K\nAll forms: " +
                 stats::HoldoutFormsText() +
-                " . Default: every:3; groups:5 with groups, else blocks:5; "
+                ". Default: every:3; groups:5 with groups, else blocks:5; "
                 "sessions:5 with sessions; forward:3 from four sessions on")
       .OneAtATime();
   AddOption(command,

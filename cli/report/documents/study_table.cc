@@ -181,7 +181,7 @@ void ComponentScreen::Leaderboard() {
         const ResultRecord* const result = ResultOf(*model, view_.decisive);
         return result != nullptr && !std::isfinite(result->ci95[0]);
       })) {
-    legend.emplace_back("95 % -: no range is known.");
+    legend.emplace_back("95 % -: no range.");
   }
   if (!options_.all && view_.models.size() > kMostRows) {
     legend.push_back(

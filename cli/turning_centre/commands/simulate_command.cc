@@ -130,10 +130,9 @@ void AddSimulateCommand(CLI::App* app, Run* run) {
               "--angle-noise",
               "--sensor-noise",
               "--points"});
-  SetFooter(
-      command,
-      "The same options give the same files, byte for byte.\nExample: errmap "
-      "simulate turning-centre -o simulated --days 3 --dead 3,4,16,19");
+  SetFooter(command,
+            "The same options give the same files, byte for byte.\nExample: "
+            "errmap simulate turning-centre -o simulated --dead 3,4,16,19");
   command.Runs(RunSimulate);
 }
 

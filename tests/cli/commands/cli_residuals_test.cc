@@ -11,6 +11,7 @@
 
 #include "stats/distributions.h"
 #include "tests/cli/cli_fixture.h"
+#include "tests/cli/one_line.h"
 
 namespace errmap {
 namespace {
@@ -61,12 +62,12 @@ class CliResiduals : public Cli {
 TEST_F(CliResiduals, OneScreenSaysWhatTheReportSawAndWhatIsThere) {
   const Outcome outcome = Run(AppendixBWith({}));
   EXPECT_EQ(outcome.status, 0);
-  EXPECT_THAT(outcome.out,
+  EXPECT_THAT(OneLine(outcome.out),
               AllOf(HasSubstr("So it calls them not normal"),
                     HasSubstr("K-S D 0.0915 for 0.0380"),
                     HasSubstr("the slip decided"),
                     HasSubstr("The shape is close to normal"),
-                    HasSubstr("They are not\nindependent"),
+                    HasSubstr("They are not independent"),
                     HasSubstr("biased by cycle: its means explain 48 %")));
   const std::vector<std::string> lines = SplitLines(outcome.out);
   EXPECT_LE(lines.size(), 50U);

@@ -42,7 +42,7 @@ StatesBeyond StatesOf(const std::string& column) {
   if (unit.symbol == "rpm") return {"a slower spindle", "a faster spindle"};
   switch (unit.quantity) {
     case data::Quantity::kTemperature:
-      return {"a colder start or room", "a longer run or hotter room"};
+      return {"a colder start or room", "a longer or hotter run"};
     case data::Quantity::kTime:
       return {"the first minutes", "a longer run"};
     case data::Quantity::kLength:

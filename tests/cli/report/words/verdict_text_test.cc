@@ -323,8 +323,8 @@ TEST(Remarks, TellWhatToMeasureWhereTheMapExtrapolates) {
   EXPECT_THAT(TextOf(record, "extrapolated"),
               StartsWith("40 % of the test readings were beyond"));
   EXPECT_EQ(MeasureNext(record),
-            "a colder start or room (t12_degC below 21.5); a longer run or "
-            "hotter room (t12_degC above 27)");
+            "a colder start or room (t12_degC below 21.5); a longer or "
+            "hotter run (t12_degC above 27)");
   record.recommendation->beyond = std::vector<models::BeyondRecord>{
       {"t12_degC", 21.5, models::kNotKnown},
       {"speed_rpm", models::kNotKnown, 3000.0},
@@ -332,7 +332,7 @@ TEST(Remarks, TellWhatToMeasureWhereTheMapExtrapolates) {
   EXPECT_EQ(
       MeasureNext(record),
       "a colder start or room (t12_degC below 21.5); a faster spindle "
-      "(speed_rpm above 3000); a longer run or hotter room (t3_degC above 31)");
+      "(speed_rpm above 3000); a longer or hotter run (t3_degC above 31)");
 }
 
 TEST(Remarks, TellThatNeighboursProveLittle) {
