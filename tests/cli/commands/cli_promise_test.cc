@@ -121,8 +121,8 @@ TEST_F(CliPromise, FitAndExportTellTheSameOfASensorThatFails) {
       said,
       found,
       std::regex("(t[123]_degC) failing to 0 would move it by up to ([0-9.]+) "
-                 "um, any failure of it by up to ([0-9.]+) um; with checks and "
-                 "limits by at most ([0-9.]+) um")))
+                 "um, any failure of it by up to ([0-9.]+) um. Checks and "
+                 "limits keep it within ([0-9.]+) um")))
       << said;
   const Json& sensitivity = fitted["sensitivity"];
   EXPECT_EQ(found[1].str(), sensitivity["jump_of"]);
