@@ -337,7 +337,7 @@ void AddTableOptions(CLI::App* command, TableArguments* tables) {
             "--hal, --linuxcnc: the machine's unit of length")
       .OneOf({"mm", "in"})
       .ShowDefault();
-  AddOption(command, "--points", tables->points, "--linuxcnc: at most so many")
+  AddOption(command, "--points", tables->points, "--linuxcnc: most points")
       .Range(2, models::kMostCompPoints)
       .ShowDefault();
   AddOption(command,
