@@ -16,7 +16,7 @@ namespace errmap::data {
 /// not a finite number is kept apart as text, once per distinct text.
 struct CsvColumn {
   std::string name;
-  bool has_name = true;      // false: the header left it empty, `name` is ours
+  bool has_name = true;      // false: `name` is not from the file
   ColumnValues values = {};  // (rows) quiet NaN where `exceptions` has the row
   /// Cells that are no finite number, ascending by row: (row, index in texts).
   std::vector<std::pair<std::size_t, std::uint32_t>> exceptions = {};
@@ -73,37 +73,39 @@ struct CsvTable {
   std::vector<std::string> remarks;
 };
 
-/// What becomes of rows that have another number of cells than the others:
-/// refused, all at once; the same, and the message names the option of
-/// MissingPolicy that leaves them out; left out with a remark.
+/// Rows with another number of cells than the others. kRefuse names all of them
+/// in one message, kOffer also the option that leaves them out (MissingPolicy).
+/// kLeaveOut leaves them out with a remark.
 enum class OddRows { kRefuse, kOffer, kLeaveOut };
 
-/// Reads a CSV file: `,` `;` `|`, tab or blanks between cells, found from its
-/// rows; quotes as RFC 4180 has them, those inside a cell that nobody doubled
-/// too; decimal comma where no comma parts cells; UTF-8 byte order mark, CRLF,
-/// lines starting with `#`, and blank lines at the end are passed over. Text
-/// that is no valid UTF-8 is taken for Latin-1, or with a remark for what makes
-/// more known words (tables/text_encoding.h), and converted; what begins as
-/// gzip does is unpacked first, up to kMostTextOfPrograms; of an xlsx file a
-/// sheet is read ("book.xlsx:Day 2", formats/spreadsheet.h). Linear time, about
-/// twice the file's memory; never looks at the locale.
+/// Reads a CSV file. Its rows tell what separates cells: `,` `;` `|`, tabs or
+/// blanks. Quotes follow RFC 4180, but those inside a cell need not be doubled.
+/// Commas are decimal where they separate no cells. Lines starting with `#`,
+/// blank lines at the end and a byte order mark are skipped. Text that is not
+/// UTF-8 is converted from Latin-1, or with a remark from what makes more known
+/// words (tables/text_encoding.h). A gzip file is unpacked first, up to
+/// kMostTextOfPrograms. Of an xlsx file one sheet is read ("book.xlsx:Day 2",
+/// formats/spreadsheet.h). Linear time, about twice the file's memory; never
+/// looks at the locale.
 ///
-/// Read with a remark: lines above the table (`titles`), no line of names
-/// (column_1, ...), names in a comment, in two rows or above channels, a name
-/// that comes twice (x, x_2), columns that no row reaches, blank lines, names
-/// again and lines of words between rows, which become a column where they part
-/// days or runs; points that part thousands (three digits behind each), a last
-/// line cut off in mid number, which is left out; a column for each position
-/// ("e@-215.9mm_um", "X=25 mm"), run ("Run 1 up [um]") or way ("Error up [um]")
-/// becomes a row for each reading, and rows of one reading or of one variable
-/// each become such rows, too; numbers as people write them (loose_numbers.h),
-/// single quotes, columns set apart by blanks (tables/rewritten_text.h).
+/// Read with a remark:
+/// - lines above the table (`titles`), blank lines, names repeated between rows
+/// - no names (column_1, ...), names in a comment, in two rows, above channels
+///   or used twice (x, x_2), and columns that no row reaches
+/// - lines of words between rows: a column if they separate days or runs; a
+///   last line cut off in mid number: left out
+/// - a column for each position ("e@-215.9mm_um", "X=25 mm"), run ("Run 1 up
+///   [um]") or direction ("Error up [um]"): a row for each reading. Rows of one
+///   reading or one variable each become such rows, too
+/// - numbers as people write them (loose_numbers.h), points between thousands,
+///   single quotes, and columns aligned by blanks (tables/rewritten_text.h)
 /// An unnamed column is called column_N (`has_name` is false).
 ///
-/// Throws InputError: unreadable file, empty file, header alone, a number where
-/// a name should be, rows of another length (OddRows), another table below, a
-/// blank line in a single column, quote never closed, NUL byte, more columns
-/// than 65536. Cells that are no numbers are not judged here (see MakeDataset).
+/// Throws InputError for an unreadable or empty file, a header alone, a number
+/// in place of a name, and rows of another length (OddRows). Also for another
+/// table below, a blank line in a single column, an open quote, a NUL byte, or
+/// more than 65536 columns. Cells that are no numbers are not judged here (see
+/// MakeDataset).
 CsvTable ReadCsv(const std::string& path, OddRows odd = OddRows::kRefuse);
 
 /// The same, and what Sha256OfFile says of the file, which is read once.

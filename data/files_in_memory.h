@@ -8,9 +8,9 @@
 
 namespace errmap::data {
 
-/// Tables and texts that stand for the files of their names in this thread,
-/// while it lives: whoever has measurements in memory reads them as if they
-/// were in a file. ReadCsv knows the tables, ReadFile the texts.
+/// Tables and texts that stand for files of their names, in this thread and
+/// while this object lives. Measurements in memory are then read like files.
+/// ReadCsv knows the tables, ReadFile the texts.
 class FilesInMemory {
  public:
   using Tables = std::map<std::string, std::shared_ptr<const CsvTable>>;
@@ -31,8 +31,8 @@ class FilesInMemory {
   const FilesInMemory* outer_;
 };
 
-/// SHA-256 of the file: of its bytes, or of a table in memory its names and
-/// cells. Throws InputError where it cannot be read.
+/// SHA-256 of the file's bytes, or of the names and cells of a table in memory.
+/// Throws InputError where it cannot be read.
 std::string Sha256OfFile(const std::string& path);
 
 }  // namespace errmap::data

@@ -12,8 +12,8 @@ enum class Quantity { kLength, kAngle, kTemperature, kTime, kRatio, kOther };
 struct Unit {
   std::string symbol;  // "mm", "degC", "arcsec", "" if none
   Quantity quantity = Quantity::kOther;
-  /// Value in the unit people read errors in = scale * value in `symbol`:
-  /// lengths are read in um (mm: 1000, um: 1), all else as it stands (1).
+  /// Factor from `symbol` to the unit in which people read errors. Lengths are
+  /// read in um (mm: 1000, um: 1), all else as it is (1).
   double display_scale = 1.0;
   std::string display_symbol;  // "um" for lengths, else `symbol`
 

@@ -34,9 +34,9 @@ struct StandingStill {
 /// What the readings of a whole session are judged by. Missing in older files,
 /// and for more than a hundred columns.
 struct SessionReadings {
-  /// (s x s) Inverse covariance of x', without a factor model. It is scaled so
-  /// that in held-out sessions the residual of a column, given the others, has
-  /// the variance that this says, in the mean over columns.
+  /// (s x s) Inverse covariance of x', without a factor model. It is scaled to
+  /// held-out sessions: on average over columns, the residual of a column given
+  /// the others has the variance stated here.
   Eigen::MatrixXd precision;
   /// (s) That variance of a column over the mean of all, 1 at least: a tank has
   /// little to do with the other sensors.
@@ -48,10 +48,10 @@ struct SessionReadings {
 /// ranges of derived inputs, and the joint distribution of thermal states (the
 /// inputs that are not positions).
 ///
-/// A factor model describes the states: x' = (x - mean) / scale has covariance
-/// W W' + diag(rest), with W the leading principal directions (Tipping & Bishop
-/// 1999, but with one variance for each column). Scores z = (W'W)^-1 W' x' have
-/// unit variance; distances are taken in this whitened space.
+/// A factor model describes the states (Tipping & Bishop 1999, but with one
+/// variance for each column). x' = (x - mean) / scale has covariance W W' +
+/// diag(rest), with W the leading principal directions. Scores z = (W'W)^-1 W'
+/// x' have unit variance; distances are taken in this whitened space.
 struct Applicability {
   struct Derived {
     data::ColumnInfo column;
@@ -83,8 +83,8 @@ struct Applicability {
   std::optional<SessionReadings> sessions = {};
 };
 
-/// An input counts as inside up to this share of its trained range beyond it: a
-/// reading's noise must not flag a row at the end of the range.
+/// An input counts as inside up to this share of its trained range beyond its
+/// ends, so that noise flags no row there.
 inline constexpr double kRangeTolerance = 0.02;
 
 /// Errors of a map on held-out units, with the time and place of each.

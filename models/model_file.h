@@ -22,12 +22,12 @@ void SaveModel(const FittedModel& fitted,
                const Provenance& provenance,
                const std::string& path);
 
-/// Reads a model; its predictions equal those of the saved one bit for bit.
-/// Its summary is that of a model that was not fitted here. Throws
-/// data::InputError naming the file, the key and the fault: not JSON, another
-/// schema, a missing key, a wrong type or shape, a number that is not finite,
-/// or a wrong checksum (the file was changed). A file without a checksum is
-/// read, with a remark.
+/// Reads a model; its predictions equal those of the saved one bit for bit. Its
+/// summary is that of a model that was not fitted here. Throws data::InputError
+/// naming the file, the key and the fault: not JSON, another schema, or a
+/// missing key. Also a wrong type or shape, a number that is not finite, or a
+/// wrong checksum (the file was changed). A file without a checksum is read,
+/// with a remark.
 FittedModel LoadModel(const std::string& path);
 
 /// Reads a model from text; `source` is the file's name in messages.

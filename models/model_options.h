@@ -11,8 +11,8 @@ namespace errmap::models {
 // family (option_list.h).
 
 /// Returns the options in a SPEC such as "net:scg:hidden=60". Throws
-/// std::invalid_argument if it is of another family, or naming the option, its
-/// value and the allowed values.
+/// std::invalid_argument if the SPEC is of another family. For a wrong option
+/// it names the option, its value and the allowed values.
 template <typename Options>
 Options OptionsOf(std::string_view spec);
 

@@ -44,10 +44,9 @@ struct DefaultRecipes {
 
 /// Returns the models compared when none are named: every compared type
 /// (ListedModel::is_compared) that the data allow. Ridge and lasso choose their
-/// views; with the blend, a net in views joins net:scg. A full polynomial
-/// needs at most a fifth as many coefficients as `fewest_training_rows`, the
-/// smallest training side of the study's folds, and fits of at most some
-/// seconds.
+/// views; with the blend, a net in views joins net:scg. A full polynomial has
+/// at most a fifth as many coefficients as `fewest_training_rows`, the smallest
+/// training side of the study's folds. It must also fit in some seconds.
 DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
                                   Eigen::Index fewest_training_rows);
 

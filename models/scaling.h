@@ -29,7 +29,7 @@ ColumnScaling StandardScaling(const Eigen::MatrixXd& values);
 ColumnScaling RootMeanSquareScaling(const Eigen::MatrixXd& values);
 
 /// Returns for each column (p) of `values` (m x p) the RMS deviation from the
-/// means, over all columns with its unit; 1 if that is 0. So a thermometer that
+/// means of all columns with its unit. 1 if that is 0. So a thermometer that
 /// hardly moves is not magnified over the others.
 Eigen::VectorXd SpreadsOfUnits(const Eigen::MatrixXd& values,
                                const std::vector<std::string>& units);

@@ -38,8 +38,8 @@ std::vector<Eigen::Index> CodesOfValues(
 
 /// Tests whether the variance of `residuals` (n) changes with `fitted` (n).
 /// Breusch & Pagan (1979) in Koenker's (1981) studentised form: n R^2 of the
-/// regression of e^2 on the fitted value, p from chi-squared with 1 degree of
-/// freedom. Assumes independent residuals, not normal ones. Needs n >= 4.
+/// regression of e^2 on the fitted value. p is from chi-squared with 1 degree
+/// of freedom. Assumes independent residuals, not normal ones. Needs n >= 4.
 /// Throws std::invalid_argument if the sizes differ.
 TestResult BreuschPagan(const Eigen::Ref<const Eigen::VectorXd>& residuals,
                         const Eigen::Ref<const Eigen::VectorXd>& fitted);

@@ -3,7 +3,7 @@
 namespace errmap::stats {
 
 /// Returns P(F > f) for an F distribution with `df1` and `df2` degrees of
-/// freedom: 1 if f <= 0, 0 if f is infinite, NaN if f is NaN or a degree of
+/// freedom. 1 if f <= 0; 0 if f is infinite; NaN if f is NaN or a degree of
 /// freedom is not above 0.
 double FTestPValue(double f, double df1, double df2);
 

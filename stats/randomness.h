@@ -9,8 +9,8 @@
 
 namespace errmap::stats {
 
-/// Values in measured order, cut between neighbours that must not be compared:
-/// one segment for the whole order, or one per group for order within groups.
+/// Values in measured order, cut between neighbours that must not be compared.
+/// One segment is the whole order, or each group has one.
 using Segments = std::vector<Eigen::VectorXd>;
 
 /// Returns one segment per group code, each in the order of `values` (n).
@@ -35,8 +35,8 @@ struct SerialTests {
   TestResult lag1;
   double expected_lag1 = 0.0;  // below 0, since the means are estimated
   /// Durbin & Watson's d = sum (d_(i+1) - d_i)^2 / sum d_i^2 about each
-  /// segment's own mean: 2 without memory, below 2 with drifts. p is from its
-  /// normal score with von Neumann's (1941) variance, not Durbin & Watson's
+  /// segment's own mean. It is 2 without memory, below 2 with drifts. p is from
+  /// its normal score with von Neumann's (1941) variance, not Durbin & Watson's
   /// bounds.
   TestResult durbin_watson;
   /// Ljung & Box (1978) over the first `num_lags` = min(10, n/5) lags (half the
@@ -70,10 +70,10 @@ SerialShuffles ShuffleSerially(const Segments& segments,
                                Eigen::Index draws,
                                std::uint64_t seed);
 
-/// Tests whether the first and the second half of the order are from one
-/// distribution, by the two-sample K-S distance (two_sample_ks.h). p is exact
-/// up to kMostPairsForExactKs pairs, else asymptotic; it assumes independent
-/// values. Needs n >= 4.
+/// Tests whether both halves of the order are from one distribution, by the
+/// two-sample K-S distance (two_sample_ks.h). p is exact up to
+/// kMostPairsForExactKs pairs, else asymptotic; it assumes independent values.
+/// Needs n >= 4.
 TestResult CompareHalves(const Eigen::Ref<const Eigen::VectorXd>& values);
 
 }  // namespace errmap::stats

@@ -38,10 +38,9 @@ Eigen::VectorXd Standardise(const Eigen::Ref<const Eigen::VectorXd>& sample);
 double Correlation(const Eigen::Ref<const Eigen::VectorXd>& a,
                    const Eigen::Ref<const Eigen::VectorXd>& b);
 
-/// Returns the quantile of `ascending` at `probability` in [0, 1]: linear
-/// between x_(i) at (i - 1)/(n - 1), type 7 of Hyndman & Fan (1996), the
-/// default of R and NumPy. NaN if n = 0. Throws std::invalid_argument if the
-/// probability is outside [0, 1].
+/// Returns the quantile of `ascending` at `probability` in [0, 1]: type 7 of
+/// Hyndman & Fan (1996), the default of R and NumPy. NaN if n = 0. Throws
+/// std::invalid_argument if the probability is outside [0, 1].
 double Quantile(const Eigen::Ref<const Eigen::VectorXd>& ascending,
                 double probability);
 
@@ -53,10 +52,10 @@ struct Histogram {
 };
 
 /// Returns the histogram of `ascending` (n >= 1) from its minimum to its
-/// maximum. `bins` = 0 chooses the number of bins by Freedman & Diaconis
-/// (1981): width 2 IQR n^(-1/3), at most 1000 bins, and Sturges' number if the
-/// IQR is 0. Equal values give one bin. Throws std::invalid_argument if there
-/// are no values, a value is not finite or bins < 0.
+/// maximum. `bins` = 0 chooses the number by Freedman & Diaconis (1981): width
+/// 2 IQR n^(-1/3), at most 1000. It is Sturges' number if the IQR is 0. Equal
+/// values give one bin. Throws std::invalid_argument if there are no values, a
+/// value is not finite or bins < 0.
 Histogram MakeHistogram(const Eigen::Ref<const Eigen::VectorXd>& ascending,
                         Eigen::Index bins);
 

@@ -74,7 +74,7 @@ void AddCertifyCommand(CLI::App* app, Run* run) {
       app,
       run,
       "certify",
-      "Prove solvers and statistics on problems whose answers are known");
+      "Test solvers and statistics on problems with known answers");
   AddOption(command,
             "PART",
             command->part,
@@ -86,7 +86,7 @@ void AddCertifyCommand(CLI::App* app, Run* run) {
   AddFlag(command,
           "--details",
           command->details,
-          "Every run of every solver, with its own words");
+          "Every run of every solver, with its message");
   AddFormatOption(command, &command->format);
   SetFooter(command,
             "Exit status: 0 every floor is reached, 4 one is missed.\n"

@@ -118,7 +118,7 @@ void AddDataArguments(CLI::App* command, DataArguments* arguments) {
   AddOption(command,
             "DATA FILE.csv",
             arguments->files,
-            "CSV file, one row per sample; several, or a folder, are "
+            "CSV file, one row per reading; several files, or a folder, are "
             "days of one component")
       .Required();
   // Before the others, which overrule it.
@@ -128,8 +128,8 @@ void AddDataArguments(CLI::App* command, DataArguments* arguments) {
       [arguments](const std::string& path) {
         TakeReading(path, &arguments->selection);
       },
-      "Read the columns as `errmap read --format json` told, unless another\n"
-      "option says otherwise")
+      "Read the columns as `errmap read --format json` wrote them, unless "
+      "another option differs")
       .Seldom();
   desk::ForSelectionOptions(arguments->selection, FlagAdder(command));
   AddFlag(command,
@@ -166,18 +166,17 @@ void AddMapLogArguments(CLI::App* command, models::MapLogArguments* arguments) {
   AddOption(command,
             "--after EARLIER.csv",
             arguments->after,
-            "Rows before these: the filters of a map with a memory run "
-            "through them first");
+            "Earlier readings, for the filters of a map with a memory");
   AddOption(command,
             "--time COL",
             arguments->time,
-            "Column of times (default: the one that the map was\nfitted "
-            "by, else the only time* or zeit*) or of dates");
+            "Column of times or dates (default: the one that the map "
+            "was\nfitted by, else the only time* or zeit*)");
   AddOption(command,
             "--session COL",
             arguments->session,
-            "Column of sessions (default: that of the map)\nthat is, "
-            "uninterrupted runs");
+            "Column of sessions (default: that of the map)\nA session is an "
+            "uninterrupted run");
 }
 
 void AddFromRest(CLI::App* command, models::MapLogArguments* arguments) {
@@ -247,8 +246,8 @@ void AddKeepPathsFlag(CLI::App* command) {
       command,
       "--keep-paths",
       [] { data::KeepPaths(); },
-      "Write absolute paths into reports, maps and journals; without it, the "
-      "files' names only");
+      "Write absolute paths, not just file names, into reports, maps and "
+      "journals");
   MarkSeldom(command, {"--keep-paths"});
 }
 
@@ -258,8 +257,8 @@ void AddCacheFlag(CLI::App* command, std::string* cache) {
       command,
       "--no-cache",
       [cache] { cache->clear(); },
-      "Make every fit anew\nElse those of the last runs on the same data are "
-      "taken from ~/.cache/errmap, which may be removed at any time");
+      "Repeat every fit\nOtherwise fits of earlier runs on the same data come "
+      "from ~/.cache/errmap, which may be removed at any time");
   MarkSeldom(command, {"--no-cache"});
 }
 
@@ -267,8 +266,8 @@ void AddForceFlag(CLI::App* command, bool* force) {
   AddFlag(command,
           "--force",
           *force,
-          "Replace files in the folder that errmap did not write, or "
-          "that were changed since; never one that is read");
+          "Also replace files in the folder that errmap did not write, or that "
+          "were changed since; never an input");
   MarkSeldom(command, {"--force"});
 }
 

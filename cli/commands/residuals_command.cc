@@ -328,7 +328,8 @@ void AddColumnOptions(CLI::App* command, ResidualsArguments* arguments) {
   AddOption(command,
             "--order COL",
             arguments->order,
-            "Numbers that tell the measured order (default: the file's)");
+            "Column that has the order of measurement (default: the rows as "
+            "they stand)");
   AddOption(command,
             "--group COL",
             arguments->group,

@@ -39,7 +39,7 @@ template <typename Selection, typename Visit>
 void ForSelectionOptions(Selection& selection, const Visit& visit) {
   visit(StudyOption{.key = "target",
                     .value = "COL",
-                    .help = "Column to be mapped (default: the error by name)",
+                    .help = "Column of the error to map (default: by its name)",
                     .reach = Reach::kOne},
         selection.target);
   visit(StudyOption{.key = "inputs",
@@ -55,82 +55,81 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
         selection.exclude);
   visit(StudyOption{.key = "group",
                     .value = "COL",
-                    .help = "Column of warm-up cycles (default: cycle)\nor of "
-                            "days or segments: what tells groups of rows apart",
+                    .help = "Column of warm-up cycles (default: cycle)\nAny "
+                            "column that groups the rows will do",
                     .reach = Reach::kAlike,
                     .example = "group = \"cycle\""},
         selection.group);
   visit(StudyOption{.key = "time",
                     .value = "COL",
-                    .help =
-                        "Column of times (default: by name and values)\nor of "
-                        "dates; none: the number of the row counts",
+                    .help = "Column of times or dates (default: by name and "
+                            "values)\nnone: count rows instead",
                     .reach = Reach::kAlike,
                     .example = "time = \"time_s\""},
         selection.time);
-  visit(StudyOption{.key = "session",
-                    .value = "COL",
-                    .help = "Column of sessions (default: by name, else "
-                            "nights)\nwhich are uninterrupted runs; none: cut "
-                            "where time breaks off",
-                    .reach = Reach::kAlike,
-                    .example = "session = \"day\""},
-        selection.session);
+  visit(
+      StudyOption{
+          .key = "session",
+          .value = "COL",
+          .help = "Column of sessions (default: by name, else nights)\nA "
+                  "session is an uninterrupted run. none: cut at gaps in time",
+          .reach = Reach::kAlike,
+          .example = "session = \"day\""},
+      selection.session);
   visit(StudyOption{.key = "position",
                     .value = "COL",
                     .help = "Column of the axis position (default: the one "
-                            "whose values\ncome again as commanded ones do)",
+                            "whose values\nrepeat as commanded ones do)",
                     .reach = Reach::kAlike,
                     .seldom = true,
                     .example = "position = \"x_pos_mm\""},
         selection.position);
   visit(StudyOption{.key = "direction",
                     .value = "up|down|COL",
-                    .help = "Rows of one way along the axis, or the column "
-                            "that tells the ways",
+                    .help = "Rows of one direction of motion, or its column",
                     .reach = Reach::kAlike,
                     .seldom = true,
                     .example = "direction = \"up\""},
         selection.direction);
   visit(StudyOption{.key = "gap",
                     .value = "2h",
-                    .help = "A longer pause parts sessions (default: pauses "
-                            "of another order than those between cycles)",
+                    .help = "A longer pause ends a session (default: one far "
+                            "longer than those between cycles)",
                     .reach = Reach::kAlike,
                     .seldom = true,
                     .example = "gap = \"2h\""},
         selection.gap);
   visit(StudyOption{.key = "time_unit",
                     .value = "s|ms|min|h|days",
-                    .help = "Unit of a time column of numbers (default: that "
-                            "of its name, else by its steps)",
+                    .help = "Unit of a time column of numbers (default: by its "
+                            "name, else by its steps)",
                     .reach = Reach::kAlike,
                     .seldom = true,
                     .example = "time_unit = \"s\""},
         selection.time_unit);
   visit(StudyOption{.key = "with",
                     .value = "LOG.csv",
-                    .help = "Log of thermometers with a clock, joined to the "
-                            "rows by time",
+                    .help = "Thermometer log, joined to the rows by time",
                     .reach = Reach::kOne,
                     .seldom = true,
                     .example = "with = \"thermometers.csv\""},
         selection.with);
   visit(StudyOption{.key = "clock_offset",
                     .value = "S",
-                    .help = "What the clock of that log is ahead: 3s, -2min",
+                    .help = "How far the clock of that log is ahead: 3s, -2min",
                     .reach = Reach::kOne,
                     .seldom = true,
                     .example = "clock_offset = \"3s\""},
         selection.clock_offset);
-  visit(StudyOption{.key = "align",
-                    .help = "first: take each session's first value off the "
-                            "target",
-                    .seldom = true,
-                    .example = "align = \"first\"   # each session's first "
-                               "value off the target"},
-        selection.align,
-        std::vector{data::Alignment::kFirst, data::Alignment::kNone});
+  visit(
+      StudyOption{
+          .key = "align",
+          .help = "first: subtract each session's first value",
+          .seldom = true,
+          .example =
+              "align = \"first\"   # subtract each session's first value"},
+      selection.align,
+      std::vector{data::Alignment::kFirst, data::Alignment::kNone});
   visit(StudyOption{.key = "weight",
                     .value = "COL",
                     .help = "Column of row weights > 0",
@@ -140,23 +139,23 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
         selection.weight);
   visit(
       StudyOption{.key = "missing",
-                  .help = "What cells without a number do (empty, NA, OPEN, "
-                          "---), and rows with too few or too many: error or "
-                          "drop-rows",
+                  .help =
+                      "Cells without a number (empty, NA, OPEN, ---), and rows "
+                      "with too few or too many cells: error or drop-rows",
                   .seldom = true,
                   .example = "missing = \"error\"   # or \"drop-rows\""},
       selection.missing,
       std::vector{data::MissingPolicy::kError, data::MissingPolicy::kDropRows});
-  visit(StudyOption{.key = "faults",
-                    .help = "What becomes of rows with failed readings (9999, "
-                            "jumps of a thermometer, zeros of a lost beam) or "
-                            "that stand twice, which are named: keep or "
-                            "drop-rows",
-                    .seldom = true,
-                    .example = "faults = \"keep\"   # or \"drop-rows\": 9999, "
-                               "jumps of sensors"},
-        selection.faults,
-        std::vector{data::FaultPolicy::kKeep, data::FaultPolicy::kDropRows});
+  visit(
+      StudyOption{
+          .key = "faults",
+          .help = "Repeated rows, and rows with failed readings (9999, jumps "
+                  "of a thermometer, zeros of a lost beam): keep or drop-rows",
+          .seldom = true,
+          .example = "faults = \"keep\"   # or \"drop-rows\": 9999, "
+                     "jumps of sensors"},
+      selection.faults,
+      std::vector{data::FaultPolicy::kKeep, data::FaultPolicy::kDropRows});
   visit(StudyOption{.key = "keep_dead",
                     .help = "Keep inputs that hold one value only (failed "
                             "sensors)",
@@ -170,20 +169,20 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
 /// to components without their own.
 template <typename Config, typename Visit>
 void ForErrorOptions(Config& config, const Visit& visit) {
-  visit(StudyOption{.key = "goal",
-                    .value = "X",
-                    .help = "RMSE wanted: 2um (default: no goal)\n"
-                            "of held-out rows; without a unit in that of the "
-                            "target"},
-        config.goal);
   visit(
-      StudyOption{.key = "indifference",
-                  .value = "X",
-                  .help = "Difference in RMSE that never matters, as the goal "
-                          "(default for lengths: 0.02 um)",
-                  .seldom = true,
-                  .may_be_zero = true},
-      config.indifference);
+      StudyOption{
+          .key = "goal",
+          .value = "X",
+          .help = "RMSE wanted: 2um (default: no goal)\nIt is that of held-out "
+                  "rows. A bare number is in the unit of the target"},
+      config.goal);
+  visit(StudyOption{.key = "indifference",
+                    .value = "X",
+                    .help = "Difference in RMSE that never matters, written "
+                            "like the goal (default for lengths: 0.02 um)",
+                    .seldom = true,
+                    .may_be_zero = true},
+        config.indifference);
 }
 
 /// Visits all options of one component of a study.
@@ -198,28 +197,30 @@ void ForComponentOptions(Component& component, const Visit& visit) {
 template <typename Config, typename Visit>
 void ForStudyOptions(Config& config, const Visit& visit) {
   ForErrorOptions(config, visit);
-  visit(StudyOption{.key = "choose",
-                    .help = "The map to recommend\nauto: the blend, unless a "
-                            "baseline errs less or a single map is proven "
-                            "better by separate days. best: the lowest error"},
-        config.choose,
-        std::vector{models::Choose::kAuto,
-                    models::Choose::kBest,
-                    models::Choose::kBlend});
+  visit(
+      StudyOption{
+          .key = "choose",
+          .help =
+              "The map to recommend\nbest: the lowest error. auto: the blend, "
+              "unless a baseline errs less or days prove a single map better"},
+      config.choose,
+      std::vector{models::Choose::kAuto,
+                  models::Choose::kBest,
+                  models::Choose::kBlend});
   visit(StudyOption{.key = "prefer",
-                    .help = "small: fewest sensors, at most 5 % worse"},
+                    .help = "small: fewest sensors, at most 5 % more error"},
         config.prefer,
         std::vector{models::Prefer::kLeastError, models::Prefer::kSmall});
   visit(
-      StudyOption{.key = "rezero",
-                  .value = "2h|session|probe",
-                  .help = "Judge maps with their offset set anew then\nfrom "
-                          "the true error: at an interval (2h, 90min; 5 of a "
-                          "time column that counts cycles), session (where "
-                          "one begins) or probe (with every cycle, every row "
-                          "where there are none), beside no map re-zeroed "
-                          "alike; 2h:noise=0.5um: by probes of this noise",
-                  .check = [](const std::string& text) { CheckRezero(text); }},
+      StudyOption{
+          .key = "rezero",
+          .value = "2h|session|probe",
+          .help = "Judge maps that are re-zeroed this often\nAn interval is 2h "
+                  "or 90min, or 5 where time counts cycles. session: where one "
+                  "begins. probe: every cycle, or every row without cycles. "
+                  "2h:noise=0.5um: by probes of this noise. The error without "
+                  "a map is re-zeroed alike",
+          .check = [](const std::string& text) { CheckRezero(text); }},
       config.rezero);
 }
 

@@ -13,9 +13,9 @@
 
 namespace errmap::machine {
 
-/// A machine whose maps are still to be fitted: STEM.json of machine.toml
-/// belongs to STEM.csv of a folder, whose tool_tip.csv has the true errors at
-/// the tool, and diagonals.csv, where there is one, along diagonals.
+/// A machine whose maps are still to be fitted. STEM.json of machine.toml is
+/// fitted to STEM.csv of a folder. The folder's tool_tip.csv has the true
+/// errors at the tool, and diagonals.csv, if any, those along diagonals.
 struct MachineStudy {
   std::string path;  // of machine.toml
   std::string folder;
@@ -32,24 +32,24 @@ struct MachineStudy {
 
 /// Reads machine and points; `later` is the number of sessions to judge by,
 /// `session` their column ("": one of kSessionColumns).
-/// Throws data::InputError where a file is missing, the points have no column
+/// Throws data::InputError if a file is missing, the points have no column
 /// of sessions, or no session but the later ones.
 MachineStudy ReadMachineStudy(const std::string& machine,
                               const std::string& folder,
                               int later = 1,
                               const std::string& session = "");
 
-/// The plan of `config` with a component for each stem, the later sessions left
-/// out. Throws as PlanStudy, and data::InputError where the target of a
-/// component is no error of its link, a length for an angle, or none of its
-/// sessions is one of the points'.
+/// Returns the plan of `config` with a component for each stem, without the
+/// later sessions. Throws as PlanStudy. Throws data::InputError if a
+/// component's target is not an error of its link, or is a length for an angle.
+/// Also if it shares no session with the points.
 desk::StudyPlan PlanOfMachine(const MachineStudy& study,
                               desk::StudyConfig config = {},
                               const desk::Remark& remark = {});
 
-/// Puts the maps of a finished run together and judges them at the points of
-/// the later sessions, filters run through the folder's temperatures.csv where
-/// it has one. Throws data::InputError as EvaluateAt does.
+/// Judges the maps of a finished run together at the points of the later
+/// sessions. Filters run through the folder's temperatures.csv, if there is
+/// one. Throws data::InputError as EvaluateAt does.
 MachineRecord JudgeMachine(const MachineStudy& study,
                            const desk::StudyRun& run);
 

@@ -205,30 +205,20 @@ std::string ResidualGraph(const NetcgFigures& figures) {
 }
 
 std::string NetcgErrata() {
-  return "What the program of 1995 has wrong, and prints without " +
+  return "What the program of 1995 gets wrong, and prints without " +
          data::ArgumentName("corrected") +
-         ":\n"
-         "- means and standard deviations are divided by (n+1)(J+1) and that "
-         "less 1 in\n"
-         "  place of n J and n J - 1 (J outputs): with one output the mean is "
-         "about half\n"
-         "  and the standard deviation 1/sqrt(2) of the true one;\n"
-         "- so the K-S test standardises by wrong figures; and its p takes "
-         "mean and\n"
-         "  standard deviation for given, where Lilliefors' applies;\n"
-         "- R-SQ is SSreg/SStot about that wrong mean; right is 1 - SSE/SST;\n"
-         "- a testing run scales targets and outputs by the test file's own "
-         "range, not\n"
-         "  the training file's;\n"
-         "- the scale factor of a pattern file is read and never applied;\n"
-         "- line k of the error curve holds the error before iteration k; Err "
-         "is E, not\n"
-         "  its root;\n"
-         "- the run file is closed inside the loop over runs, so a second run "
-         "failed;\n"
-         "- weights of other nodes than the run's were refused only where all "
-         "three\n"
-         "  numbers differed.\n";
+         ":\n- Sums of n rows and J outputs are divided by (n+1)(J+1) in place "
+         "of n J. With one\noutput, means are about half the true ones, and "
+         "standard deviations 0.71 of them.\n- So the K-S test standardises by "
+         "wrong figures. Its p also assumes a given mean\nand standard "
+         "deviation, where Lilliefors' test applies.\n- R-SQ is SSreg/SStot "
+         "about that wrong mean, not 1 - SSE/SST.\n- A testing run scales by "
+         "the range of the test file, not of the training file.\n- The scale "
+         "factor of a pattern file is read and never applied.\n- Line k of the "
+         "error curve has the error before iteration k. Err is E, not its "
+         "root.\n- The run file is closed inside the loop over runs, so a "
+         "second run fails.\n- Weights for other numbers of nodes are refused "
+         "only if all three numbers differ.\n";
 }
 
 }  // namespace errmap::netcg

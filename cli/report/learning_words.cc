@@ -23,8 +23,8 @@ std::string GoalWords(const models::LearningCurvesRecord& curves,
   if (never >= kSure) {
     constexpr double kMostSure = 99.0;  // that the law itself holds is not
     return fmt::format(
-        "{} is not reached however many are measured ({}{:.0f} % sure, if the "
-        "curve goes on like this)",
+        "{} is not reached with any number ({}{:.0f} % sure, if the curve goes "
+        "on like this)",
         wanted,
         kPercent * never > kMostSure ? "over " : "",
         std::min(kMostSure, kPercent * never));
@@ -72,10 +72,11 @@ std::string LawWords(const models::LearningCurvesRecord& curves,
 std::string EnoughWords(const models::SensorCurve& curve) {
   const double percent = kPercent * (models::SensorCurve::kTolerance - 1.0);
   return curve.enough
-             ? fmt::format("{} of {} sensors do it, within {:.0f} % of all",
-                           *curve.enough,
-                           curve.all.sensors,
-                           percent)
+             ? fmt::format(
+                   "{} of {} sensors are enough, within {:.0f} % of all",
+                   *curve.enough,
+                   curve.all.sensors,
+                   percent)
              : fmt::format("No choice of {} comes within {:.0f} % of all {}",
                            curve.chosen.size(),
                            percent,

@@ -75,17 +75,6 @@ std::string FirstStatement(const std::string& text) {
   return text.substr(0, end);
 }
 
-// Its text in one paragraph, the rest of it with --all alone.
-std::string Explained(const OptionReference& option, HelpOptions options) {
-  std::string text = option.description;
-  if (options == HelpOptions::kUsual) text = FirstStatement(text);
-  std::ranges::replace(text, '\n', ' ');
-  if (!option.fallback.empty()) {
-    text += fmt::format(" (default: {})", option.fallback);
-  }
-  return text;
-}
-
 std::string OptionEntry(const OptionReference& option,
                         HelpOptions options,
                         std::size_t width) {
@@ -96,6 +85,20 @@ std::string OptionEntry(const OptionReference& option,
 }
 
 }  // namespace
+
+std::string Explained(const OptionReference& option, HelpOptions options) {
+  std::string text = FirstStatement(option.description);
+  const std::string rest = option.description.substr(text.size());
+  if (options == HelpOptions::kAll && !rest.empty()) {
+    const bool is_sentence = rest[1] >= 'A' && rest[1] <= 'Z';
+    text += (is_sentence ? "." : rest[1] == '(' ? "" : ";") + rest;
+  }
+  std::ranges::replace(text, '\n', ' ');
+  if (!option.fallback.empty()) {
+    text += fmt::format(" (default: {})", option.fallback);
+  }
+  return text;
+}
 
 std::string UsageOf(const CommandReference& command) {
   std::string usage;

@@ -18,6 +18,9 @@ std::string CommandHelp(const CommandReference& command,
                         HelpOptions options,
                         std::size_t width);
 
+/// Returns an option's first statement, with kAll also the others, and default.
+std::string Explained(const OptionReference& option, HelpOptions options);
+
 /// Returns the first steps, for a call without arguments.
 std::string FirstSteps();
 

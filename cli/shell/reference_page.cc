@@ -48,11 +48,7 @@ std::string TableHead(const char* left, const char* right) {
 std::string OptionRow(const OptionReference& option) {
   std::string name = data::JoinWords(option.names, ", ");
   if (!option.value.empty()) name += " " + option.value;
-  std::string text = option.description;
-  if (!option.fallback.empty()) {
-    text += fmt::format(" (default: {})", option.fallback);
-  }
-  return Row(name, text);
+  return Row(name, Explained(option, HelpOptions::kAll));
 }
 
 std::string SectionOf(const CommandReference& command) {

@@ -7,10 +7,10 @@
 namespace errmap::turning_centre {
 
 /// The bodies of the turning centre. Left is the spindle's end of the bed,
-/// right the end where the Z slide has its home; front of the spindle head is
-/// the spindle nose, rear the pulley. The X column stands on the Z slide; its
-/// right face carries the vertical X ways and the X screw, on its left is the
-/// turret, which the X slide carries past it.
+/// right the home of the Z slide. The front of the spindle head is the nose,
+/// its rear the pulley. The X column stands on the Z slide. Its right face
+/// carries the vertical X ways and the X screw. On its left is the turret,
+/// which the X slide carries.
 enum Body : std::size_t {
   kBedLeftBottom,
   kBedLeftTop,

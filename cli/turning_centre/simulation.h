@@ -93,7 +93,7 @@ struct Simulation {
   std::vector<LogEntry> log;             // by day, then by time
 };
 
-/// Runs the machine. Throws std::invalid_argument where options.Validate()
+/// Runs the machine. Throws std::invalid_argument if options.Validate()
 /// does.
 Simulation Simulate(const SimulationOptions& options);
 

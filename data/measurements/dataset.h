@@ -43,8 +43,8 @@ bool IsPosition(const ColumnInfo& column);
 /// Whether a column is read by a sensor, or switched.
 bool IsReadBySensor(const ColumnInfo& column);
 
-/// The role of a column of which nothing but its name is known: of maps
-/// written before roles were kept, and of data made in memory.
+/// The role of a column by its name alone: for maps written before roles were
+/// kept, and for data made in memory.
 Role RoleByName(const ColumnInfo& column);
 
 /// The group of each row (warm-up cycle, day, segment).
@@ -172,8 +172,7 @@ enum class MissingPolicy { kError, kDropRows };
 /// "error", "drop-rows".
 std::string_view ToString(MissingPolicy policy);
 
-/// What becomes of rows with readings that no machine made
-/// (RowsOfCellFaults).
+/// Rows with readings that no machine made (RowsOfCellFaults).
 enum class FaultPolicy { kKeep, kDropRows };
 /// "keep", "drop-rows".
 std::string_view ToString(FaultPolicy policy);
@@ -234,40 +233,37 @@ struct PreparedDataset {
   /// Of these, whole sentences that an answer must not go without.
   std::vector<std::string> doubts = {};
   std::string time_column = {};          // "": the numbers of the rows
-  std::vector<ColumnFilter> where = {};  // that its rows pass
+  std::vector<ColumnFilter> where = {};  // which its rows meet
   /// What was found in the columns in use, rows left out for it included.
   std::vector<ColumnFault> faults;
   Reading reading = {};
 };
 
 /// Picks target, inputs, group and weight from a table and checks the columns
-/// in use (all others may hold anything).
+/// in use. All others may hold anything.
 ///
 /// Default inputs are the numeric columns other than target, group, weight,
-/// time, session, what KeepsRecord tells by its name, and which of several
-/// machines or tools it was.
-/// Errors measured beside the target are left out with a remark unless named in
-/// `inputs`: columns of its stem (StemOfColumn), of its unit and of a name that
-/// differs in the letter of an axis alone, named `error*`, or in nm, um, uin,
-/// arcsec or urad, positions and axes of one letter apart. Dead inputs (one
-/// value in all rows; unless it was named, a thermometer that is stuck from a
-/// row on) are dropped with a remark unless `keep_dead`, and so is what gives
-/// the target together with other inputs (FindLeaks); an input that repeats
-/// another value for value, or has one value in nearly all rows, is named in a
-/// remark and kept. Columns of `where`, and those
-/// that the header leaves unnamed, are no default inputs. The log holds the
-/// rows that `where` lets pass. kFirst takes the first value kept of each
-/// session off the target, with a remark. Readings that no machine made come
-/// back as `faults`.
+/// time and session. Columns that only keep records (KeepsRecord), or name the
+/// machine or tool, are none. Errors measured beside the target are left out
+/// with a remark unless named in `inputs`. These are columns of its stem
+/// (StemOfColumn), columns of its unit whose name differs only in the letter of
+/// an axis, and columns named `error*`. So are columns in nm, um, uin, arcsec
+/// or urad, except positions and axes of one letter. Dead inputs are dropped
+/// with a remark unless `keep_dead`: one value in all rows, or an unnamed
+/// thermometer stuck from a row on. So are inputs that together give the target
+/// (FindLeaks). An input that repeats another, or has one value in nearly all
+/// rows, is kept with a remark. Columns of `where`, and those that the header
+/// leaves unnamed, are no default inputs. The log holds the rows that `where`
+/// lets pass. kFirst takes the first value kept of each session off the target,
+/// with a remark. Readings that no machine made come back as `faults`.
 ///
-/// Throws InputError naming file, row, column and remedy: unknown column, no
-/// or several candidates for the target, a cell of a used column that is
-/// empty, NA, NaN, infinite or no number (kDropRows drops rows with empty, NA
-/// or NaN cells only), a unit that is not known, positions or other numbers
-/// that stand there as text, decimal commas and points mixed, constant target,
-/// non-positive weight, times that will not do (sessions.h), no rows (`where`
-/// included) or no inputs left (no inputs is allowed where the table has no
-/// other numeric column).
+/// Throws InputError naming file, row, column and remedy. Causes:
+/// - an unknown column, or no or several candidates for the target
+/// - a cell in use that is empty, NA, NaN, infinite or not a number; kDropRows
+/// drops rows with empty, NA or NaN cells only
+/// - an unknown unit, numbers kept as text, decimal commas and points mixed
+/// - a constant target, a weight not above 0, unusable times (sessions.h)
+/// - no rows, or no inputs left although the table has other numeric columns
 PreparedDataset MakeDataset(const CsvTable& table,
                             const DatasetSelection& selection);
 

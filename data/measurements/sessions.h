@@ -39,8 +39,8 @@ Eigen::Index TimesBack(const Eigen::VectorXd& time);
 /// A night lasts longer than this, s.
 inline constexpr double kShortestNight = 3.5 * 3600.0;
 
-/// The row at which each session's zero is taken: its first whose inputs
-/// (n x p) are all numbers, measured there or not, else its first.
+/// The row at which each session's zero is taken: the first whose inputs (n x
+/// p) are all numbers, measured or not, else its first.
 std::vector<Eigen::Index> FirstRows(const Grouping& sessions,
                                     const Eigen::MatrixXd& input_values);
 
@@ -65,21 +65,20 @@ struct FoundSessions {
 /// Finds sessions, uninterrupted runs with rows in order of time, by the
 /// columns `time`, `session` and the policy `missing` of the selection.
 ///
-/// Time is the column named, else the only one whose name begins with "time",
-/// else with "zeit", else the only one that holds nothing but times of day:
-/// numbers in seconds by its unit (s, ms, min, h), or what ParseDateTime reads;
-/// else the number of the row. Sessions are the column named, else the first of
-/// kSessionColumns that there is, else of several files kFileColumn, else,
-/// where time has no dates, the only column that holds nothing but dates;
-/// without one they are cut where time goes back or leaps by more than 20
-/// median steps. A word that comes again after another ("day", "night", "day")
-/// begins another session. A column that nobody named and that will not do is
-/// passed over with a remark; "none" names none, save where a column is called
-/// so. The target and the weight are neither.
+/// Time is the column named, else the only one that begins with "time", else
+/// with "zeit", else the only one with nothing but times of day. It holds
+/// numbers (s, ms, min, h by its unit), or what ParseDateTime reads. Without
+/// one, rows are counted. Sessions are the column named, else the first of
+/// kSessionColumns, else the file (kFileColumn), else the only column of dates,
+/// if time has none. Without one, sessions are cut where time goes back or
+/// leaps by more than 20 median steps. A word that comes again after another
+/// ("day", "night", "day") begins another session. A column that nobody named
+/// is passed over with a remark if it is unusable. "none" names none, unless a
+/// column has that name. The target and the weight are neither.
 ///
-/// Throws InputError, with row and remedy, where a named column is not there,
-/// is the target or the weight, holds no times, lacks a cell (kDropRows: such
-/// rows are not known) or is not in order, and where time goes back within a
+/// Throws InputError, with row and remedy, if a named column is missing, is the
+/// target or the weight, holds no times, or is not in order. Also if a cell is
+/// missing (kDropRows: such rows are not known), or time goes back within a
 /// session of a column.
 FoundSessions FindSessions(const CsvTable& table,
                            const DatasetSelection& selection,

@@ -45,11 +45,11 @@ class PenalizedPath {
   /// Returns solutions for `strengths`, at least 0, in any order. If columns
   /// depend on each other, a ridge at 0 has the limit of weak strengths. Ridge
   /// uses Cholesky factors. The lasso follows its piecewise linear path knot by
-  /// knot (Osborne, Presnell and Turlach 2000); each solution is then checked
-  /// against the conditions of a minimum,
-  /// x_j'r = strength sign(b_j) if b_j is not 0, else |x_j'r| <= strength,
-  /// to 1e-13 of the largest correlation and the rounding of the sums. An
-  /// active-set method corrects it if it violates them.
+  /// knot (Osborne, Presnell and Turlach 2000). Each solution is then checked
+  /// against the conditions of a minimum: x_j'r = strength sign(b_j) if b_j is
+  /// not 0, else |x_j'r| <= strength, to 1e-13 of the largest correlation and
+  /// the rounding of the sums. An active-set method corrects it if it violates
+  /// them.
   Solutions Solve(const std::vector<double>& strengths) const;
 
   /// Takes one step of iterative refinement of a ridge solution for `strength`

@@ -74,8 +74,8 @@ struct RegressionDiagnostics {
 
 /// Returns the diagnostics of `solution` (for the intercept's column and the
 /// terms), without its aliased terms. Coefficients, standard deviations and
-/// residual sum of squares are those of `solution` if it used 106 bits, else of
-/// a Householder QR of centred columns of unit length. Throws
+/// residual sum of squares come from `solution` if it used 106 bits. Otherwise
+/// they come from a Householder QR of centred columns of unit length. Throws
 /// std::invalid_argument if shapes do not agree.
 RegressionDiagnostics Diagnose(const RegressionProblem& problem,
                                const LeastSquaresFit& solution);

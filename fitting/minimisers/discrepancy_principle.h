@@ -43,9 +43,9 @@ struct DiscrepancyChoice {
 /// |F(w) - z| <= delta it seeks that with the least |w|. It is the minimiser of
 /// |F(w) - z|^2 + alpha |w|^2 for the largest alpha that reaches delta.
 ///
-/// Decreases alpha0 q^k until the misfit is at most delta (Eq. 133-134); each
+/// Decreases alpha0 q^k until the misfit is at most delta (Eq. 133-134). Each
 /// fit starts from the previous one. Then alpha rises by factors 1/q until the
-/// misfit is too large, and the bracket is halved in log alpha; each fit starts
+/// misfit is too large, and the bracket is halved in log alpha. Each fit starts
 /// from the best one within delta. If F is linear, that is plain bisection. A
 /// net's minimum may jump on the way down to one that stays within delta up to
 /// far larger alphas. If alpha0 is small enough, it is the answer. `minimize`

@@ -27,8 +27,8 @@ struct GradientCheck {
 
 /// Compares the gradient of `f` at x (n) with Ridders' derivatives for every
 /// parameter. The scale of each is max(|numeric|, 1e-6 times the largest
-/// gradient component): a component that is zero among large ones cannot be
-/// judged by its own size.
+/// gradient component), since a component near zero cannot be judged by its own
+/// size.
 GradientCheck CheckGradient(const Objective& f,
                             const Eigen::VectorXd& x,
                             double step = 0.1);

@@ -74,11 +74,11 @@ struct LevenbergMarquardtOptions {
 /// Ends with kGradient if both J'r + c x and the objective's own gradient
 /// satisfy |g| < gradient_goal max(1, |x|). Gives up if steps vanish
 /// (step_tolerance), lambda overflows, or below cost_resolution neither f nor e
-/// falls in ten trials: with kResolution if the cost shows a minimum
-/// (cost_resolution.h), else with kNoDescent. Also ends at the limits and goals
-/// of StoppingRules. If residual form and objective give different costs, it
-/// ends with kFailed at x0, or later with kNoDescent at the end or at x0,
-/// whichever the objective says is lower. Final cost and gradient are the
+/// falls in ten trials. It then ends with kResolution if the cost shows a
+/// minimum (cost_resolution.h), else with kNoDescent. Also ends at the limits
+/// and goals of StoppingRules. If residual form and objective give different
+/// costs at x0, it ends with kFailed. Later it ends with kNoDescent, at the end
+/// or at x0, whichever has the lower objective. Final cost and gradient are the
 /// objective's own, evaluated again at the end.
 class LevenbergMarquardt final : public Optimizer {
  public:

@@ -31,8 +31,8 @@ class Path {
   virtual const VectorOf<Scalar>& Gradient() = 0;
 };
 
-/// The Jacobian J (m x n) of a ResidualFunction at a point, as an operator: for
-/// methods in the space of the residuals that never need J itself. Made by
+/// The Jacobian J (m x n) of a ResidualFunction at a point, as an operator, for
+/// methods that never need J itself. Made by
 /// ResidualFunction::NewLinearization; the function must outlive it.
 class Linearization {
  public:

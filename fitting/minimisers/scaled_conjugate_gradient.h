@@ -49,12 +49,12 @@ struct ScaledConjugateGradientOptions {
 /// by how well the parabola predicted the cost.
 ///
 /// kMoller works on a Path of the objective. It needs a curvature for each
-/// direction, a value for each pass, another if a pass fails after one that did
-/// not, and a gradient for each accepted step. Six failures in a row restart it
-/// from steepest descent; 61 along steepest descent end it. A step to a
-/// non-finite cost or gradient is a failure; a quarter of it is tried next.
-/// Before it ends, cost and gradient are recomputed at the result. A goal that
-/// this does not confirm does not end the run.
+/// direction, a value for each pass and a gradient for each accepted step. The
+/// first failure after a success needs another value. Six failures in a row
+/// restart it from steepest descent; 61 along steepest descent end it. A step
+/// to a non-finite cost or gradient is a failure; a quarter of it is tried
+/// next. Before it ends, cost and gradient are recomputed at the result. A goal
+/// that this does not confirm does not end the run.
 ///
 /// kNetcg takes curvature from a difference of gradients over sigma |w| /
 /// |p|. It multiplies lambda by 4 after a failure, by 16 after a poor

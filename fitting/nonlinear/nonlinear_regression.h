@@ -174,7 +174,7 @@ PolishedParameters PolishRegression(const RegressionFunction& function,
 
 struct RegressionFit {
   RegressionStatistics statistics;
-  FitSummary summary;  // of the best run, whose strategy its message names
+  FitSummary summary;  // of the best run; its message names the strategy
 };
 
 /// Minimises `function` from `start` (p) by Levenberg-Marquardt with several

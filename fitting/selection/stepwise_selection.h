@@ -96,9 +96,9 @@ struct SelectionResult {
 /// residual degree of freedom. Ties go to the lowest column.
 ///
 /// `stop_token` ends the selection early when it becomes true (null: never).
-/// Throws std::invalid_argument for bad shapes or options, PRESS on rows that
-/// are not observations, CV without folds, Cp without a variance, and backward
-/// selection with more candidates than rows.
+/// Throws std::invalid_argument for bad shapes or options, such as CV without
+/// folds or Cp without a variance. Also for PRESS on rows that are not
+/// observations, and backward selection with more candidates than rows.
 SelectionResult SelectStepwise(const SelectionProblem& problem,
                                const TermRules& rules,
                                const StepwiseOptions& options,
@@ -121,8 +121,8 @@ std::vector<ExcludedTerm> JudgeExcluded(
     double collinearity,
     const std::atomic<bool>* stop_token = nullptr);
 
-/// Returns the sum of squared errors over the judged folds, each predicted by
-/// the terms in `design` (n x k, with intercept and weights) as FoldCodes says.
+/// Returns the sum of squared errors over the judged folds (FoldCodes). Each is
+/// predicted by the terms in `design` (n x k, with intercept and weights).
 double CrossValidatedError(const Eigen::MatrixXd& design,
                            const Eigen::VectorXd& response,
                            const FoldCodes& folds);

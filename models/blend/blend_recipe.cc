@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -178,6 +179,30 @@ class BlendRecipe final : public ModelRecipe {
     return MakeRecipe(net)->Fit(training, alone);
   }
 
+  // "curves along the axis over readings and slow averages".
+  static std::string PlainName(View view, TermSet terms) {
+    constexpr const char* kTerms[] = {
+        "lines", "curves", "curves along the axis", "curves and products"};
+    constexpr const char* kInputs[] = {"readings",
+                                       "readings and slow averages",
+                                       "changes since the start",
+                                       "slow changes since the start"};
+    return fmt::format("{} over {}",
+                       kTerms[static_cast<int>(terms)],
+                       kInputs[static_cast<int>(view)]);
+  }
+
+  // "74 % curves over readings", ..., largest first.
+  static std::vector<std::string> SharesOf(std::vector<Part> parts) {
+    std::ranges::stable_sort(parts, std::greater(), &Part::weight);
+    std::vector<std::string> shares;
+    for (const Part& part : parts) {
+      shares.push_back(
+          fmt::format("{:.0f} % {}", 100.0 * part.weight, part.name));
+    }
+    return shares;
+  }
+
   // Members of one basis are polynomials of the same terms: one equation.
   static std::vector<Part> CollapseBases(
       const Dataset& training,
@@ -203,8 +228,7 @@ class BlendRecipe final : public ModelRecipe {
       if (!(weight > kLeastWeight)) continue;
       mean.intercept /= weight;
       mean.coefficients /= weight;
-      const std::string name = fmt::format(
-          "ridge and lasso, {}, {}", basis.first, ToString(basis.second));
+      const std::string name = PlainName(any.viewed->view, any.terms);
       parts.push_back({name,
                        weight,
                        MapOfCandidate(name,
@@ -301,8 +325,6 @@ class BlendRecipe final : public ModelRecipe {
                             .lowest = allowed.low,
                             .highest = allowed.high,
                             .model = part.map.model};
-      fitted.remarks.push_back(
-          fmt::format("{:.3f} x {}", member.weight, member.name));
       AddMember(std::move(member), &members);
     }
     const History& history = read_by.history;
@@ -310,6 +332,7 @@ class BlendRecipe final : public ModelRecipe {
     const std::vector<Index> all =
         stats::AllIndices(std::ssize(history.form_inputs));
     fitted.name = name_;
+    fitted.remarks = SharesOf(parts);
     fitted.kind = ModelKind::kBlend;
     fitted.align = training.align();
     fitted.target = training.target();

@@ -90,10 +90,10 @@ struct History {
   std::vector<DerivedInput> derived;
   std::vector<std::string> form_inputs;  // columns or derived inputs, in order
 
-  /// Returns the longest step between readings that the filters can bridge:
-  /// twice the longest of training, or three times the shortest time constant
-  /// if that is more (models/history/README.md). Infinity if unknown or nothing
-  /// is filtered.
+  /// Returns the longest step between readings that the filters can bridge
+  /// (models/history/README.md). It is twice the longest step of training, or
+  /// three times the shortest time constant if that is more. Infinity if
+  /// unknown or nothing is filtered.
   double longest_bridged() const;
   /// Returns the time after which filters that began inside a session, in the
   /// steady state of its readings there, have forgotten that. It is

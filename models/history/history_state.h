@@ -14,8 +14,8 @@ namespace errmap::models {
 class HistoryState {
  public:
   /// `columns` are those of the readings. Throws std::invalid_argument if an
-  /// input is neither a column nor derived before, a name is duplicated, a tau
-  /// is not above 0, or a sine is not of an angle.
+  /// input is neither a column nor derived before, or if a name is duplicated.
+  /// Also if a tau is not above 0, or a sine is not of an angle.
   HistoryState(const History& history,
                const std::vector<data::ColumnInfo>& columns);
 
@@ -25,8 +25,8 @@ class HistoryState {
   /// std::invalid_argument if the number of readings is wrong.
   void Start(const Eigen::Ref<const Eigen::VectorXd>& readings);
 
-  /// Advances by `dt` (unit of time, at least 0) to these readings; a reading
-  /// of NaN holds its last value. dt = 0 leaves the filters unchanged and
+  /// Advances by `dt` (unit of time, at least 0) to these readings. A reading
+  /// of NaN keeps its last value. dt = 0 leaves the filters unchanged and
   /// replaces the earlier readings. Throws std::invalid_argument if dt is below
   /// 0 or NaN, the number of readings is wrong, or Start was not called.
   void Step(double dt, const Eigen::Ref<const Eigen::VectorXd>& readings);

@@ -16,8 +16,8 @@ FittedModel WithHistory(FittedModel fitted,
 /// Returns true if its filters count rows, which only training files have.
 bool CountsRows(const FittedModel& fitted);
 
-/// Returns such a map for rows that come every `seconds` (above 0): its filters
-/// run in seconds, and errors of rows at this interval are the same. Returns
+/// Returns such a map for rows that come every `seconds` (above 0). Its filters
+/// then run in seconds. Errors of rows at this interval do not change. Returns
 /// other maps unchanged.
 FittedModel WithRowsEvery(FittedModel fitted, double seconds);
 

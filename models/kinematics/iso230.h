@@ -7,8 +7,8 @@
 
 namespace errmap::models {
 
-// What users of machine tools know errors by: figures of ISO 230, all in the
-// unit of the deviations. A deviation is actual - nominal.
+// Figures of ISO 230, by which users of machine tools know errors. All are in
+// the unit of the deviations. A deviation is actual - nominal.
 
 /// Deviations of one axis along itself, one per approach to a target position.
 struct PositioningTest {
@@ -17,11 +17,11 @@ struct PositioningTest {
   std::vector<bool> upwards;   // (n) approached in the positive direction
 };
 
-/// What approaches to one position from one side deviate by.
+/// Deviations of the approaches to one position from one side.
 struct Approaches {
   Eigen::Index runs = 0;
   double mean = 0.0;
-  double sd = 0.0;  // of n - 1; NaN of fewer than two runs
+  double sd = 0.0;  // divisor n - 1; NaN for fewer than two runs
 };
 
 /// A target position.
@@ -33,7 +33,7 @@ struct PositioningPoint {
   double reversal() const { return up.mean - down.mean; }
 };
 
-/// Ascending. Throws std::invalid_argument where the sizes do not agree or
+/// Ascending. Throws std::invalid_argument if the sizes do not agree or
 /// there is no deviation.
 std::vector<PositioningPoint> PositioningPointsOf(const PositioningTest& test);
 
@@ -52,7 +52,7 @@ struct PositioningFigures {
   double repeatability = 0.0;
   /// Bidirectional accuracy A: range of the means +- 2 s.
   double accuracy = 0.0;
-  double mean_reversal = 0.0;  // of the differences up less down, signed
+  double mean_reversal = 0.0;  // of up less down, signed
 
   /// The same of the runs in one direction: E, R = largest 4 s, A.
   struct OneWay {
@@ -69,19 +69,17 @@ PositioningFigures PositioningFiguresOf(const PositioningTest& test);
 PositioningFigures PositioningFiguresOf(
     const std::vector<PositioningPoint>& points);
 
-/// Whether each row approached its position upwards, from the order in which
-/// `positions` (n) were driven to: by the step before, or by the one after
-/// where a sweep begins, which a step of more than half of the travel or none
-/// does.
+/// Whether each row approached its position upwards, from the order of
+/// `positions` (n). The step before tells, or the step after where a sweep
+/// begins: at a step of 0 or of more than half the travel.
 std::vector<bool> ApproachedUpwards(const Eigen::VectorXd& positions);
 
-/// The test of positions along a diagonal of that name (the signs of X, Y and Z
-/// along it: "ppp", "p0n" where Y stands), from runs both ways:
-/// `points` (n x 3) where the tool was told to be, `errors` (n x 3), and
-/// whether it came along the name's signs. Its figures are those of ISO
-/// 230-6:2002, clause 5. Throws std::invalid_argument on a name that is no
-/// diagonal's, and where the sizes do not agree or the points have no length
-/// along it.
+/// The test of positions along a diagonal, from runs both ways. The name has
+/// the signs of X, Y and Z along it: "ppp", or "p0n" if Y does not move.
+/// `points` (n x 3) are nominal, `errors` (n x 3) were found there, and the
+/// flags tell which rows ran along the signs. Its figures are those of ISO
+/// 230-6:2002, clause 5. Throws std::invalid_argument if the name is not a
+/// diagonal, the sizes do not agree or the points have no length along it.
 PositioningTest AlongDiagonal(const std::string& name,
                               const Eigen::MatrixX3d& points,
                               const Eigen::MatrixX3d& errors,

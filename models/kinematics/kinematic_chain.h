@@ -28,11 +28,10 @@ struct KinematicLink {
   std::string name;
   Branch branch = Branch::kTool;
   Joint joint = Joint::kFixed;
-  /// Direction of motion, or axis of rotation, of a joint that moves, in the
-  /// frame of the link before; of any length but 0.
+  /// Direction of motion or axis of rotation of a moving joint, in the frame of
+  /// the link before. Any length but 0.
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();
-  /// Origin of this link's frame in that of the link before, where its own
-  /// coordinate is 0.
+  /// Origin of this link's frame in that of the link before, at coordinate 0.
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   std::vector<ErrorDirection> errors = {};  // each at most once
 };
@@ -47,19 +46,18 @@ struct KinematicLink {
 ///   T(offset + d) R(e) R(axis, q)             rotary
 ///
 /// R(e) turns by |e| about e, so that no order of the three is preferred. An
-/// error turns all that follows on its branch, about the link's own origin.
-/// The error at the tool is tool less work in the base frame: where the tip
-/// is, less where that point of the workpiece is which the nominal tip touches.
+/// error turns all that follows on its branch, about the link's own origin. The
+/// error at the tool is tool less work in the base frame. That is the place of
+/// the tip, less that of the workpiece point which the nominal tip touches.
 /// Zero where there are no errors.
 ///
 /// `coordinates` of the functions below are those of the links that move,
 /// `errors` those of all links, both in the order of the links.
 class KinematicChain {
  public:
-  /// Throws std::invalid_argument naming the link: a name that stands twice or
-  /// is empty, an axis of length 0 of a joint that moves, a number that is not
-  /// finite, an error that stands twice; or where no link is on the tool's
-  /// branch.
+  /// Throws std::invalid_argument naming the link, if a name is empty or used
+  /// twice, or a moving joint has an axis of length 0. Also if a number is not
+  /// finite, an error is given twice, or no link is on the tool's branch.
   explicit KinematicChain(std::vector<KinematicLink> links);
 
   /// An error of a link.
@@ -76,17 +74,16 @@ class KinematicChain {
   }
 
   /// The tip less the work's origin (3), without errors, along the axes of the
-  /// base: where on the work the tool is, turned as the machine has it. Throws
-  /// std::invalid_argument on another number of coordinates, as all below do;
-  /// theirs of errors likewise.
+  /// base: the place of the tool on the work. Throws std::invalid_argument for
+  /// another number of coordinates or errors, as all functions below do.
   Eigen::Vector3d NominalReach(const Eigen::VectorXd& coordinates) const;
 
   /// Tool less work (3) by the product of the matrices.
   Eigen::Vector3d ExactError(const Eigen::VectorXd& coordinates,
                              const Eigen::VectorXd& errors) const;
 
-  /// Its derivatives (3 x errors) at errors of 0: the unit vector of a length,
-  /// rotation axis times arm of an angle; with minus on the work's branch.
+  /// Its derivatives (3 x errors) at errors of 0. A length has its unit vector,
+  /// an angle its rotation axis times the arm, with minus on the work's branch.
   /// Times errors they are what remains of ExactError by the algebra of
   /// infinitesimals (section 3.1), without products of errors.
   Eigen::Matrix3Xd Sensitivities(const Eigen::VectorXd& coordinates) const;

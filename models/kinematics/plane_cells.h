@@ -38,10 +38,10 @@ struct PlaneCells {
   std::vector<PlaneCell> cells;
 };
 
-/// Cuts the rectangle around `points` (m x 3) into cells of 4 points in the
-/// mean, at least 3 and at most 12 in a row, and takes the `errors` (m x 3)
-/// together by cell. Points and errors have any units. Throws
-/// std::invalid_argument where the shapes do not agree.
+/// Cuts the rectangle around `points` (m x 3) into cells of 4 points on
+/// average, 3 to 12 in a row. Averages the `errors` (m x 3) by cell. Points and
+/// errors have any units. Throws std::invalid_argument if the shapes do not
+/// agree.
 PlaneCells CellsOf(const WorkingPlane& plane,
                    const Eigen::MatrixX3d& points,
                    const Eigen::MatrixX3d& errors);

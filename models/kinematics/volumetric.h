@@ -13,11 +13,11 @@ namespace errmap::models {
 /// An error of a chain at m points, and how far it may be off.
 struct ComponentAtPoints {
   Eigen::VectorXd values;  // (m) the chain's length unit, or rad
-  /// (m) Within it of `values` a share `coverage` of errors lies; 0 of what is
-  /// exact, NaN where it is not known.
+  /// (m) A share `coverage` of errors lies within it of `values`. 0: exact;
+  /// NaN: not known.
   Eigen::VectorXd half_widths;
-  /// Of the standard deviation behind half_widths, which are so many times it
-  /// as Student's t has it; infinite where it is known.
+  /// Of the standard deviation behind half_widths, which are it times Student's
+  /// t. Infinite if it is known.
   double degrees_of_freedom = std::numeric_limits<double>::infinity();
 };
 
@@ -37,14 +37,13 @@ struct VolumetricErrors {
   Eigen::MatrixX3d first_order;  // (m x 3)
   /// What each error of the chain adds to first_order (errors)(m x 3).
   std::vector<Eigen::MatrixX3d> contributions;
-  /// (m x 3) the same share of errors of independent components, to first
-  /// order: standard deviations times sensitivities add up as squares, and
-  /// Student's t has the degrees of freedom of Welch and Satterthwaite (JCGM
-  /// 100:2008, 5.1.2 and G.4.1). NaN where a component that matters is not
-  /// known.
+  /// (m x 3) The same share for independent components, to first order (JCGM
+  /// 100:2008, 5.1.2 and G.4.1). Standard deviations times sensitivities add up
+  /// as squares. Student's t has the degrees of freedom of Welch and
+  /// Satterthwaite. NaN where a component that matters is not known.
   Eigen::MatrixX3d half_widths;
-  /// (m x 3) quantiles of the exact form over `draws` of the same components,
-  /// each from its Student's t (JCGM 101:2008, 6.4.9); NaN as half_widths, or
+  /// (m x 3) Quantiles of the exact form over `draws` of the same components,
+  /// each from its Student's t (JCGM 101:2008, 6.4.9). NaN like half_widths, or
   /// without draws.
   Eigen::MatrixX3d lower;
   Eigen::MatrixX3d upper;
@@ -56,7 +55,7 @@ struct VolumetricErrors {
 /// Combines what `components` (errors of the chain, in their order) say at m
 /// points of `coordinates` (m x coordinates of the chain). The same seed gives
 /// the same bounds; the draws are shared by all points, as the maps are. Throws
-/// std::invalid_argument where the shapes do not agree.
+/// std::invalid_argument if the shapes do not agree.
 VolumetricErrors CombineErrors(const KinematicChain& chain,
                                const Eigen::MatrixXd& coordinates,
                                const std::vector<ComponentAtPoints>& components,

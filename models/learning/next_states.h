@@ -12,7 +12,7 @@ namespace errmap::models {
 struct NextState {
   Eigen::Index row = 0;  // of the candidates
   /// Mean prediction variance over all rows, measured and candidate, after this
-  /// and all earlier choices, divided by that before any of them.
+  /// and all earlier choices, relative to that before any of them.
   double variance_left = 1.0;
   /// Distance to the nearest measured state in whitened space.
   double distance = 0.0;
@@ -21,11 +21,11 @@ struct NextState {
 /// Chooses which candidate states (rows of the same inputs) to measure next,
 /// best first. Chooses them one by one so that the mean prediction variance
 /// over all rows is smallest (I-optimality; Atkinson, Donev & Tobias 2007,
-/// Section 10.6). The map behind it uses whitened inputs: quadratic in the
-/// position, linear in the leading directions of the other inputs, and their
-/// products with the position. A candidate counts as `rows_per_candidate`
-/// measured rows, since a visit lasts some rows. Throws std::invalid_argument
-/// if the numbers of inputs differ.
+/// Section 10.6). The map behind it uses whitened inputs. It is quadratic in
+/// the position and linear in the leading directions of the others, with
+/// products of both. A candidate counts as `rows_per_candidate` measured rows,
+/// since a visit lasts some rows. Throws std::invalid_argument if the numbers
+/// of inputs differ.
 std::vector<NextState> ChooseNext(const data::Dataset& measured,
                                   const Eigen::MatrixXd& candidates,
                                   Eigen::Index most,

@@ -43,8 +43,8 @@ NetForm FormOfWeights(const NetShape& shape,
                       const ColumnScaling& inputs,
                       const TargetScaling& target);
 
-/// Returns such a net as a map of its training rows, with their columns and
-/// ranges: for training loops of your own, with early stopping for example.
+/// Returns such a net as a map with the columns and ranges of its training
+/// rows. It is for training loops of your own, such as with early stopping.
 /// Throws std::invalid_argument as FeedforwardNet does.
 FittedModel MapOfWeights(const NetShape& shape,
                          const Eigen::VectorXd& w,

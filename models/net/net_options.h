@@ -113,12 +113,13 @@ struct NetOptions {
   /// wfactor of Eq. 20, 0 .. 1e6; empty: 1e-5, in a view chosen by
   /// cross-validation.
   std::optional<GivenOrByCv<double>> wfactor = {};
-  /// Empty: all, in a view the weights. net:lm and net:ceres allow only all.
+  /// Empty means all, or in a view only the weights. net:lm and net:ceres allow
+  /// only all.
   std::optional<Decay> decay = {};
   /// Instead of a wfactor: takes the largest whose RMS residual on the training
   /// rows is at most this, above 0, in the target's unit (Eq. 126-135).
   std::optional<double> discrepancy = {};
-  /// Goes down WfactorPath to its wfactor. Empty: if that of a view is chosen.
+  /// The fit goes down WfactorPath. Empty: if it chooses the wfactor of a view.
   std::optional<bool> path = {};
   /// Limit of a fit, including its path; 1 .. 1e9. Empty: 1500, for net:lm 200,
   /// in a view at most 500.
@@ -167,7 +168,7 @@ struct NetOptions {
   fitting::StoppingRules stopping() const;
   bool tunes_hidden() const { return hidden->by_cv(); }
   bool tunes_wfactor() const { return wfactor && wfactor->by_cv(); }
-  /// Returns the given wfactor; the default if it is found otherwise.
+  /// Returns the wfactor given, or the default if the fit chooses it.
   double given_wfactor() const;
 };
 

@@ -18,16 +18,16 @@ struct Holdout;
 struct StateMeasures {
   Eigen::VectorXd distance;  // (m) to the nearest trained state, whitened
   Eigen::VectorXd leverage;  // (m) of a linear map in the scores
-  /// (m x s) each column less what the others tell of it, over the standard
-  /// deviation that this has by the factor model.
+  /// (m x s) each column less its value by the others, over the standard
+  /// deviation of that in the factor model.
   Eigen::MatrixXd relation;
-  Eigen::MatrixXd expected;  // (m x s) what the others tell, input's unit
+  Eigen::MatrixXd expected;  // (m x s) its value by the others, input's unit
 };
 StateMeasures MeasureStates(const Applicability& trained,
                             const Eigen::MatrixXd& states);
 
-/// Of a map as it was fitted to these rows; nothing where all its inputs are
-/// positions or the rows are fewer than three.
+/// Returns that of a map fitted to these rows; nothing if all its inputs are
+/// positions or there are fewer than three rows.
 std::optional<Applicability> MakeApplicability(const FittedModel& fitted,
                                                const data::Dataset& training);
 
@@ -57,8 +57,8 @@ struct RowFlag {
 };
 
 /// A flag per row of `inputs` (m x inputs of the map, their units) and
-/// `form_inputs` (m x inputs of the form, FittedModel::FormInputs). A map that
-/// carries no applicability is judged by its columns' ranges alone.
+/// `form_inputs` (m x inputs of the form, FittedModel::FormInputs). A map
+/// without an applicability is judged by its columns' ranges alone.
 std::vector<RowFlag> FlagRows(const FittedModel& fitted,
                               const Eigen::MatrixXd& inputs,
                               const Eigen::MatrixXd& form_inputs);

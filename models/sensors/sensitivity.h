@@ -9,13 +9,12 @@
 
 namespace errmap::models {
 
-/// What disturbed readings do to the predictions of a map, over the rows that
-/// it was fitted to (5000 of them at even steps, where they are more); target's
-/// unit.
+/// How disturbed readings change the predictions of a map, over the rows that
+/// it was fitted to, at most 5000. Target's unit.
 struct Sensitivity {
-  /// RMS change where every sensor's reading carries independent noise with
-  /// this standard deviation. Filters are taken to average it away, zeros to
-  /// hold none.
+  /// RMS change if every sensor's reading has independent noise of this
+  /// standard deviation. Filters are assumed to average it away, and zeros to
+  /// have none.
   static constexpr double kNoise = 0.1;  // degC
   double per_noise = 0.0;
   /// Largest change where one sensor reads 0 from a session's second row on,
@@ -27,8 +26,8 @@ struct Sensitivity {
   double rezero_jump = 0.0;
 };
 
-/// Sensors are the inputs in degC; a map without any has nothing to tell of
-/// them. Throws as FormInputs.
+/// Sensors are the inputs in degC. Without any, their figures stay empty.
+/// Throws as FormInputs.
 Sensitivity MeasureSensitivity(const FittedModel& fitted,
                                const data::Dataset& training);
 

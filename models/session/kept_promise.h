@@ -23,8 +23,8 @@ enum class ErrorShape {
 /// "within", "offset", "shape".
 std::string_view ToString(ErrorShape shape);
 
-/// A map on measured rows, held against what it promised and against doing
-/// without it. Target's unit; NaN where the map promises nothing.
+/// A map on measured rows, compared with its promise and with no map. Target's
+/// unit; NaN where the map promises nothing.
 struct KeptPromise {
   double promised = stats::kNaN;  // on unseen units
   double found = 0.0;             // RMSE here
@@ -45,8 +45,8 @@ struct KeptPromise {
   bool better_than_constant() const { return found < constant; }
 };
 
-/// `targets` and `predicted` (m, at least 1), and a flag for each (FlagRows) by
-/// which the interval of the row is chosen; none: all rows are inside.
+/// Takes `targets` and `predicted` (m, at least 1). A flag for each (FlagRows)
+/// chooses the interval of the row; without flags, all rows are inside.
 KeptPromise HoldToPromise(const FittedModel& fitted,
                           const Eigen::VectorXd& targets,
                           const Eigen::VectorXd& predicted,

@@ -24,7 +24,7 @@ enum class SessionStatus {
 /// "holds", "off", "unknown", "holds so far", "sensor".
 std::string_view ToString(SessionStatus status);
 
-/// What would help where it does not.
+/// The remedy if it does not hold.
 enum class Remedy {
   kNone,
   kRezero,   // an offset explains the error
@@ -36,12 +36,12 @@ enum class Remedy {
 /// "none", "re-zero", "refit", "unknown", "gain", "sign".
 std::string_view ToString(Remedy remedy);
 
-/// A session is off where its RMSE is above so many times the one promised.
+/// A session is off if its RMSE is above this many times the promised one.
 inline constexpr double kOffRatio = 1.5;
 
-/// Whether an offset explains errors of this mean and RMS: it is three quarters
-/// or more of what their mean square has beyond the promised one. Re-zeroing
-/// then halves the error, or leaves no more than was promised.
+/// Whether an offset explains errors of this mean and RMS. It must be at least
+/// three quarters of the excess of their mean square over the promised one.
+/// Re-zeroing then halves the error, or leaves no more than was promised.
 bool OffsetExplains(double mean, double rms, double promised);
 
 /// The RMSE of a part of the session, as probes tell it.
@@ -52,8 +52,8 @@ struct RmseForecast {
 };
 
 struct SessionCheck {
-  /// What the map's memory lacks before a probe: what it says here is not what
-  /// it says in use, so nothing is known.
+  /// What the map's memory lacks before a probe. The map then predicts
+  /// otherwise than in use, so nothing is known.
   Missing missing = Missing::kNothing;
   std::optional<SensorFaultFound> sensor;
   SessionStatus status = SessionStatus::kUnknown;
@@ -65,22 +65,21 @@ struct SessionCheck {
   double probe_scatter = 0.0;  // sd about their mean; NaN for one probe
   double gain = 1.0;           // errors over predictions, of kGain and kSign
   RmseForecast so_far;         // up to the last probe
-  std::optional<RmseForecast> later;  // after it; nothing where it ended
+  std::optional<RmseForecast> later;  // after it; empty where it ended
   RmseForecast session;
   /// Of the rest of the session, once the remedy was applied: its median RMSE.
   double left = 0.0;
-  /// s since the session began: from then on it is not known whether the map
-  /// holds; nothing where no time is.
+  /// Time since the session began, s, after which it is not known whether the
+  /// map holds. Empty without times.
   std::optional<double> next_probe;
 };
 
-/// Judges the probes of a session by what they make of its errors
-/// (ForecastSession). It holds where both the errors so far and those of the
-/// rest of the session are sure enough to be within kOffRatio times the
-/// promise, and is off where it is sure enough that those of the session are
-/// not. A remedy is one that is sure enough to leave no more than is there
-/// without it, and re-zeroing, a gain or a sign only where it leaves a session
-/// within the limit. In place of kRefit it is a gain or a sign that by itself
+/// Judges the probes of a session by the errors that they forecast
+/// (ForecastSession). The limit is kOffRatio times the promise. The map holds
+/// if the errors so far, and those of the rest, are surely enough within it. It
+/// is off if those of the session surely enough are not. A remedy must surely
+/// enough not add to the error. Re-zeroing, a gain or a sign must also bring
+/// the session within the limit. A gain or a sign replaces kRefit if it alone
 /// brings the probes within the limit. `missing`, `sensor`: see SessionCheck;
 /// nothing else is judged then. Throws std::invalid_argument on no probes,
 /// other sizes, or what is not finite.
@@ -101,8 +100,8 @@ struct ProbeSite {
 };
 
 /// Sites of held-out probes, the most telling first: quarters of the units'
-/// length by thirds of the positions. Left out are sites where half of the
-/// errors are 0: they tell nothing of a unit's size.
+/// length by thirds of the positions. Sites where half of the errors are 0 tell
+/// nothing and are left out.
 std::vector<ProbeSite> RankProbeSites(const HeldOutErrors& errors);
 
 }  // namespace errmap::models

@@ -43,20 +43,18 @@ class OffsetFilter {
   double offset() const { return offset_; }  // target's unit
   /// Variance of the offset; never below that of the mean of probes that
   /// scatter like these. The model's variances are scaled by the ratio of
-  /// squared to predicted probe errors, in which the held-out sessions count as
-  /// four probes (a variance known up to a factor: West & Harrison 1997,
-  /// section 4.5). The probe that starts an offset counts as three standard
-  /// deviations, since the machine moved.
+  /// squared to predicted probe errors (West & Harrison 1997, section 4.5). The
+  /// held-out sessions count as four probes in it. The probe that starts an
+  /// offset counts as three standard deviations, since the machine moved.
   double variance() const;
   /// True if the probes differ from their predictions by more than 95 in 100
   /// sets of probes of an offset would. Then an offset does not explain them.
   /// The probe that starts an offset does not count.
   bool contradicted() const;
-  /// The factor by which to multiply an interval: the standard deviation of an
-  /// error less the offset, over that of the model's errors, with Student's t
-  /// for so few probes. At least 1 for a single probe, whose scatter is
-  /// unknown. If the probes contradict the offset, at least their own scatter
-  /// about it.
+  /// The factor for an interval, with Student's t for so few probes. It is the
+  /// standard deviation of an error less the offset, over that of the model's
+  /// errors. At least 1 for a single probe, whose scatter is unknown. If the
+  /// probes contradict the offset, at least their own scatter about it.
   double Widening() const;
 
  private:

@@ -114,9 +114,7 @@ UpdateTrial TryUpdate(const FittedModel& old_map,
   const std::vector<Index> codes = fresh.session_codes();
   const std::set<Index> sessions(codes.begin(), codes.end());
   if (sessions.size() < 2) {
-    throw std::invalid_argument(
-        "needs two new sessions at least, each judged by a map that has seen "
-        "the others");
+    throw std::invalid_argument("needs at least two new sessions");
   }
   UpdateTrial trial;
   const VectorXd old_residuals = fresh.target_values() - old_map.Predict(fresh);

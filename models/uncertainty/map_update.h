@@ -9,10 +9,9 @@
 
 namespace errmap::models {
 
-/// The rows of two data sets of the same inputs and target, one after the
-/// other; sessions of the second stay apart from those of the first, whatever
-/// their labels. Throws std::invalid_argument where columns differ, or where
-/// only one knows sessions and times.
+/// Joins the rows of two data sets with the same inputs and target. Their
+/// sessions stay apart, whatever their labels. Throws std::invalid_argument
+/// if columns differ, or where only one knows sessions and times.
 data::Dataset Joined(const data::Dataset& first, const data::Dataset& second);
 
 /// A map against its successor on new sessions that neither has seen.
@@ -23,21 +22,22 @@ struct UpdateTrial {
     double new_rmse = 0.0;
   };
   std::vector<Session> sessions;
-  double old_rmse = 0.0;  // of all their rows
+  double old_rmse = 0.0;  // over all their rows
   double new_rmse = 0.0;
   std::string why_failed;  // of the successor; "": it could be fitted
 
-  /// Lower by more than `indifference`, and in the geometric mean over the
-  /// sessions: one long session alone does not decide, nor does one that is a
-  /// little worse stand against one that was far off.
+  /// Whether the RMSE is lower by more than `indifference`, and also its
+  /// geometric mean over the sessions. So one long session alone does not
+  /// decide. Nor does a session that is a little worse outweigh one that was
+  /// far off.
   bool better(double indifference) const;
 };
 
-/// Tries the successor: `recipe` fitted to `known` rows and all but one of the
-/// new sessions, judged on that one, each in turn; the old map on the same
-/// rows. `known` may be null: the successor then learns from new sessions
-/// alone. Throws std::invalid_argument where there are fewer than two new
-/// sessions.
+/// Tries the successor. `recipe` is fitted to `known` rows and all but one of
+/// the new sessions, and judged on that one, each in turn. The old map is
+/// judged on the same rows. `known` may be null: the successor then learns from
+/// new sessions alone. Throws std::invalid_argument if there are fewer than
+/// two new sessions.
 UpdateTrial TryUpdate(const FittedModel& old_map,
                       const data::Dataset* known,
                       const data::Dataset& fresh,

@@ -24,9 +24,9 @@ MeanDifferenceTest CorrectedResampledT(
     double test_to_train);
 
 /// Test of Diebold & Mariano (1995) on loss differences in time order, of
-/// forecasts one step ahead, with the small-sample correction of Harvey,
-/// Leybourne & Newbold (1997): t with n - 1 degrees of freedom. Needs n >= 2.
-/// p = 1 if all differences are 0.
+/// forecasts one step ahead. Corrected for small samples (Harvey, Leybourne &
+/// Newbold 1997): t with n - 1 degrees of freedom. Needs n >= 2. p = 1 if all
+/// differences are 0.
 MeanDifferenceTest DieboldMariano(
     const Eigen::Ref<const Eigen::VectorXd>& differences);
 

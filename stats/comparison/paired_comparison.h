@@ -16,7 +16,7 @@
 
 namespace errmap::stats {
 
-/// Level of every test, after Holm's adjustment if there is one.
+/// Level of every test, after Holm's correction if there is one.
 inline constexpr double kSignificance = 0.05;
 
 /// Number of runs of neighbouring units, as equal as can be, longer first.
@@ -44,8 +44,8 @@ struct ComparisonOptions {
   /// `first` is the model of interest, `yardsticks` the models that it must
   /// beat, in order (columns of the losses), chosen before the losses are seen.
   /// These pairs are tested in turn, each at the full level and in that
-  /// direction only, until one fails; only then all other pairs, by Holm's
-  /// adjustment. The chance of any false rejection among all pairs is at most
+  /// direction only, until one fails. All other pairs follow, with Holm's
+  /// correction. The chance of any false rejection among all pairs is at most
   /// the level (a fixed sequence, then a gate: Maurer, Hothorn & Lehmacher
   /// 1995). If unset, all pairs are adjusted together.
   std::optional<Eigen::Index> first = {};
@@ -65,7 +65,7 @@ struct PairComparison {
   Eigen::Index b = 0;
   double difference = 0.0;  // pooled RMSE of a less that of b
   /// True if no unit's losses differ by more than rounding: the same map twice.
-  /// Nothing is tested, every p is NaN, and Holm's adjustment omits it.
+  /// Nothing is tested, every p is NaN, and Holm's correction omits it.
   bool tied = false;
   /// Bounds of `difference` by the bootstrap over units. If memory_shown is
   /// above 0: the wider of these and the bounds of a t test with that memory.
@@ -78,7 +78,7 @@ struct PairComparison {
   double p_holm = 1.0;        // p adjusted, see ComparisonOptions::first
   /// True if p_holm and p_memory_holm are one-sided: that `first` is better.
   bool one_sided = false;
-  /// Number of pairs in its Holm adjustment; 1 if it was tested in turn.
+  /// Number of pairs in its Holm correction; 1 if it was tested in turn.
   Eigen::Index num_adjusted = 0;
   /// t test of `difference` with the upper bound of the memory between units
   /// (or kSessionMemory), and its p adjusted like `p_holm`.
@@ -91,7 +91,7 @@ struct PairComparison {
   SignedRankTest wilcoxon;                            // of d
   std::optional<MeanDifferenceTest> corrected_t;      // if there are folds
   std::optional<MeanDifferenceTest> diebold_mariano;  // if time-ordered
-  /// Lag-1 correlation of d in the order of units; p is two-sided.
+  /// Lag-1 autocorrelation of d in the order of units; p is two-sided.
   TestResult lag1;
   /// True if lag1 is significant (p <= 5 %) and positive: neighbouring units
   /// resemble each other. All tests but `p` and `memory` then reject too
@@ -110,7 +110,7 @@ struct Comparison {
   std::vector<PairComparison> pairs;  // (0,1), (0,2), ..., (1,2), ...
   std::vector<std::vector<Eigen::Index>> tiers;  // see FormTiers
 
-  /// Number of pairs in Holm's adjustment, and that number if none were tied,
+  /// Number of pairs in Holm's correction, and that number if none were tied,
   /// which does not depend on the results. 0 if only yardstick pairs remain.
   Eigen::Index num_tested = 0;
   Eigen::Index num_asked = 0;

@@ -30,11 +30,11 @@ struct Bounds95 {
 /// Bootstrap over units. Units are drawn with replacement, each with all its
 /// rows and the same for every model; the pooled RMSE is then recomputed.
 ///
-/// Each bound is the wider of two: Hesterberg's (2015, Section 5.3) expanded
-/// percentile, and Student's t times the delta-method standard error (of the
-/// logarithm for one RMSE, which is skewed and above 0). A percentile never
-/// exceeds the worst single unit: with 3 units a nominal 95 % covers 75 %. The
-/// t interval ignores skewness. The resulting coverage is in
+/// Each bound is the wider of two. One is Hesterberg's (2015, Section 5.3)
+/// expanded percentile, the other Student's t times the delta-method standard
+/// error. For one RMSE, skewed and above 0, it is that of the logarithm. A
+/// percentile never exceeds the worst single unit: with 3 units a nominal 95 %
+/// covers 75 %. The t interval ignores skewness. The resulting coverage is in
 /// tests/stats/comparison/paired_comparison_null_test.cc.
 class UnitBootstrap {
  public:
@@ -44,9 +44,9 @@ class UnitBootstrap {
                 std::uint64_t seed);
 
   /// Returns bounds of the RMSE of `model`; NaN below 2 units. They are at
-  /// least as wide as those of a mean square with `worth` times the degrees of
-  /// freedom that the units' mean squares show (unit_freedom.h). `worth` is
-  /// effective units over units: 1 unless neighbours resemble each other.
+  /// least as wide as for a mean square with `worth` times the units' degrees
+  /// of freedom (unit_freedom.h). `worth` is effective units over units: 1
+  /// unless neighbours resemble each other.
   Bounds95 OfRmse(Eigen::Index model, double worth = 1.0) const;
   /// Returns bounds of RMSE(a) - RMSE(b); NaN below 2 units.
   Bounds95 OfDifference(Eigen::Index a, Eigen::Index b) const;

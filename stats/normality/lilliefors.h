@@ -8,8 +8,8 @@
 namespace errmap::stats {
 
 /// Lilliefors' test of normality: the K-S distance of a sample from the normal
-/// distribution with the sample's own mean and sd (divisor n - 1), which thus
-/// need not be known. Needs n >= 4. p is from LillieforsProbability.
+/// distribution with the sample's own mean and sd (divisor n - 1). Needs n >=
+/// 4. p is from LillieforsProbability.
 TestResult Lilliefors(const OrderedSample& sample);
 
 /// Returns the probability of a Lilliefors distance of at least `d` in n >= 4

@@ -91,8 +91,8 @@ class NormalityTests {
 /// Runs NormalityTests on one sample.
 Normality AssessNormality(const OrderedSample& sample);
 
-/// Returns the critical correlation of the normal probability plot (or of the
-/// best in Tukey's family): `share` of normal samples of n >= 4 values are
+/// Returns the critical correlation of the normal probability plot, or of the
+/// best in Tukey's family. A `share` of normal samples of n >= 4 values lie
 /// below it. Simulated, see simulated_quantiles.h.
 double CriticalNormalPpcc(double share, Eigen::Index n);
 double CriticalTukeyPpcc(double share, Eigen::Index n);

@@ -141,7 +141,7 @@ void AddCostCommand(CLI::App* app, Run* run) {
       command,
       R"(Operations are counted from the program that errmap export writes; bytes and times are
 measured on its C, compiled here. A polynomial of 10 terms takes some 10 ns, a net with
-37 inputs and 10 hidden nodes some 200 ns: both fit a servo period of 1 ms.
+37 inputs and 10 hidden nodes some 200 ns. Both fit a servo period of 1 ms.
 Example: errmap cost map.json)");
   command.Runs(RunCost);
 }

@@ -219,7 +219,7 @@ void SayWhatFailuresDo(const models::MapProgram& program) {
   for (std::size_t i = 0; i < std::min(kMost, sensors.size()); ++i) {
     Say(
         fmt::format("{} failing to 0 would move it by up to {}, any failure of "
-                    "it by up to {}; with checks and limits by at most {}",
+                    "it by up to {}. Checks and limits keep it within {}",
                     data::NameInRemark(sensors[i].name),
                     text.WithUnit(sensors[i].zero),
                     text.WithUnit(sensors[i].without),
@@ -337,7 +337,7 @@ void AddTableOptions(CLI::App* command, TableArguments* tables) {
             "--hal, --linuxcnc: the machine's unit of length")
       .OneOf({"mm", "in"})
       .ShowDefault();
-  AddOption(command, "--points", tables->points, "--linuxcnc: at most so many")
+  AddOption(command, "--points", tables->points, "--linuxcnc: most points")
       .Range(2, models::kMostCompPoints)
       .ShowDefault();
   AddOption(command,

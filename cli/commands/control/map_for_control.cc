@@ -17,8 +17,7 @@ void AddEveryOption(CLI::App* command, std::string* every) {
   AddOption(command,
             "--every TIME",
             *every,
-            "How often a row came, for a map whose memory counts rows: "
-            "30s, 2min");
+            "Time between rows, for a map whose memory counts rows: 30s, 2min");
 }
 
 models::FittedModel LoadForControl(const std::string& file,

@@ -157,7 +157,7 @@ std::optional<models::SensorFaultFound> SensorFaultOfSession(
 std::string LastSessionText(const LastSession& last) {
   if (last.others == 0) return "";
   return fmt::format(
-      "Judged is the last of {} sessions, {} {}; errmap evaluate judges the "
+      "This judges the last of {} sessions, {} {}. errmap evaluate judges the "
       "others.\n",
       last.others + 1,
       last.column.empty() ? "session" : data::NameInRemark(last.column),
@@ -318,14 +318,14 @@ void AddCheckCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "PROBES PROBES.csv",
             command->files,
-            "CSV file of a few measurements, inputs and target, or several: "
-            "the last session is judged")
+            "CSV file of a few readings, inputs and target; the last session "
+            "is judged")
       .Required();
   AddOption(command,
             "--goal X",
             command->goal,
-            "Also say how often to probe to keep 90 % of the errors "
-            "within this: 2um\n(errmap when has more)");
+            "Also say how often to probe to keep 90 % of the errors within "
+            "this: 2um\nerrmap when has more");
   AddRowOptions(command, &command->rows.missing, &command->rows.faults);
   AddFormatOption(command, &command->format);
   AddMapLogArguments(command, &command->rows.log);
@@ -335,14 +335,16 @@ void AddCheckCommand(CLI::App* app, Run* run) {
       command,
       R"(Answers three questions and stops at the first that has an answer.
 - The readings: is a sensor dead, frozen, swapped, off or in another unit?
-- The start: are the first rows of the session there, for a map with a memory?
-- The probes: is the RMSE at most 1.5 times the promised one, so far and for
-the rest of the session, as the held-out days went on?
-Rows without a target are readings between the probes; the memory of a map
-runs through them. Readings before the first row come by --after, which needs
-no positions.
-Exit status: 0 the map holds; 4 it does not hold, or a sensor is at fault; 5
-not known, or not for the rest of the session.
+- The start: are the first rows of the session there, for a map with a
+memory?
+- The probes: is the RMSE at most 1.5 times the promised one? The answer is
+for the session so far, and for the rest of it.
+
+Rows without a target are readings between the probes, for the memory of a
+map. Earlier readings come by --after, which needs no positions.
+Exit status: 0 it holds; 4 it does not, or a sensor is at fault; 5 not known,
+or
+only so far.
 Example: errmap check map.json probes.csv --after today.csv)");
   command.Runs(RunCheck);
 }

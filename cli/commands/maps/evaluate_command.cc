@@ -227,10 +227,7 @@ int RunEvaluate(const EvaluateArguments& arguments,
 
 void AddEvaluateCommand(CLI::App* app, Run* run) {
   const Command<EvaluateArguments> command(
-      app,
-      run,
-      "evaluate",
-      "Judge a fitted map on measurements it may not know");
+      app, run, "evaluate", "Judge a fitted map on other measurements");
   AddModelArgument(command, &command->model);
   AddOption(command,
             "DATA FILE.csv",

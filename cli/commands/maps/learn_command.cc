@@ -324,13 +324,13 @@ void AddLearnCommand(CLI::App* app, Run* run) {
       app,
       run,
       "learn",
-      "What more days, cycles or fewer sensors would do to the error");
+      "Show what more days, cycles or fewer sensors do to the error");
   AddDataArguments(command, &command->data);
-  AddOption(command,
-            "--by",
-            command->by,
-            "What is learnt from one after another: sessions, cycles "
-            "(the groups) or sensors")
+  AddOption(
+      command,
+      "--by",
+      command->by,
+      "What to add step by step: sessions, cycles (the groups) or sensors")
       .OneOf(std::vector<std::string>(models::kLearntBy.begin(),
                                       models::kLearntBy.end()));
   AddOption(command,
@@ -341,15 +341,15 @@ void AddLearnCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "--next CANDIDATES.csv",
             command->candidates,
-            "States that could be measured next, a row each with the "
-            "inputs: which of them lower the predicted error most");
+            "Inputs of states that could be measured next, one per row; the "
+            "most useful are named");
   AddOption(command,
             "--repeats",
             command->repeats,
-            "Draws of the units learnt from, per size and fold")
+            "Random draws of training units, per size and fold")
       .Range(1, 100)
       .ShowDefault();
-  AddOption(command, "--sensors", command->sensors, "Sensors chosen at most")
+  AddOption(command, "--sensors", command->sensors, "Most sensors to choose")
       .Range(1, 100)
       .ShowDefault();
   AddOption(command,
@@ -365,9 +365,8 @@ void AddLearnCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "--out DIR",
             command->out,
-            "Folder for learn-*.json, learn-*.svg and the journal of "
-            "fits\nerrmap report puts the curves of a study's folder on its "
-            "page");
+            "Folder for learn-*.json, learn-*.svg and the journal of fits\nIn "
+            "a study's folder, errmap report puts the curves on its page");
   AddFlag(command,
           "--resume",
           command->resume,
@@ -376,10 +375,13 @@ void AddLearnCommand(CLI::App* app, Run* run) {
   AddFormatOption(command, &command->format);
   AddCacheFlag(command, &command->cache);
   MarkSeldom(command, {"--repeats", "--sensors", "--seed", "--resume"});
-  SetFooter(command, R"(Example: errmap learn days.csv --by sessions --goal 2um
-Whole units are held out, others learnt from; a power law through the curve tells
-how many more would reach the goal, or that none would. Sensors are chosen inside
-the folds, by a map linear in each.)");
+  SetFooter(
+      command,
+      R"(Whole days or cycles are held out, and maps learn from more and more of the
+others. A power law through the curve tells how many would reach the goal,
+if any number would. Sensors are chosen inside the folds, by a linear map of
+each.
+Example: errmap learn days.csv --by sessions --goal 2um)");
   command.Runs(RunLearn);
 }
 

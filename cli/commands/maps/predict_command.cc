@@ -349,24 +349,24 @@ void AddPredictCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "--probes PROBES.csv",
             command->probes,
-            "Measurements of the same session: the map is moved by the "
-            "offset that they show up to each row; the interval "
-            "narrows, or widens where they contradict an offset");
+            "Readings of the same session: the map is shifted by the offset "
+            "found before each row. The interval narrows, or widens where they "
+            "contradict one offset");
   AddMapLogArguments(command, &command->log);
   AddFromRest(command, &command->log);
   AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(
       command,
-      R"(Columns: record, cycle, time and position if the data have them, predicted,
+      R"(Columns: record; cycle, time and position if the data have them; predicted,
 lower_90 to upper_95 (empty without an interval), inside, why, offender and
-unit. inside is 1 as in training and 0 elsewhere; why says what is not as
-there.
+unit. inside is 1 for rows like those in training, else 0, and why says
+what differs.
 - range: a column (offender) leaves its trained range
-- relation: it does not go with the other columns
+- relation: it contradicts the other columns
 - distance, leverage: the thermal state is far from all trained ones
-- start, gap: rows are missing that the memory of the map needs
+- start, gap: the memory of the map lacks earlier rows
 - where: the map is not made for such rows
-Exit status 4 if a prediction is not finite: its cell stays empty.
+Exit status: 0 done; 4 if a prediction is not finite: its cell stays empty.
 Example: errmap predict map.json today.csv -o predicted.csv)");
   command.Runs(RunPredict);
 }

@@ -287,17 +287,17 @@ void AddUpdateCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "NEW NEW.csv",
             command->file,
-            "CSV file of new sessions, two at least: inputs and target")
+            "CSV file of at least two new sessions: inputs and target")
       .Required();
   AddOption(
       command, "-o,--output FILE.json", command->out, "Model file to write")
       .Required();
-  AddOption(command,
-            "--known DATA.csv",
-            command->known,
-            "Rows that the map was fitted to, may be repeated (default: "
-            "the files that it names, if unchanged: here, beside NEW or beside "
-            "the map)")
+  AddOption(
+      command,
+      "--known DATA.csv",
+      command->known,
+      "Rows that the map was fitted to, may be repeated (default: the "
+      "unchanged files that it names, here, beside NEW or beside the map)")
       .OneAtATime();
   AddOption(command,
             "--time COL",
@@ -314,10 +314,9 @@ void AddUpdateCommand(CLI::App* app, Run* run) {
   SetFooter(
       command,
       R"(Fits the same type of model, with the same inputs, to old and new sessions.
-Each new session is predicted by the old map, and by one that has not seen
-it. The new map is taken if it errs less by more than makes a difference, in
-RMSE and in the geometric mean over the sessions. Else FILE.json is the old
-map.
+The old map, and one that has not seen it, predict each new session. The new
+map is written if it errs clearly less, in RMSE and in the geometric mean
+over the sessions. Otherwise the old map is.
 Example: errmap update map.json tuesday.csv -o new.json)");
   command.Runs(RunUpdate);
 }

@@ -178,23 +178,23 @@ int RunWhen(const WhenArguments& arguments, const std::string& command_line) {
 
 void AddWhenCommand(CLI::App* app, Run* run) {
   const Command<WhenArguments> command(
-      app, run, "when", "Tell when a map wants its next probe");
+      app, run, "when", "Tell when a map needs its next probe");
   AddModelArgument(command, &command->model);
   AddOption(command,
             "--goal X",
             command->goal,
-            "What 90 % of the errors are to stay within: 2um\n"
-            "(default: no goal, the table alone)");
+            "Limit that 90 % of the errors must keep: 2um (default: no goal, "
+            "the table alone)");
   AddMapLogArguments(command, &command->log);
   FindOption(command, "--after").About("Readings from the last probe to now");
   AddFormatOption(command, &command->format);
   SetFooter(
       command,
-      R"(Plays probes through on the held-out sessions of the map. A session's first
-row is a probe, and each later row is judged by the last probe before it. A
-rule with a temperature is advised if it errs at least 5 % less than the best
-clock with no more probes, in two sessions of three.
-Exit status: 0; 4 if a probe is due now (--after), or if no interval keeps to
+      R"(Simulates probes on the held-out sessions of the map. The first row of a
+session is a probe, and each later row is judged by the last probe before
+it. A rule by temperature is advised if it errs 5 % less than the best
+interval, with no more probes, in two sessions of three.
+Exit status: 0 done; 4 if a probe is due now (--after), or no interval meets
 the goal.
 Example: errmap when map.json --goal 2um)");
   command.Runs(RunWhen);

@@ -22,10 +22,6 @@ desk::PredictionsFile ParsePredictions(const std::string& pair) {
   return {pair.substr(0, equals), pair.substr(equals + 1)};
 }
 
-std::string KnownModels() {
-  return data::JoinWords(models::ModelTypes(), ", ");
-}
-
 void AddJudgingOptions(CLI::App* command, CompareArguments* arguments) {
   AddOption(command,
             "--split FILE.csv",
@@ -44,7 +40,7 @@ void AddJudgingOptions(CLI::App* command, CompareArguments* arguments) {
           arguments->predictions.push_back(ParsePredictions(pair));
         }
       },
-      "Predictions made elsewhere enter the table as NAME, may be "
+      "Add predictions of another program to the table as NAME, may be "
       "repeated: row,predicted or row,holdout,fold,predicted")
       .OneAtATime();
 }
@@ -60,44 +56,39 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
   };
   AddDataArguments(command, &arguments->data);
   FindOption(command, "DATA").Required(false);
-  AddOption(command,
-            "--config study.toml",
-            arguments->config,
-            "Study file in place of DATA: errmap init writes it\nIt "
-            "has components, models and hold-outs. Where the data of a "
-            "component are a pattern, \"{machine}/{component}.csv\", "
-            "--out is a store of the components of all files that "
-            "match, each studied by itself: one that fails stops no "
-            "other, and the same command goes on where it was broken "
-            "off");
+  AddOption(
+      command,
+      "--config study.toml",
+      arguments->config,
+      "Study file in place of DATA: errmap init writes it\nIt has components, "
+      "models and hold-outs. Data such as \"{machine}/{component}.csv\" stand "
+      "for all files that match. Each is studied by itself, and --out is their "
+      "store. The same command goes on after an interruption");
   AddOption(command,
             "--set KEY=VALUE",
             arguments->changes,
-            "Put in place of a key of the study file, may be repeated: "
-            "seed=2, component.0.target=error_mm")
+            "Change a key of the study file, may be repeated: seed=2, "
+            "component.0.target=error_mm")
       .OneAtATime();
   AddFlag(command,
           "--dry-run",
           arguments->dry_run,
-          "Print what would be fitted and how long it takes\nNothing "
-          "is fitted or written");
+          "Print what would be fitted and how long it takes\nNothing is fitted "
+          "or written");
   AddOption(command,
             "--holdout SPEC",
             arguments->holdouts,
-            "Rows to judge by, may be repeated: every:K, groups:K, "
-            "sessions:K, forward:K ...\nAll: " +
+            "Rows to hold out, may be repeated: every:K, groups:K, sessions:K, "
+            "forward:K\nAll forms: " +
                 stats::HoldoutFormsText() +
-                " (default: every:3, groups:5 where "
-                "there are groups, sessions:5 where there are sessions, "
-                "forward:3 from four sessions on, "
-                "blocks:5 without groups)")
+                ". Default: every:3; groups:5 with groups, else blocks:5; "
+                "sessions:5 with sessions; forward:3 from four sessions on")
       .OneAtATime();
   AddOption(command,
             "--models LIST",
             arguments->model_list,
-            "Models, separated by commas (default: all that suit); "
-            "errmap models lists them\nThey are " +
-                KnownModels());
+            "Models, separated by commas (default: all that suit)\nThey are  " +
+                data::JoinWords(models::ModelTypes(), ", "));
   AddOption(command,
             "--model SPEC",
             arguments->models,
@@ -138,8 +129,8 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
   AddFlag(command,
           "--resume",
           arguments->resume,
-          "Go on with the run broken off in --out DIR\nFits finished "
-          "there are not repeated");
+          "Go on with the interrupted run in --out DIR\nFits finished there "
+          "are not repeated");
   AddCacheFlag(command, &arguments->cache);
   AddKeepPathsFlag(command);
   AddForceFlag(command, &arguments->force);

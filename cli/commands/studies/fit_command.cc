@@ -321,11 +321,10 @@ void AddFitCommand(CLI::App* app, Run* run) {
   AddDataArguments(command, &command->data);
   AddOption(command, "--model SPEC", command->model, "The model, e.g. poly:eq8")
       .Required();
-  AddOption(
-      command,
-      "-o,--output FILE.json",
-      command->out,
-      "Model file to write, or a folder: a map for each way along the axis")
+  AddOption(command,
+            "-o,--output FILE.json",
+            command->out,
+            "Model file to write, or a folder: a map per direction of motion")
       .Required();
   AddSeedOption(command, &command->seed);
   AddOption(command,
@@ -340,8 +339,8 @@ void AddFitCommand(CLI::App* app, Run* run) {
   AddFlag(command,
           "--no-interval",
           command->no_interval,
-          "Do not fit again with days, cycles or blocks held out to "
-          "find what the map may promise there");
+          "Skip the fits that measure the error on held-out days, cycles or "
+          "blocks");
   AddFlag(command,
           "--details",
           command->details,

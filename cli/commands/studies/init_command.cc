@@ -84,13 +84,13 @@ void AddInitCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "DATA FILE.csv|DIR",
             command->data,
-            "CSV file, one row per sample; or a folder with such of many "
-            "machines and components below it")
+            "CSV file, one row per reading; or a folder of such files, for "
+            "many machines and components")
       .Required();
   AddOption(command,
             "--target COL",
             command->target,
-            "Column to be mapped (default: the only one named error*)");
+            "Column of the error to map (default: the only one named error*)");
   AddOption(
       command, "-o,--output study.toml", command->out, "Study file to write")
       .ShowDefault();
@@ -100,8 +100,9 @@ void AddInitCommand(CLI::App* app, Run* run) {
           "Replace a file that is there already");
   SetFooter(
       command,
-      R"(A column such as direction with few values becomes one component per value.
-Example: errmap init xdown.csv -o study.toml && errmap compare --config study.toml)");
+      R"(A column of few values, such as direction, becomes one component per value.
+Example: errmap init xdown.csv -o study.toml && errmap compare --config
+study.toml)");
   command.Runs(RunInit);
 }
 

@@ -237,12 +237,12 @@ void AddReadCommand(CLI::App* app, Run* run) {
       app,
       run,
       "read",
-      "Show how measurements are understood, and what changes it");
+      "Show how a file is understood, and the options that change it");
   AddDataArguments(command, &command->data);
   AddOption(command,
             "-o,--output clean.csv",
             command->out,
-            "Write the table as it was understood");
+            "Write the table as understood");
   AddFormatOption(command, &command->format);
   SetFooter(command,
             "Each line names the option that changes it.\n"

@@ -144,8 +144,8 @@ void AddReportCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "DIR",
             command->folder,
-            "Folder that errmap compare --out wrote: report.html and "
-            "report.md are drawn from its results.json; or a store")
+            "Folder that errmap compare --out wrote, or a store; report.html "
+            "and report.md are drawn anew from its results.json")
       .Required()
       .Value("");
   AddOption(command,
@@ -160,8 +160,7 @@ void AddReportCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "--component NAME",
             command->component,
-            "Draw this component's page, in full; without it the page "
-            "of all");
+            "Draw the full page of this component, not the page of all");
   AddForceFlag(command, &command->force);
   SetFooter(
       command,

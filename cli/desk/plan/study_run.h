@@ -41,7 +41,7 @@ struct RunOptions {
   std::string cache = {};  // folder of the last fits (kept_fits.h); "" for none
   Remark journal_has = {};      // receives what the journal has of the fits
   bool keep_fold_maps = false;  // of the hold-outs: FoldResult::map
-  /// Receives the index of the component in the plan, and the fit, whose counts
+  /// Receives the index of the component in the plan, and the fit. Its counts
   /// are those of the whole plan. Called from any thread; may be empty.
   std::function<void(std::size_t, const models::FitProgress&)> progress = {};
 };

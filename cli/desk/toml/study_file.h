@@ -29,7 +29,7 @@ struct StudyFile {
 /// Each of `set` is KEY=VALUE and replaces what the file says. KEY is dotted
 /// (`seed`, `component.0.target`, `component."x, down".goal`,
 /// `model.2.degree`); components have a number from 0 or a name. VALUE is TOML;
-/// if it is not, it is taken as text (`component.0.target=error_mm`).
+/// otherwise it is text (`component.0.target=error_mm`).
 ///
 /// Throws data::InputError "FILE:LINE:COLUMN: ..." if the file is not TOML, a
 /// key is unknown, or a value has the wrong type or is not allowed. Throws

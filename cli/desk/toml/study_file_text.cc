@@ -138,7 +138,7 @@ std::map<std::string_view, std::string> FoundKeys(
   add("time", prepared.time_column);
   if (dataset.align() == data::Alignment::kFirst) {
     lines["align"] =
-        "align = \"first\"   # each session's first value off the target";
+        "align = \"first\"   # subtract each session's first value";
   }
   return lines;
 }

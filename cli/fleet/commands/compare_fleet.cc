@@ -108,9 +108,9 @@ class FleetMode : public CompareMode {
     AddOption(command,
               "--shard I/N|env",
               shard_,
-              "Of a study of many components do share I of 0 to N-1 only, "
-              "or the one that mpirun or Slurm gave this task (env); "
-              "errmap merge STORE puts the shares together");
+              "Do only share I (0 to N-1) of a study of many components\nenv: "
+              "the share that mpirun or Slurm gave this task. errmap merge "
+              "STORE joins the shares");
     MarkSeldom(command, {"--shard"});
   }
 

@@ -257,7 +257,7 @@ int RunDeploy(const DeployArguments& arguments) {
 
 void AddDeployCommand(CLI::App* app, Run* run) {
   const Command<DeployArguments> command(
-      app, run, "deploy", "Write down which map a machine has from now on");
+      app, run, "deploy", "Record which map a machine uses from now on");
   AddOption(
       command, "STORE DIR", command->store, "Folder with an errmap.sqlite")
       .Required();
@@ -273,10 +273,10 @@ void AddDeployCommand(CLI::App* app, Run* run) {
             "Map to deploy in place of the recommended one");
   SetFooter(
       command,
-      R"(The map is kept in the store's maps/ with what it promised, and errmap watch holds new
-measurements against it. What the component had before is ended. Several are deployed
-all or none.
-Exit status: 0 done, 2 no such component, 3 no map, no store, or one of a newer errmap.
+      R"(The map goes into the store's maps/ with its promise, and errmap watch
+compares new measurements with it. It replaces the map that the component
+had. Of several components, all are deployed or none.
+Exit status: 0 done, 2 no such component, 3 no map or no usable store.
 Example: errmap deploy fleet "m01/x, down")");
   command.Runs(RunDeploy);
 }

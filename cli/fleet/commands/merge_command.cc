@@ -39,10 +39,7 @@ int RunMerge(const MergeArguments& arguments) {
 
 void AddMergeCommand(CLI::App* app, Run* run) {
   const Command<MergeArguments> command(
-      app,
-      run,
-      "merge",
-      "Put the shares of a fleet study together in one database");
+      app, run, "merge", "Join the shares of a fleet study in one database");
   AddOption(command,
             "STORE DIR",
             command->store,
@@ -53,9 +50,10 @@ void AddMergeCommand(CLI::App* app, Run* run) {
                        &command->format);
   SetFooter(
       command,
-      R"(Reads the components' summaries and writes errmap.sqlite and report.html there, whole or
-not at all; others may read the database meanwhile.
-Exit status: 0 done, 3 no store, or one of a newer errmap, 4 components are missing.
+      R"(Reads the summaries of the components and writes errmap.sqlite and
+report.html there, whole or not at all. Others may read the database
+meanwhile.
+Exit status: 0 done, 3 no usable store, 4 components are missing.
 Example: errmap merge fleet)");
   command.Runs(RunMerge);
 }

@@ -182,10 +182,7 @@ int RunSubmit(const SubmitArguments& arguments,
 
 void AddSubmitCommand(CLI::App* app, Run* run) {
   const Command<SubmitArguments> command(
-      app,
-      run,
-      "submit",
-      "Write the scripts that have a cluster do a fleet study");
+      app, run, "submit", "Write scripts that run a fleet study on a cluster");
   AddOption(command, "SCHEDULER", command->scheduler, "slurm: a job array")
       .Required()
       .OneOf({"slurm"})
@@ -199,14 +196,14 @@ void AddSubmitCommand(CLI::App* app, Run* run) {
   AddOption(command, "--cpus N", command->cpus, "Processors of each task")
       .Range(1, 1024)
       .ShowDefault();
-  AddFlag(command, "--now", command->now, "Submit them, too");
+  AddFlag(command, "--now", command->now, "Also submit them");
   AddForceFlag(command, &command->force);
   SetFooter(
       command,
-      "Writes STORE/slurm/shards.sh, a job array, merge.sh, which runs after "
-      "it whatever became of its\ntasks, and submit.sh, which submits both. "
-      "Time and memory are those of a dry run, with margins; memory is asked "
-      "for where a node says\nthat it has so much.\nExit status: 0 "
+      "Writes three scripts into STORE/slurm. shards.sh is a job array, "
+      "merge.sh runs after it even if tasks failed, and submit.sh submits "
+      "both. Time and memory are those of a dry run, with margins. Memory is "
+      "requested only if a node reports that it has so much.\nExit status: 0 "
       "done, 1 sbatch refused, 3 unusable study file.\nExample: errmap submit "
       "slurm --config fleet.toml --out fleet --tasks 64 --cpus 4");
   command.Runs(RunSubmit);

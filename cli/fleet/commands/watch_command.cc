@@ -149,8 +149,7 @@ int RunWatch(const WatchArguments& arguments) {
       paths, &store, FilesOf(arguments, study, deployments).files);
   if (watched.as_studied > 0 && !arguments.quiet) {
     Say(fmt::format(
-        "{} as they were studied, not measured since: what is found of them "
-        "tells nothing of another day",
+        "{} from the study itself: they say nothing about another day",
         report::Count(watched.as_studied, "file")));
   }
   const std::vector<fleet::WatchedComponent>& components = watched.components;
@@ -195,8 +194,8 @@ void AddWatchCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "DATA FILE|DIR",
             command->data,
-            "New measurements: CSV files named as those of the study, "
-            "folders of such, or COMPONENT=FILE")
+            "New measurements: CSV files named like those of the study, "
+            "folders of them, or COMPONENT=FILE")
       .Required();
   AddTableFormatOption(command,
                        "What to print; all but table have every component",
@@ -204,15 +203,16 @@ void AddWatchCommand(CLI::App* app, Run* run) {
   AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(
       command,
-      R"(Each session's offset and RMS are held against the sessions held out when the map was made
-(t statistics; part of a session against the same part of those), each sensor against what
-the others tell of it. A map is worse where p is below 0.0025 and it errs 20 % more than
-promised, whoever else is watched, doubtful where p is below 0.02 or it errs 3 times
-as much: measure one more session. Sessions are kept in the store, watch.html draws them.
-A file is of the component whose data have its name and the most of its folders.
-Exit status: 0 none is worse, 3 no store, one of a newer errmap, nothing deployed, no data of
-what is or data that cannot be read, 4 some map is worse than promised, 5 nothing could be
-judged, or some map is doubtful.
+      R"(Compares offset and RMS of each session with the sessions held out when the
+map was made, by t statistics. Compares each sensor with the others. A map
+is worse if p is below 0.0025 and it errs 20 % more than promised. It is
+doubtful if p is below 0.02 or it errs 3 times as much: measure one more
+session. The store keeps the sessions, and watch.html draws them. A file
+belongs to the component whose data file has its name and most of its
+folders.
+Exit status: 0 none is worse, 3 nothing usable or deployed, 4 a map is worse
+than
+promised, 5 nothing judged, or doubtful.
 Example: errmap watch fleet september/)");
   command.Runs(RunWatch);
 }

@@ -119,8 +119,8 @@ std::string WatchHeadline(const std::vector<WatchedComponent>& components) {
   if (judged == 0) return text;
   // By its error and by its sensors.
   return text + fmt::format(
-                    "; of {} that are healthy some {:.2g} would be "
-                    "named worse or changed by chance",
+                    "; by chance, {1:.2g} of {0} healthy ones would be called "
+                    "worse or changed",
                     judged,
                     2.0 * models::kSurelyChanged * judged);
 }

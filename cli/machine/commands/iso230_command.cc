@@ -453,8 +453,7 @@ void AddIso230Command(CLI::App* app, Run* run) {
   AddOption(command,
             "--map MODEL.json",
             command->maps,
-            "Map to compensate by: one for all files, or one per file "
-            "in their order")
+            "Map to compensate by: one for all files, or one per file in order")
       .OneAtATime();
   AddOption(command,
             "--target COL",
@@ -475,10 +474,15 @@ void AddIso230Command(CLI::App* app, Run* run) {
   AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(
       command,
-      R"(Each row is one run to one position. ISO 230-2:2014: A accuracy, R repeatability, E systematic
-error, M mean bidirectional error, B reversal error, from the means and standard deviations
-of the runs at each position and direction; A, R and E also of one direction alone.
-The standard's test is short and of a settled machine: rows of a warm-up show its drift in R and A.
+      R"(Each row is one run to one position. The figures of ISO 230-2:2014 come from
+the means and standard deviations of the runs at each position and
+direction.
+- A: accuracy; R: repeatability; E: systematic error; also of one direction
+alone
+- M: mean bidirectional error; B: reversal error
+
+The standard tests a settled machine: in warm-up rows its drift enters R and
+A.
 Example: errmap iso230 down.csv up.csv --map down.json --map up.json)");
   command.Runs(RunIso230);
 }

@@ -23,17 +23,17 @@ class CompareMachine : public CompareMode {
  public:
   void AddOptions(std::string_view flag, CLI::App* command) override {
     if (flag != "--predictions") return;
-    AddOption(command,
-              "--machine machine.toml",
-              machine_,
-              "Compare the maps STEM.json of this machine on the data "
-              "STEM.csv of the folder DATA, and judge them together at "
-              "the poses of tool_tip.csv there");
+    AddOption(
+        command,
+        "--machine machine.toml",
+        machine_,
+        "Compare the maps STEM.json of this machine on STEM.csv in the folder "
+        "DATA, and judge them together at the poses of its tool_tip.csv");
     AddOption(command,
               "--later N",
               later_,
-              "With --machine: last sessions that no fit sees and that "
-              "judge it")
+              "With --machine: number of last sessions kept from all fits, to "
+              "judge them")
         .Range(1, 1000)
         .ShowDefault();
     MarkSeldom(command, {"--machine", "--later"});

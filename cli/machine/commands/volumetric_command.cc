@@ -144,8 +144,8 @@ void SayErrors(const Synthesis& s) {
   const double most = s.sensitive.maxCoeff();
   const report::ErrorText text(s.machine.length, most);
   Say(
-      fmt::format("{} of {}: tool less work, in {} at most {}, 95 % within {}; "
-                  "compensate by minus that",
+      fmt::format("{} of {}: tool less work, in {} at most {}, 95 % within {}. "
+                  "Compensate by minus that",
                   report::Count(s.sensitive.size(), "point"),
                   data::QuotedText(s.machine.name),
                   SensitiveText(s.machine),
@@ -321,11 +321,11 @@ void AddVolumetricCommand(CLI::App* app, Run* run) {
       app,
       run,
       "volumetric",
-      "The error at the tool by the maps of all its components");
+      "Compute the error at the tool from the maps of all components");
   AddOption(command,
             "MACHINE FILE.toml",
             command->machine,
-            "Kinematic chain with a map for each error")
+            "Machine file: its kinematic chain, with a map for each error")
       .Required();
   AddOption(command,
             "--at POINTS.csv",
@@ -348,20 +348,21 @@ void AddVolumetricCommand(CLI::App* app, Run* run) {
   AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(
       command,
-      "Columns, in the machine's unit of length: error_x ... error_z, tool "
-      "less work in the base frame\n(the product of the matrices), "
-      "error_sensitive (its length in the machine's sensitive "
-      "directions),\nfirst_order_*, half_width_90_* (first order), lower_90_*, "
-      "upper_90_* (draws; empty without intervals),\ninside and outside (maps "
-      "that extrapolate), and what each error adds. A map's position is "
-      "the\ncoordinate of its link; a pair { forward, reverse } takes "
-      "x_direction for x_mm. --after: the log of\ntemperatures through which "
-      "filters run. Components are taken as independent. Points "
-      "with\nerror_x_mm ... error_z_mm also give the error with and without "
-      "compensation. Points with diagonal\n(ppn, p0n: the signs of X, Y and Z "
-      "along it) and diagonal_direction also give the deviations of ISO 230-6. "
-      "Exit\nstatus 4 where an error is not finite. Examples: "
-      "data/sets/machines/README.md.");
+      "Columns, in the machine's unit of length:\n- error_x ... error_z: tool "
+      "less work in the base frame, the product of the matrices\n- "
+      "error_sensitive: its length in the machine's sensitive directions\n- "
+      "first_order_*, half_width_90_*: to first order\n- lower_90_*, "
+      "upper_90_*: by draws; empty without intervals\n- inside, outside: "
+      "outside names maps that extrapolate\n- what each error adds\n\nThe "
+      "position of a map is the coordinate of its link. A pair { forward, "
+      "reverse } takes x_direction for x_mm. Components are taken as "
+      "independent. Points with error_x_mm ... error_z_mm also give the error "
+      "with and without compensation. Points with diagonal and "
+      "diagonal_direction also give the deviations of ISO 230-6. diagonal has "
+      "the signs of X, Y and Z along it: ppn, p0n.\nExit status: 0 done; 4 an "
+      "error is not finite.\nExample: errmap volumetric "
+      "data/sets/machines/three_axis.toml --at "
+      "data/sets/machines/three_axis_points.csv");
   command.Runs(RunVolumetric);
 }
 

@@ -48,13 +48,13 @@ void AddConvertCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "OUT FILE",
             command->out,
-            "File to write; the endings decide: .csv, .tab (plain "
-            "table), any other the report's stacked form (Table 2)")
+            "File to write; its ending decides: .csv, .tab (plain table), any "
+            "other for the stacked form of the report (Table 2)")
       .Required();
   AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
   SetFooter(
       command,
-      R"(Of a CSV file that convert did not write, the column error* is the target; inputs
+      R"(In a CSV file of another program, the column error* is the target. Inputs
 are the position and the other numeric columns, dead ones too.
 Example: errmap convert x_displacement_down.csv down.pat)");
   command.Runs(RunConvert);

@@ -256,7 +256,7 @@ void AddNetcgCommand(CLI::App* app, Run* run) {
       app,
       run,
       "netcg",
-      "Run the report's own program of 1995, with its errors or without");
+      "Run the program of the 1995 report, with its errors or without");
   netcg::NetcgStudyOptions& options = command->options;
   AddOption(command,
             "RUNFILE FILE",
@@ -277,13 +277,13 @@ void AddNetcgCommand(CLI::App* app, Run* run) {
   AddFlag(command,
           "--corrected",
           command->corrected,
-          "Right statistics in the report files, and the training "
-          "run's scaling in testing runs");
+          "Correct statistics in the report files, and the training run's "
+          "scaling in testing runs");
   AddOption(command,
             "--training FILE",
             options.netcg.training_file,
-            "Pattern file that the weights of testing runs were trained "
-            "on, where nothing else tells its scaling");
+            "Pattern file that the weights of testing runs were trained on, if "
+            "nothing else has its scaling");
   AddFlag(command,
           "--full-weights",
           command->full_weights,

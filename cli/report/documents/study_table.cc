@@ -56,6 +56,10 @@ std::string UnconvergedNote(const ModelRecord& model) {
                      data::JoinWords(parts, ", "));
 }
 
+std::string WhereWords(const ReportView& view, const std::string& holdout) {
+  return fmt::format("{} ({})", UnseenWords(view, holdout), holdout);
+}
+
 // What is written about one component, line by line.
 class ComponentScreen {
  public:
@@ -146,12 +150,14 @@ void ComponentScreen::Leaderboard() {
   std::vector<std::string> legend;
   if (!view_.recommended.empty()) legend.push_back(MarkWords(view_));
   std::string where =
-      fmt::format("RMSE: {} ({})", UnseenWords(view_), view_.decisive);
+      fmt::format("RMSE: {}", WhereWords(view_, view_.decisive));
   if (!view_.neighbours.empty()) {
-    where += fmt::format("; next to known rows ({})", view_.neighbours);
+    where += "; " + WhereWords(view_, view_.neighbours);
   }
   if (!view_.later.empty()) {
-    where += fmt::format("; later, learnt from those before ({})", view_.later);
+    where += fmt::format("; {}, learnt from those before ({})",
+                         UnseenWords(view_, view_.later),
+                         view_.later);
   }
   if (std::isfinite(record_.goal)) {
     where += fmt::format("; goal {:g}{}{} (--goal)",
@@ -175,7 +181,7 @@ void ComponentScreen::Leaderboard() {
         const ResultRecord* const result = ResultOf(*model, view_.decisive);
         return result != nullptr && !std::isfinite(result->ci95[0]);
       })) {
-    legend.emplace_back("95 % -: no range is known.");
+    legend.emplace_back("95 % -: no range.");
   }
   if (!options_.all && view_.models.size() > kMostRows) {
     legend.push_back(
@@ -221,7 +227,8 @@ void ComponentScreen::Details() {
     const models::HoldoutRecord& held = *HoldoutOf(view_, holdout);
     screen_->Add("\n");
     Paragraph(fmt::format(
-        "{}: RMSE{}; p against the recommended one, by {}, after Holm",
+        "{}: RMSE{}; p against the recommended map, by {}, with Holm's "
+        "correction; -: too few to tell",
         holdout,
         record_.display.unit.empty() ? "" : " in " + record_.display.unit,
         CountOfUnits(held.units, held)));

@@ -41,9 +41,8 @@ std::string SummaryText(const stats::ErrorMetrics& metrics,
   }
   if (std::isfinite(ks_d)) {
     text += fmt::format(
-        "  {:<10} {:.5f}, p {:.4g} (Eq. 140, for a given mean and sd; here "
-        "both\n  {:<10} are estimated from these values, so p is too "
-        "large)\n",
+        "  {:<10} {:.5f}, p {:.4g} (Eq. 140; mean and sd are estimated\n  "
+        "{:<10} from these values, so p is too large)\n",
         "K-S D",
         ks_d,
         ks_p_given,

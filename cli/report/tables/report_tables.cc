@@ -7,6 +7,7 @@
 
 #include "cli/report/number_text.h"
 #include "cli/report/plot.h"
+#include "cli/report/tables/result_table.h"
 #include "stats/error_metrics.h"
 
 namespace errmap::report {
@@ -95,7 +96,7 @@ std::vector<Named> IndependenceRow(const std::string& model,
       {{"model", false}, model},
       {{"runs z (p)"},
        Statistic{order.runs.test.value.z, order.runs.test.value.p}},
-      {{"lag-1 r (p)"},
+      {{"lag-1 autocorrelation (p)"},
        Statistic{order.lag1.test.value.r, order.lag1.test.value.p}},
       {{"Durbin-Watson (p)"},
        Statistic{order.durbin_watson.d, order.durbin_watson.p}},
@@ -162,15 +163,14 @@ Table ComparisonTable(const ReportView& view, const std::string& holdout) {
     table.Add(
         {{{"other model", false}, model->name},
          {{ErrorHead(view, "difference")}, Interval{interval, difference}},
-         {{"p", true, "sign-flip permutation"}, P{pair->p}},
-         {{"p (Holm)"}, P{pair->p_holm}},
+         {{"p", true, "sign-flip test"}, P{pair->p}},
+         {{"p (Holm)", true, "- if the units are too few"}, CorrectedP(*pair)},
          {{"p Wilcoxon"}, P{pair->tests.wilcoxon.p}},
          {{"p corrected t", true, "Nadeau and Bengio"},
           p_of(pair->tests.corrected_t)},
          {{"p Diebold-Mariano"}, p_of(pair->tests.diebold_mariano)},
          {{"units"}, pair->units},
-         {{"lag-1", true, "correlation of one unit with the next"},
-          Number{pair->lag1, 2}},
+         {{"lag-1 autocorrelation"}, Number{pair->lag1, 2}},
          {{"established", false}, pair->established ? "yes" : "no"}});
   }
   table.SayIfEmpty("Differences between models were not tested.");
@@ -224,8 +224,8 @@ Table SinceStartTable(const ReportView& view) {
 Table NormalityTable(const ReportView& view, const std::string& holdout) {
   Table table{.title = "Are the residuals normal? " + holdout};
   table.note =
-      "Statistic and p. The p of Eq. 140 takes mean and sd as given though "
-      "they were estimated: Lilliefors' is the right one.";
+      "Statistic and p. The p of Eq. 140 assumes a given mean and sd. Here "
+      "both are estimated, so Lilliefors' p is the right one.";
   AddRowsOfModels(view, holdout, NormalityRow, &table);
   return table;
 }

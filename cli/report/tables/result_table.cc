@@ -9,6 +9,7 @@
 #include "cli/report/words/answers/verdict_text.h"
 #include "cli/report/wrap_text.h"
 #include "data/text.h"
+#include "stats/comparison/paired_comparison.h"
 #include "stats/error_metrics.h"
 
 namespace errmap::report {
@@ -192,7 +193,7 @@ Cell PAgainstRecommended(const Place& place) {
   const models::PairRecord* pair =
       FindPair(place.component, place.holdout, advice->model, place.model.name);
   if (pair == nullptr) return {};
-  return P{pair->p_holm, pair->established ? ", established" : ""};
+  return CorrectedP(*pair, pair->established ? ", established" : "");
 }
 
 Cell UnitOf(const Place& place) {
@@ -291,16 +292,19 @@ const ResultColumn& ColumnOf(std::string_view key) {
   return *std::ranges::find(Columns(), key, &ResultColumn::key);
 }
 
-// A column of a table: of one hold-out, or "": of each row's, or of none.
+// A column of a table: of one hold-out, or "": of each row's, or of none; with
+// a name of its own, or "".
 struct Slot {
   const ResultColumn* column;
   std::string holdout;
+  std::string name;
 };
 
 std::vector<Slot> SlotsOf(std::initializer_list<const char*> keys,
-                          const std::string& holdout = "") {
+                          const std::string& holdout = "",
+                          const std::string& name = "") {
   std::vector<Slot> slots;
-  for (const char* key : keys) slots.push_back({&ColumnOf(key), holdout});
+  for (const char* key : keys) slots.push_back({&ColumnOf(key), holdout, name});
   return slots;
 }
 
@@ -340,10 +344,11 @@ Table TerminalRows(const ReportView& view,
                    const std::string& holdout) {
   Table table{.error = ErrorTextOf(*view.component)};
   for (const Slot& slot : slots) {
-    table.columns.push_back({.name = slot.column->name,
-                             .is_number = slot.column->is_number,
-                             .above = slot.column->above,
-                             .gap = slot.column->gap});
+    table.columns.push_back(
+        {.name = slot.name.empty() ? slot.column->name : slot.name,
+         .is_number = slot.column->is_number,
+         .above = slot.column->above,
+         .gap = slot.column->gap});
   }
   AddRows(view, models, slots, holdout, &table);
   return table;
@@ -358,6 +363,12 @@ std::vector<std::string> HoldoutNames(const ComponentRecord& component) {
 }
 
 }  // namespace
+
+Cell CorrectedP(const models::PairRecord& pair, const char* after) {
+  const double least = pair.smallest_p * static_cast<double>(pair.holm_pairs);
+  if (least > stats::kSignificance && !pair.established) return {};
+  return P{pair.p_holm, after};
+}
 
 Table LeaderboardRows(const models::StudyRecord& record) {
   const std::vector<Slot> slots = SlotsOf(
@@ -384,13 +395,16 @@ Table LeaderboardRows(const models::StudyRecord& record) {
   return table;
 }
 
-std::string UnseenWords(const ReportView& view) {
-  const models::HoldoutRecord* holdout = HoldoutOf(view, view.decisive);
+std::string UnseenWords(const ReportView& view, const std::string& name) {
+  const models::HoldoutRecord* holdout = HoldoutOf(view, name);
   if (holdout == nullptr) return "held-out rows";
   if (holdout->whole_groups || holdout->whole_sessions) {
-    return "unseen " + holdout->unit_of_analysis;
+    return (name == view.later ? "later " : "unseen ") +
+           holdout->unit_of_analysis;
   }
-  return holdout->another_file ? "another file" : "held-out rows";
+  return holdout->another_file       ? "another file"
+         : holdout->among_neighbours ? "neighbours"
+                                     : "held-out rows";
 }
 
 std::string DrawnRowsWords(const ReportView& view) {
@@ -429,18 +443,16 @@ std::string StandInWords(const ReportView& view) {
 
 Table TerminalLeaderboard(const ReportView& view, std::size_t most_rows) {
   const ComponentRecord& component = *view.component;
-  std::vector<Slot> slots = SlotsOf({"model"});
-  Append(SlotsOf({"sensors"}), &slots);
+  std::vector<Slot> slots = SlotsOf({"model", "sensors"});
   Append(SlotsOf({"test_rmse", "ci95"}, view.decisive), &slots);
-  if (!view.neighbours.empty()) {
-    Append(SlotsOf({"test_rmse"}, view.neighbours), &slots);
+  if (const std::string& other = view.neighbours; !other.empty()) {
+    Append(SlotsOf({"test_rmse"}, other, UnseenWords(view, other)), &slots);
   }
   if (component.rezero) {
     Append(SlotsOf({"never_rezeroed"}, view.decisive), &slots);
   }
-  const std::size_t later_at = slots.size();
   if (!view.later.empty()) {
-    Append(SlotsOf({"test_rmse"}, view.later), &slots);
+    Append(SlotsOf({"test_rmse"}, view.later, "later"), &slots);
   }
   if (std::isfinite(component.goal)) {
     Append(SlotsOf({"goal"}, view.decisive), &slots);
@@ -457,18 +469,10 @@ Table TerminalLeaderboard(const ReportView& view, std::size_t most_rows) {
   }
   models.resize(std::min(models.size(), most_rows));
   Table table = TerminalRows(view, models, slots, view.decisive);
-  for (std::size_t i = 0; i < slots.size(); ++i) {
-    Table::Column& shown = table.columns[i];
-    if (i == 2 || i == 3) {
-      shown.group = UnseenWords(view);
-      if (!table.error->symbol().empty()) {
-        shown.group += ", " + table.error->symbol();
-      }
-    } else if (!view.neighbours.empty() && i == 4) {
-      shown.name = Squeezed(view.neighbours, 12);
-    } else if (!view.later.empty() && i == later_at) {
-      shown.name = "later";
-    }
+  const std::string symbol = table.error->symbol();
+  for (const std::size_t unseen : {2, 3}) {
+    table.columns[unseen].group = UnseenWords(view, view.decisive) +
+                                  (symbol.empty() ? "" : ", " + symbol);
   }
   return table;
 }
@@ -548,10 +552,10 @@ Table PageLeaderboard(const ReportView& view) {
         {.name = is_error ? WithUnit(slot.holdout + " RMSE", view.shown_unit)
                           : column.page,
          .is_number = column.is_number,
-         .explanation = column.explanation});
+         .explanation =
+             is_error ? UnseenWords(view, slot.holdout) : column.explanation});
     if (column.key != "error") continue;
-    table.columns.back().explanation =
-        fmt::format("{}; 95 % interval", UnseenWords(view));
+    table.columns.back().explanation += "; 95 % interval";
   }
   AddRows(view, view.models, slots, "", &table);
   for (const ModelRecord* model : view.models) {

@@ -8,6 +8,10 @@ namespace errmap::report {
 // The results of models, for people and for files. Columns are declared once,
 // in the .cc file, with their names and the tables that have them.
 
+/// p with Holm's correction, and `after`; nothing if the units are too few for
+/// any difference to show.
+Cell CorrectedP(const models::PairRecord& pair, const char* after = "");
+
 /// One row for each component, hold-out and model.
 Table LeaderboardRows(const models::StudyRecord& record);
 
@@ -28,8 +32,8 @@ Table SummaryRows(const models::StudyRecord& record);
 inline constexpr std::size_t kIntervalColumn = 3;
 inline constexpr std::size_t kProvenColumn = 4;
 
-/// "unseen cycle", "another file", "held-out rows": the decisive hold-out.
-std::string UnseenWords(const ReportView& view);
+/// "unseen cycle", "another file", "neighbours": what a hold-out holds out.
+std::string UnseenWords(const ReportView& view, const std::string& holdout);
 
 /// Says which models learnt from a part of the rows, and how to use all; "" if
 /// none did.

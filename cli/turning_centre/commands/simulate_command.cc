@@ -61,7 +61,7 @@ void AddSimulateCommand(CLI::App* app, Run* run) {
       app,
       run,
       "simulate",
-      "Make measurements of a machine whose truth is known");
+      "Simulate measurements of a machine with known errors");
   SimulationOptions& options = command->simulation;
   AddOption(command,
             "MACHINE",
@@ -72,24 +72,23 @@ void AddSimulateCommand(CLI::App* app, Run* run) {
       .Value("NAME");
   AddOption(command, "-o,--output DIR", command->folder, "Folder to write")
       .Required();
-  AddSeedOption(command, &options.seed, "Seed of all that is drawn");
+  AddSeedOption(command, &options.seed, "Seed of all random draws");
   const auto add = [&](const char* flag, auto& value, const char* what) {
     AddOption(command, flag, value, what).ShowDefault();
   };
   add("--days",
       options.days,
-      "Days; the first is calibrated to the report of 1995, the "
-      "others are drawn");
+      "Days; the first follows the report of 1995, the others are random");
   add("--cycles", options.cycles, "Warm-up cycles per day");
-  add("--duty", options.workload.duty, "Factor on every feed duty");
-  add("--speed", options.workload.speed, "Factor on every spindle speed");
+  add("--duty", options.workload.duty, "Factor for all feed duties");
+  add("--speed", options.workload.speed, "Factor for all spindle speeds");
   add("--warm",
       options.warm_hours,
-      "Hours of work, unmeasured, and a break before the first "
-      "cycle of each day from the second on");
+      "Hours of unmeasured work, and a break, before the first cycle of each "
+      "day but the first");
   add("--air",
       options.air_factor,
-      "Factor on every heat conductance to the air");
+      "Factor for all heat conductances to the air");
   add("--noise",
       options.noise_um,
       "Standard deviation of a reading of length, um");
@@ -112,8 +111,8 @@ void AddSimulateCommand(CLI::App* app, Run* run) {
       "Day on which these faults and --shift-um begin");
   add("--shift-um",
       options.shift_um,
-      "From then on the displacements of both slides are larger "
-      "by so much: the machine changed");
+      "From then on, add this to the displacements of both slides, as if the "
+      "machine had changed");
   add("--points",
       options.points_per_day,
       "Random poses per day in tool_tip.csv");
@@ -131,10 +130,9 @@ void AddSimulateCommand(CLI::App* app, Run* run) {
               "--angle-noise",
               "--sensor-noise",
               "--points"});
-  SetFooter(
-      command,
-      "Example: errmap simulate turning-centre -o simulated --days 3 --dead "
-      "3,4,16,19\nThe same options give the same files, byte for byte.");
+  SetFooter(command,
+            "The same options give the same files, byte for byte.\nExample: "
+            "errmap simulate turning-centre -o simulated --dead 3,4,16,19");
   command.Runs(RunSimulate);
 }
 

@@ -81,8 +81,8 @@ struct SensorImportance {
   std::vector<Without> together;
 };
 
-/// Limits of a fold's training range beyond which rows of an input were held
-/// out, in its unit; NaN: none on this side.
+/// Limits of an input that rows held out leave in their folds: those of all
+/// data, in its unit; NaN: none on this side.
 struct BeyondRecord {
   std::string column;
   double below = kNotKnown;

@@ -201,7 +201,7 @@ TEST_F(Certify, GradientsAndAgreementHold) {
 TEST_F(Certify, TableNamesFloorsAndEndsWithAVerdict) {
   const Outcome outcome = Run({"certify", "agreement"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("each beside its floor"));
+  EXPECT_THAT(outcome.out, HasSubstr("Beside their floors"));
   EXPECT_THAT(outcome.out, HasSubstr("Passed: every floor is reached."));
   const Outcome details = Run({"certify", "gradients", "--details"});
   EXPECT_THAT(details.out, HasSubstr("Thurber, at the minimum"));

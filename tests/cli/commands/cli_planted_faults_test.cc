@@ -214,7 +214,7 @@ TEST_F(CliPlantedFaults, SentinelsInTheTargetAreNamedAndCanBeLeftOut) {
       outcome.err,
       AllOf(HasSubstr("warning: error_mm 9999 mm in data rows 10, 77 is far "
                       "beyond all others"),
-            HasSubstr("--faults drop-rows leaves these 2 rows out: a plain "
+            HasSubstr("--faults drop-rows leaves these 2 rows out: a "
                       "linear map misses the other rows by"),
             HasSubstr(" um RMSE with them, by 0.")));
   const Json faults = Component(outcome)["data"]["faults"];
@@ -262,8 +262,8 @@ TEST_F(CliPlantedFaults, KelvinUnderANameOfDegreesIsDoubted) {
   Measurements file = healthy_;
   file.Change(kT3, [](double t) { return t + 273.15; });
   EXPECT_THAT(Compare(file.Csv()).err,
-              AllOf(HasSubstr("warning: t3_degC 120 of its values are beyond "
-                              "any thermometer"),
+              AllOf(HasSubstr("warning: t3_degC has 120 values that no "
+                              "thermometer reads"),
                     HasSubstr("as if in K")));
 }
 

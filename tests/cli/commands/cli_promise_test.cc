@@ -121,8 +121,8 @@ TEST_F(CliPromise, FitAndExportTellTheSameOfASensorThatFails) {
       said,
       found,
       std::regex("(t[123]_degC) failing to 0 would move it by up to ([0-9.]+) "
-                 "um, any failure of it by up to ([0-9.]+) um; with checks and "
-                 "limits by at most ([0-9.]+) um")))
+                 "um, any failure of it by up to ([0-9.]+) um. Checks and "
+                 "limits keep it within ([0-9.]+) um")))
       << said;
   const Json& sensitivity = fitted["sensitivity"];
   EXPECT_EQ(found[1].str(), sensitivity["jump_of"]);
@@ -212,7 +212,7 @@ TEST_F(CliPromise, CheckJudgesTheLastSessionAndSaysSo) {
   const Outcome found = Run({"check", "map.json", "three.csv"});
   EXPECT_EQ(found.status, 0) << found.out;
   EXPECT_THAT(OneLine(found.out),
-              AllOf(HasSubstr("Judged is the last of 3 sessions, day '13'; "
+              AllOf(HasSubstr("This judges the last of 3 sessions, day '13'. "
                               "errmap evaluate judges the others."),
                     HasSubstr("on 40 probes of three.csv")));
   const Json of_three =

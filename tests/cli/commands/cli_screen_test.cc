@@ -154,8 +154,8 @@ TEST_F(Screens, FitHelpAndWhatIsSaidOfAMap) {
   }
   setenv("COLUMNS", "80", 1);
   EXPECT_THAT(Run({"help", "compare"}).out,
-              HasSubstr("  --target COL                Column to be mapped "
-                        "(default: the error by name)\n"));
+              HasSubstr("  --target COL                Column of the error to "
+                        "map (default: by its name)\n"));
   const std::string map = "a_map_of_a_long_name_that_fills_half_of_a_line.json";
   ASSERT_EQ(Run({"fit", kDown, "--model", "poly:eq8", "-o", map}).status, 0);
   ExpectToFit({"check", map, kDown, "--quiet"});
@@ -200,7 +200,7 @@ TEST_F(Screens, HaveAtMostTwelveModelsUnlessAllAreAskedFor) {
   };
   const auto [few, text] = rows({});
   EXPECT_EQ(few, 12U) << text;
-  EXPECT_THAT(text, HasSubstr("2 more with --all."));
+  EXPECT_THAT(OneLine(text), HasSubstr("2 more with --all."));
   const auto [all, whole] = rows({"--all"});
   EXPECT_EQ(all, 14U) << whole;
 }
@@ -307,7 +307,7 @@ TEST_F(Screens, TellHowManyRowsWereExtrapolated) {
       "compare", kDown, "--models", "poly:full:degree=3", "--quiet"};
   EXPECT_THAT(Squeezed(Run(words).out),
               ContainsRegex("extrapolated +[0-9]+ % of the test readings were "
-                            "beyond all that the map had learnt from"));
+                            "beyond all training data"));
   Run(With(words, {"--out", "study"}));
   const Json component =
       Json::parse(Read("study/results.json"))["components"][0];
@@ -321,8 +321,13 @@ TEST_F(Screens, TellHowManyRowsWereExtrapolated) {
   EXPECT_DOUBLE_EQ(
       outside / rows,
       component["recommendation"]["extrapolated_share"].get<double>());
-  // The first and the last cycles, whose like no other fold saw.
+  // The first and the last cycles, whose like no other fold saw. What is asked
+  // for lies beyond all rows of the file, and no cycle counts below the first.
   EXPECT_GT(outside, 0.0);
+  const Json& beyond = component["recommendation"]["beyond"][0];
+  EXPECT_EQ(beyond["column"], "elapsed_cycles");
+  EXPECT_TRUE(beyond["below"].is_null());
+  EXPECT_EQ(beyond["above"], 34.0);
 }
 
 TEST_F(Screens, SayWhatTwoDaysHeldOutWholeTell) {

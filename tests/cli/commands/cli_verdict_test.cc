@@ -23,7 +23,7 @@ TEST_F(Cli, RecommendsWhatHoldsOnUnseenCyclesAndSaysWhy) {
   EXPECT_EQ(verdicts[1]["established"], false);
   EXPECT_EQ(verdicts[0]["established"], false);
   EXPECT_THAT(verdicts[0]["why"].get<std::string>(),
-              HasSubstr(": not established"));
+              HasSubstr(" Not established"));
   const Json& advice = component["recommendation"];
   EXPECT_EQ(advice["holdout"], "groups:5");
   EXPECT_EQ(advice["choice"], "blend");
@@ -58,7 +58,7 @@ TEST_F(Cli, RecommendsWhatHoldsOnUnseenCyclesAndSaysWhy) {
     }
   }
   EXPECT_THAT(advice["reasons"].dump(),
-              HasSubstr("of single maps take poly:ridge:view=auto (0.9"));
+              HasSubstr("Best single map: poly:ridge:view=auto (0.9"));
   std::set<std::string> tiered;
   for (const Json& tier : component["tiers"]["groups:5"]) {
     for (const Json& name : tier) tiered.insert(name);

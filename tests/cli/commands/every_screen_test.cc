@@ -1,5 +1,6 @@
-// What every command shows, in a pipe: no line is wider than 80 columns; and
-// what one result is said to be, wherever it is told.
+// What every command shows, in a pipe: no line is wider than 80 columns, no
+// sentence longer than 25 words; and what one result is said to be, wherever it
+// is told.
 
 #include <algorithm>
 #include <cstdlib>
@@ -16,6 +17,59 @@ namespace errmap {
 namespace {
 
 constexpr std::size_t kColumns = 80;
+constexpr std::ptrdiff_t kMostWords = 25;  // of a sentence
+
+// The column in which the text of a line begins, behind a label or an option.
+std::size_t TextColumn(const std::string& line) {
+  const std::size_t first = line.find_first_not_of(' ');
+  const std::size_t gap = line.find("  ", first);
+  return gap == line.npos ? first : line.find_first_not_of(' ', gap);
+}
+
+// Lines that were broken because the next word had no room, put together again.
+std::vector<std::string> Paragraphs(const std::string& text) {
+  std::vector<std::string> paragraphs;
+  std::string before;
+  for (const std::string& line : SplitLines(text)) {
+    const std::size_t first = line.find_first_not_of(' ');
+    if (first == line.npos) {
+      before.clear();
+      continue;
+    }
+    const std::string word = line.substr(first, line.find(' ', first) - first);
+    const bool goes_on =
+        !before.empty() && first == TextColumn(before) &&
+        report::WidthOf(before) + 1 + report::WidthOf(word) > kColumns;
+    if (goes_on) {
+      paragraphs.back() += " " + line.substr(first);
+    } else {
+      paragraphs.push_back(line.substr(TextColumn(line)));
+    }
+    before = line;
+  }
+  return paragraphs;
+}
+
+// A row of a table is no sentence, and a list of names is one word.
+void ExpectShortSentences(const std::string& command, const std::string& text) {
+  static const std::regex list("([^ ,]+, ){3,}[^ ,]*[^ ,.]");
+  static const std::regex end("[.?!]\\)?( |$)");
+  static const std::regex word("[^ ]*[[:alnum:]][^ ]*");
+  for (const std::string& paragraph : Paragraphs(text)) {
+    if (paragraph.find("  ") != paragraph.npos) continue;
+    const std::string prose = std::regex_replace(paragraph, list, "list");
+    for (std::sregex_token_iterator part(prose.begin(), prose.end(), end, -1);
+         part != std::sregex_token_iterator();
+         ++part) {
+      const std::string sentence = *part;
+      EXPECT_LE(std::distance(std::sregex_iterator(
+                                  sentence.begin(), sentence.end(), word),
+                              std::sregex_iterator()),
+                kMostWords)
+          << command << ": " << sentence;
+    }
+  }
+}
 
 class EveryScreen : public FleetTest {
  protected:
@@ -27,6 +81,10 @@ class EveryScreen : public FleetTest {
     shown_.insert(words.front());
     const Outcome outcome = Run(words);
     EXPECT_EQ(outcome.status, status) << words.front() << outcome.err;
+    ExpectShortSentences(words.front(), outcome.out);
+    for (const std::string& line : SplitLines(outcome.err)) {
+      ExpectShortSentences(words.front(), line);
+    }
     for (const std::string& line : SplitLines(outcome.out)) {
       if (line.find(' ') == line.npos) continue;
       EXPECT_LE(report::WidthOf(line), kColumns)
@@ -48,6 +106,40 @@ class EveryScreen : public FleetTest {
   }
 
   std::set<std::string> shown_;
+
+  // Days and cycles of several numbers, with all that can be asked of them.
+  void ShowStudies() {
+    WriteComponent("two_days.csv", 4, 2);
+    WriteComponent("one_day.csv", 5, 1);
+    const std::string files[] = {"days.csv", "two_days.csv", "one_day.csv"};
+    for (const std::string& file : files) {
+      for (const char* option : {"--goal=0.5um",
+                                 "--goal=100um",
+                                 "--rezero=probe",
+                                 "--choose=best",
+                                 "--holdout=every:3"}) {
+        Show({"compare",
+              file,
+              option,
+              "--models=mean,poly:eq8,poly:ridge:view=auto,net:scg,blend",
+              "--details"});
+      }
+    }
+  }
+
+  void ShowMistakes() {
+    Show({"compare", "nothing.csv"}, kUnusable);
+    Show({"compare", "days.csv", "--target", "t"}, kUnusable);
+    Show({"compare", "days.csv", "--models", "poly"}, kWrongCommandLine);
+    Show({"compare", "days.csv", "--holdout", "days"}, kWrongCommandLine);
+    Show({"compare", "days.csv", "--detail"}, kWrongCommandLine);
+    Show({"fit", "days.csv"}, kWrongCommandLine);
+    Show({"learn", "days.csv"}, kWrongCommandLine);
+    Show({"predict", "map.json", "clock.csv"}, kUnusable);
+    Show({"update", "map.json", "one_day.csv", "-o", "u.json"}, kUnusable);
+    Show({"report", "nothing"}, kUnusable);
+    Show({"compares"}, kWrongCommandLine);
+  }
 
   void ShowMaps() {
     WriteComponent("days.csv", 3, 6);
@@ -125,8 +217,9 @@ class EveryScreen : public FleetTest {
 
 }  // namespace
 
-TEST_F(EveryScreen, FitsEightyColumns) {
+TEST_F(EveryScreen, FitsEightyColumnsAndSaysItInShortSentences) {
   ShowMaps();
+  ShowStudies();
   WriteFleet();
   Show({"compare", "--config", "fleet.toml", "--dry-run"});
   Show({"compare", "--config", "fleet.toml", "--out", "fleet"});
@@ -163,8 +256,10 @@ TEST_F(EveryScreen, FitsEightyColumns) {
   Show({"certify", "agreement"});
   ShowMachine();
   ShowWhen();
+  ShowMistakes();
   for (const std::string& command : Commands()) {
     Show({"help", command});
+    Show({"help", command, "--all"});
     EXPECT_TRUE(shown_.contains(command)) << command << " is not looked at";
   }
 }

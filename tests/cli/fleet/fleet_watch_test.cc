@@ -326,7 +326,7 @@ TEST_F(WatchedFiles, ThatCannotBeReadChangeNothing) {
 
 TEST_F(WatchedFiles, ThatWereStudiedAreNoNewMeasurements) {
   EXPECT_THAT(Run({"watch", "store", "data/m01"}).err,
-              HasSubstr("2 files as they were studied, not measured since"));
+              HasSubstr("2 files from the study itself"));
 }
 
 TEST_F(WatchedFiles, OfTheSameRowsInAnotherUnitAreKnown) {

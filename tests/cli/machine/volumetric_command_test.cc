@@ -125,7 +125,7 @@ TEST_F(VolumetricCommand, TheLatheOfTheReportCutsTheErrorOfAnotherDay) {
   EXPECT_THAT(outcome.err,
               AllOf(HasSubstr("tool less work, in X, Z at most"),
                     HasSubstr("exact and first order differ by at most"),
-                    HasSubstr("compensate by minus that")));
+                    HasSubstr("Compensate by minus that")));
   const std::vector<Record> points = Records(Read("out.csv"));
   const std::vector<Record> truth = Records(Process::TextOf(file));
   ASSERT_EQ(points.size(), truth.size());

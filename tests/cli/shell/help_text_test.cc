@@ -57,7 +57,7 @@ TEST(CommandHelp, LeavesWhatIsSeldomNeededToAll) {
   const std::string all = cli::CommandHelp(Weigh(), cli::HelpOptions::kAll, 80);
   EXPECT_THAT(all,
               AllOf(HasSubstr("  --rare                      For a few\n"),
-                    HasSubstr("Of weight The whole story\n"),
+                    HasSubstr("Of weight. The whole story\n"),
                     Not(HasSubstr("options more"))));
 }
 

@@ -31,8 +31,7 @@ std::string ComponentNumbers::Certainty(const std::string& other) const {
                                     obstacle->kind == Kind::kPerhapsOneSession);
   if (too_few || pair == nullptr || !std::isfinite(pair->ci95[0])) {
     const models::HoldoutRecord& holdout = HoldoutOfAdvice();
-    return CountOfHeldOut(holdout.units, holdout) +
-           " cannot tell how sure that is";
+    return CountOfHeldOut(holdout.units, holdout) + " are too few to tell";
   }
   if (pair->established) return "the gap is proven";
   const auto [low, high] = pair->ci95;

@@ -19,8 +19,7 @@ using models::RecommendationRecord;
 std::string Use(const RecommendationRecord& advice) {
   if (advice.model == "zero") return "Do not compensate: no map does better.";
   if (advice.choice == models::Choice::kBaseline) {
-    return fmt::format("Use {}: no richer map is known to do better.",
-                       advice.model);
+    return fmt::format("Use {}: no richer map is proven better.", advice.model);
   }
   return fmt::format(
       "Use {}{}.", advice.model, advice.single ? ", an average of maps" : "");
@@ -45,7 +44,7 @@ std::string WhyNoRange(const ComponentNumbers& of,
       });
   if (others_have_one) {
     return fmt::format(
-        " (no range is known: its errors on neighbouring {} are alike)",
+        " (no 95 % range: its errors on neighbouring {} are alike)",
         PluralOfUnit(holdout));
   }
   return fmt::format(" ({} are too few or too alike for a range)",

@@ -42,7 +42,7 @@ StatesBeyond StatesOf(const std::string& column) {
   if (unit.symbol == "rpm") return {"a slower spindle", "a faster spindle"};
   switch (unit.quantity) {
     case data::Quantity::kTemperature:
-      return {"a colder start or room", "a longer run or hotter room"};
+      return {"a colder start or room", "a longer or hotter run"};
     case data::Quantity::kTime:
       return {"the first minutes", "a longer run"};
     case data::Quantity::kLength:
@@ -85,8 +85,8 @@ Remarks Extrapolated(const Numbers& of) {
   const RecommendationRecord& advice = of.Advice();
   if (!advice.beyond) return {};
   return {{"extrapolated",
-           fmt::format("{:.0f} % of the test readings were beyond all that the "
-                       "map had learnt from; expect more error in such states",
+           fmt::format("{:.0f} % of the test readings were beyond all training "
+                       "data; expect more error in such states",
                        kPercent * advice.extrapolated_share),
            Tone::kPlain,
            WhereToMeasure(*advice.beyond)}};
@@ -140,7 +140,7 @@ Remarks SmallerMap(const Numbers& of) {
   }
   if (smaller == nullptr) return {};
   return {{"a smaller map",
-           fmt::format("{}: {} operations a step in place of {}; {}",
+           fmt::format("{}: {} operations a step, not {}; {}",
                        smaller->name,
                        operations(*smaller),
                        full,
@@ -180,6 +180,19 @@ Remarks WhyThisOne(const Numbers& of) {
   return {{"why this one", why}};
 }
 
+// The maps that a blend averages, those of the largest share by name.
+Remarks Averages(const Numbers& of) {
+  constexpr std::size_t kMostNamed = 2;
+  const ModelRecord& model = of.Model(of.Advice().model);
+  if (model.choice != Choice::kBlend || !model.final) return {};
+  std::vector<std::string> parts = model.final->remarks;
+  if (parts.size() > kMostNamed) {
+    parts[kMostNamed] = fmt::format("{} more", parts.size() - kMostNamed);
+    parts.resize(kMostNamed + 1);
+  }
+  return {{"averages", data::JoinWords(parts, "; ")}};
+}
+
 Remarks Interval(const Numbers& of) {
   const auto& promise = of.Advice().promise;
   if (!promise) return {};
@@ -197,13 +210,13 @@ Remarks MoreData(const Numbers& of) {
   const double saved = 1.0 - worth->ratio_of_one_more;
   return {
       {"more data",
-       fmt::format("with one {} fewer it erred {:.2f} times as much; one "
-                   "more {}",
-                   unit,
-                   worth->ratio_of_one_fewer,
-                   saved > kWorthSaying
-                       ? fmt::format("may take {:.0f} % off", kPercent * saved)
-                       : "promises little")}};
+       fmt::format(
+           "with one {} fewer the error is {:.2f} times as large; one more {}",
+           unit,
+           worth->ratio_of_one_fewer,
+           saved > kWorthSaying
+               ? fmt::format("may take {:.0f} % off", kPercent * saved)
+               : "promises little")}};
 }
 
 // How far the map looks back, and the zero.
@@ -282,8 +295,8 @@ Remarks ErrAlike(const Numbers& of) {
         return one.holdout == advice.holdout && one.established;
       });
   return {{"memory",
-           fmt::format("{} err alike (lag-1 correlation {:.2f}), so their "
-                       "number proves little; {}",
+           fmt::format("neighbouring {} err alike (lag-1 autocorrelation "
+                       "{:.2f}), so their number proves little; {}",
                        PluralOfUnit(of.HoldoutOfAdvice()),
                        pair->lag1,
                        established == 0
@@ -299,8 +312,8 @@ Remarks NotConverged(const Numbers& of) {
   const auto& summary = There(model.final).summary.value;
   if (summary.converged) return {};
   return {{"not converged",
-           fmt::format("its fit ended by {}: another start or run length would "
-                       "give another map",
+           fmt::format("its fit ended by {}: another start or more iterations "
+                       "would give another map",
                        fitting::ToString(summary.stop))}};
 }
 
@@ -331,6 +344,7 @@ Remarks OtherCuts(const Numbers& of) {
 
 constexpr RemarkEntry kFurther[] = {
     {WhyThisOne, Place::kDetails, false},
+    {Averages, Place::kNextSteps, false},
     {Extrapolated, Place::kNextSteps, true},
     {SmallerMap, Place::kNextSteps, false},
     {WhyNoNet, Place::kNextSteps, false},

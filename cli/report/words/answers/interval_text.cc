@@ -17,13 +17,13 @@ std::string IntervalText(const models::PromiseRecord& promise,
         text.empty()
             ? fmt::format(" of the errors on an unseen {} lie", promise.unit)
             : "",
-        error.WithUnit(level.half_width),
-        level.at_least ? " at least" : "");
+        level.at_least ? "at least " : "",
+        error.WithUnit(level.half_width));
   }
   if (promise.good_for) {
     text += fmt::format(
         ". Trust that for the next {} only: neighbouring {} may err alike "
-        "(correlation {:.2f})",
+        "(lag-1 autocorrelation {:.2f})",
         *promise.good_for == 1 ? promise.unit
                                : Count(*promise.good_for, promise.unit),
         PluralOf(promise.unit),
@@ -34,7 +34,7 @@ std::string IntervalText(const models::PromiseRecord& promise,
 
 std::string IntervalLine(const models::PromiseRecord& promise,
                          const ErrorText& error) {
-  return fmt::format("{} ({}: {} {} held out whole)",
+  return fmt::format("{} ({}, {} {})",
                      IntervalText(promise, error),
                      promise.holdout,
                      promise.units,

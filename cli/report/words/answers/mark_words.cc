@@ -25,7 +25,7 @@ std::string WhyRecommended(const ComponentNumbers& component) {
   }
   if (advice.single) {
     return fmt::format(
-        "an average of maps: {}; of single maps take {} ({})",
+        "an average of maps: {}. Best single map: {} ({})",
         advice.decided_by == advice.holdout
             ? "no single one is proven better"
             : fmt::format("{} do not choose between them",
@@ -64,7 +64,7 @@ std::string MarkWords(const ReportView& view) {
       });
   if (!marks_others) return text + ".";
   return text +
-         "; = the lowest error, or as good in practice (--indifference).";
+         ". = marks the lowest error, or as good in practice (--indifference).";
 }
 
 }  // namespace errmap::report

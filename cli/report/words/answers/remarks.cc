@@ -207,11 +207,10 @@ Remarks Rezeroed(const Numbers& of) {
   if (map == rezero->models.end()) return {};
   const bool adds = map->never < map->rmse;
   return {{"re-zeroed",
-           fmt::format("{}{}; never: {}, no map: {}",
+           fmt::format("{}{}; without re-zeroing {}",
                        RezeroRuleWords(of.record),
                        adds ? ", which adds to the error" : "",
-                       of.error.WithUnit(map->never),
-                       of.error.WithUnit(rezero->no_map)),
+                       of.error.WithUnit(map->never)),
            adds ? Tone::kBad : Tone::kPlain}};
 }
 

@@ -36,79 +36,82 @@ std::string ObstacleText(const ComponentNumbers& component,
                          found,
                          obstacle.needed);
     case Kind::kPerhapsOneSession:
-      return fmt::format(
-          "{}, perhaps of one session: at least {} are needed to see whether "
-          "they resemble each other",
-          found,
-          obstacle.needed);
+      return fmt::format("{}, perhaps of one session; at least {} are needed",
+                         found,
+                         obstacle.needed);
     case Kind::kTooManyPairs:
       return fmt::format("{} for {} pairs, at least {} are needed",
                          found,
                          obstacle.pairs,
                          obstacle.needed);
     case Kind::kTooFewSignPatterns:
-      return fmt::format("the sign patterns drawn are too few for {} pairs",
-                         obstacle.pairs);
+      return fmt::format(
+          "the sign-flip test drew too few patterns for {} pairs",
+          obstacle.pairs);
   }
   return "";
 }
 
-// "0.02 after Holm for 28 pairs", "0.02 in its turn".
-std::string TurnText(const PairRecord& pair) {
-  return PWords(pair.p_holm) +
-         (pair.holm_pairs == 1
-              ? std::string(" in its turn")
-              : " after Holm for " + Count(pair.holm_pairs, "pair"));
+// "p is 0.0002 over 60 cycles and 0.02 after Holm's correction for 28 pairs."
+std::string PSentence(const PairRecord& pair, const HoldoutRecord& held) {
+  return fmt::format(
+      "p is {} over {}{}{}",
+      PWords(pair.p),
+      CountOfUnits(pair.units, held),
+      pair.memory > 0.0 ? " (corrected for autocorrelation)" : "",
+      pair.holm_pairs == 1
+          ? ""
+          : fmt::format(" and {} after Holm's correction for {}",
+                        PWords(pair.p_holm),
+                        Count(pair.holm_pairs, "pair")));
 }
 
-// "0.707 um less RMSE than net:scg (95 % 0.4 to 1.1), p 0.0002 ..."
+// Why a difference is not established, where something beside p tells it.
+std::string ReasonAgainst(Confidence confidence,
+                          const PairRecord& pair,
+                          const std::string& units) {
+  switch (confidence) {
+    case Confidence::kUnitsCorrelated:
+      return fmt::format(": neighbouring {} err alike", units);
+    case Confidence::kMemoryNotExcluded:
+      return fmt::format(
+          ": with the autocorrelation that the order of {} cannot exclude, p "
+          "is {}",
+          units,
+          PWords(pair.tests.memory_t.p_holm));
+    case Confidence::kBlocksDisagree:
+      return fmt::format(": {} runs of neighbouring {} differ (p {})",
+                         stats::kBlocksOfUnits,
+                         units,
+                         PWords(pair.tests.block_t.p));
+    default:
+      return "";
+  }
+}
+
+// "net:lm has 0.707 um less than net:scg (95 % 0.4 to 1.1). p is 0.0002 ..."
 std::string TestSentence(const ComponentNumbers& component,
                          const VerdictRecord& verdict) {
-  const std::string& better = verdict.model;
   const std::string& worse = There(verdict.rival);
-  const PairRecord& pair =
-      There(models::FindPair(component.record, verdict.holdout, better, worse));
+  const PairRecord& pair = There(models::FindPair(
+      component.record, verdict.holdout, verdict.model, worse));
   const HoldoutRecord& held = component.Holdout(verdict.holdout);
-  const std::string units = PluralOfUnit(held);
-  std::string text =
+  const std::string text =
       fmt::format("{} has {} less than {}{}",
-                  better,
+                  verdict.model,
                   component.error.WithUnit(std::abs(pair.difference)),
                   worse,
                   component.In95(IntervalOfExcess(pair, worse)));
   if (!std::isfinite(pair.p)) {
-    return text + "; they are one map but for rounding: nothing to establish.";
+    return text + ": they are one map but for rounding.";
   }
-  text +=
-      fmt::format("; p {} over {}{}, {}",
-                  PWords(pair.p),
-                  CountOfUnits(pair.units, held),
-                  pair.memory > 0.0 ? ", with the memory that they show" : "",
-                  TurnText(pair));
-  switch (There(verdict.against_rival)) {
-    case Confidence::kEstablished:
-      return text + ": established.";
-    case Confidence::kUnitsCorrelated:
-      return text + fmt::format(
-                        "; neighbouring {} resemble each other: not "
-                        "established.",
-                        units);
-    case Confidence::kMemoryNotExcluded:
-      return text + fmt::format(
-                        "; with the memory that the order of {} cannot exclude "
-                        "{}: not established.",
-                        units,
-                        PWords(pair.tests.memory_t.p_holm));
-    case Confidence::kBlocksDisagree:
-      return text + fmt::format(
-                        "; {} runs of neighbouring {} differ too much (p {}): "
-                        "not established.",
-                        stats::kBlocksOfUnits,
-                        units,
-                        PWords(pair.tests.block_t.p));
-    default:
-      return text + ": not established.";
-  }
+  const Confidence confidence = There(verdict.against_rival);
+  return fmt::format("{}. {}. {}{}.",
+                     text,
+                     PSentence(pair, held),
+                     confidence == Confidence::kEstablished ? "Established"
+                                                            : "Not established",
+                     ReasonAgainst(confidence, pair, PluralOfUnit(held)));
 }
 
 std::string ChoiceSentence(const ComponentNumbers& component,
@@ -157,7 +160,7 @@ std::string VerdictSentence(const ComponentNumbers& component,
   const std::vector<std::string>& first =
       First(There(FindNamed(component.record.tiers, verdict.holdout)));
   if (first.size() > 1) {
-    text += fmt::format("; without practical difference to it: {}",
+    text += fmt::format(". As good in practice: {}",
                         ListBesides(first, verdict.model));
   }
   const std::string choice = ChoiceSentence(component, verdict);
@@ -174,7 +177,7 @@ std::string GapSentence(const ComponentNumbers& component) {
   if (flattered.empty()) return "";
   std::ranges::stable_sort(
       flattered, std::greater(), &models::InterpolationGap::Row::ratio);
-  constexpr std::size_t kMostNamed = 3;
+  constexpr std::size_t kMostNamed = 2;
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < std::min(flattered.size(), kMostNamed); ++i) {
     const models::InterpolationGap::Row& row = flattered[i];
@@ -216,9 +219,11 @@ std::string MemorisationSentence(const ModelRecord& model) {
                          model.name,
                          found.why_not.value_or(""));
     case models::NoiseLearning::kLittle:
-      return fmt::format("{} learns little noise: {}.", model.name, figures);
     case models::NoiseLearning::kSome:
-      return fmt::format("{} learns some noise: {}.", model.name, figures);
+      return fmt::format("{} learns {} noise: {}.",
+                         model.name,
+                         models::ToString(found.learning),
+                         figures);
     case models::NoiseLearning::kMuch:
       return fmt::format(
           "{} can learn its rows by heart: {}. Its training error says "

@@ -219,10 +219,9 @@ std::string AgreementText(const Certification& certification) {
                {Words("stop", 0, 1), row.stop}});
   }
   return fmt::format(
-             "\nAgreement on one well-damped net from one start: how far the "
-             "objective ends\nabove the lowest ({:.8g}), how far predictions "
-             "are apart as a share of the\ntarget range, each beside its "
-             "floor\n",
+             "\nAgreement on one well-damped net from one start. Beside their "
+             "floors: objective\nabove the lowest ({:.8g}), and predictions "
+             "apart, as a share of the target range.\n",
              lowest->objective) +
          TerminalTable(table);
 }

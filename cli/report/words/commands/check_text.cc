@@ -32,14 +32,13 @@ std::string NameText(const data::ColumnInfo& column) {
 
 std::string MissingText(models::Missing missing) {
   return missing == models::Missing::kStart
-             ? "Not known whether the map holds: its memory needs the session "
-               "from its start, and this log begins later. Give the earlier "
-               "rows with --after EARLIER.csv, or say --from-rest if the "
-               "machine was at rest before the first row.\n"
-             : "Not known whether the map holds: it has a memory, and the "
-               "readings between the probes of the session are missing. Give "
-               "those without a probe with an empty error, or the earlier ones "
-               "with --after EARLIER.csv.\n";
+             ? "Not known whether the map holds: it needs the session from its "
+               "start, and this log begins later. Give the earlier rows with "
+               "--after EARLIER.csv. Say --from-rest if the machine was at "
+               "rest before the first row.\n"
+             : "Not known whether the map holds: it has a memory and lacks the "
+               "readings between the probes. Give them with an empty error, or "
+               "earlier ones with --after EARLIER.csv.\n";
 }
 
 const char* LeadOf(models::SessionStatus status) {
@@ -75,14 +74,13 @@ std::string ProbeWhenText(const models::SessionCheck& check, double last) {
 std::string StatusText(const models::SessionCheck& check,
                        const ErrorText& error) {
   if (check.sensor) {
-    return SensorText(*check.sensor) +
-           "Until then no order is given for the map.\n";
+    return SensorText(*check.sensor) + "The map is not judged until then.\n";
   }
   if (check.missing != models::Missing::kNothing) {
     return MissingText(check.missing);
   }
   if (!std::isfinite(check.session.low)) {
-    return "Not known whether the map holds: it promises no error at all.\n";
+    return "Not known whether the map holds: it states no error to hold.\n";
   }
   const bool so_far = check.status == models::SessionStatus::kHoldsSoFar;
   const models::RmseForecast& told = so_far ? check.so_far : check.session;
@@ -92,11 +90,11 @@ std::string StatusText(const models::SessionCheck& check,
       : check.probe_rms > told.high ? " (at the probes it was more)"
                                     : "";
   return fmt::format(
-      "{}: its error{} is {}{} to {} RMSE with 80 % confidence{}, and at most "
-      "{} ({} times the promise) is the limit.\n",
+      "{}: its error{} is {}{} to {} RMSE with 80 % confidence{}. The limit is "
+      "{}, {} times the promise.\n",
       LeadOf(check.status),
       so_far ? " until now" : "",
-      *beside_probes != '\0' ? "forecast to be " : "",
+      *beside_probes != '\0' ? "forecast at " : "",
       error(told.low),
       error.WithUnit(told.high),
       beside_probes,
@@ -125,11 +123,11 @@ std::string RemedyText(const models::SessionCheck& check,
       return "The errors are those predicted with the other sign: check the "
              "sign of this measurement (error = actual - nominal).\n";
     case models::Remedy::kRefit:
-      return "An offset does not explain it: the shape is wrong; measure this "
+      return "An offset does not explain it: the shape is wrong. Measure this "
              "state in two sessions or more and fit again (errmap update).\n";
     case models::Remedy::kUnknown:
-      return "These probes do not tell an offset from another shape: take more "
-             "of them, at other positions and later.\n";
+      return "These probes cannot tell an offset from a wrong shape: take "
+             "more, at other positions and later.\n";
   }
   return "";
 }
@@ -195,8 +193,8 @@ std::string SensorText(const models::SensorFaultFound& found) {
     case models::SensorFault::kDead:
       if (std::isnan(found.value)) return lead + "it gives no reading.\n";
       return fmt::format(
-          "{}it reads {:.4g} {} throughout, as a sensor does "
-          "that is dead or not connected.\n",
+          "{}it reads {:.4g} {} throughout, like a dead or unconnected "
+          "sensor.\n",
           lead,
           found.value,
           unit);

@@ -55,8 +55,8 @@ std::string WhatIsWrong(const ColumnFault& fault,
     case FaultKind::kImpossible:
       if (!fault.of_cells) {
         return fmt::format(
-            "{} of its values are beyond any thermometer, such "
-            "as {:g}{} in data row {}{}",
+            "has {} values that no thermometer reads, such as {:g}{} in data "
+            "row {}{}",
             fault.rows.size(),
             fault.value,
             symbol,
@@ -147,12 +147,11 @@ std::string EffectText(const models::FaultEffect& effect,
     return "";
   }
   const ErrorText error(unit, effect.rmse_without);
-  return fmt::format(
-      "a plain linear map misses {} by {} RMSE with {}, by {} without",
-      rows,
-      error.WithUnit(effect.rmse_with),
-      what,
-      error.WithUnit(effect.rmse_without));
+  return fmt::format("a linear map misses {} by {} RMSE with {}, by {} without",
+                     rows,
+                     error.WithUnit(effect.rmse_with),
+                     what,
+                     error.WithUnit(effect.rmse_without));
 }
 
 }  // namespace
@@ -174,9 +173,9 @@ std::vector<std::string> FaultLines(const data::PreparedDataset& prepared,
                      "rows held out",
                      "the column");
       line +=
-          "; " +
+          ". " +
           data::ArgumentName("exclude", data::Printable(name, name.size())) +
-          " leaves it out" + (effect.empty() ? "" : " (" + effect + ")");
+          " leaves it out" + (effect.empty() ? "" : ": " + effect);
     }
     lines.push_back(std::move(line));
   }

@@ -136,8 +136,8 @@ std::string SensitivityLine(const models::Sensitivity& sensitivity,
                             const ErrorText& error) {
   if (sensitivity.jump_of.empty()) return "";
   std::string text = fmt::format(
-      "{:g} degC of noise in each thermometer moves it by {} (RMS), one that "
-      "fails to 0 by up to {} ({})",
+      "{:g} degC of noise in each thermometer moves the map by {} RMS. One "
+      "that fails to 0 moves it by up to {} ({})",
       models::Sensitivity::kNoise,
       error.WithUnit(sensitivity.per_noise),
       error.WithUnit(sensitivity.largest_jump),

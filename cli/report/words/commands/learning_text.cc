@@ -14,12 +14,12 @@ namespace errmap::report {
 namespace {
 
 std::string_view ViewWords(const std::string& view) {
-  if (view == "history") return "as they are and through filters";
-  if (view == "zero") return "each less its session's first value";
+  if (view == "history") return "raw and filtered";
+  if (view == "zero") return "less each session's first value";
   if (view == "history+zero") {
-    return "through filters, each less its session's first value";
+    return "through filters, less each session's first value";
   }
-  return "as they are";
+  return "raw";
 }
 
 std::string CurveText(const models::LearningCurvesRecord& curves,
@@ -46,8 +46,8 @@ std::string CurvesText(const models::LearningCurvesRecord& curves,
                        const data::Unit& unit) {
   const ErrorText error = ErrorTextOf(curves, unit);
   std::string text = fmt::format(
-      "RMSE ({}) on an unseen {} against the number learnt from, of {} in "
-      "all; 90 % interval over them\n",
+      "RMSE ({}) on an unseen {}, by the number learnt from, {} in all; 90 % "
+      "interval\n",
       error.symbol(),
       curves.unit,
       curves.units);
@@ -62,7 +62,7 @@ std::string SensorsText(const models::SensorCurve& curve,
   constexpr std::size_t kMostSubstitutes = 4;
   const ErrorText error = ErrorTextOf(curve, unit);
   std::string text =
-      fmt::format("RMSE ({}) held out ({}) against the number of sensors, {}\n",
+      fmt::format("Held-out RMSE ({}), {}, by the number of sensors, {}\n",
                   error.symbol(),
                   curve.held_out,
                   ViewWords(curve.view));
@@ -97,8 +97,9 @@ std::string SensorsText(const models::SensorCurve& curve,
 
 std::string NextText(const std::vector<models::NextState>& chosen) {
   std::string text =
-      "Measure next, in this order (data rows of the candidates; mean variance "
-      "of predictions left, and distance to the nearest measured state):\n";
+      "Measure these data rows next, in this order. % is the mean variance of "
+      "the\npredictions left, then comes the distance to the nearest measured "
+      "state.\n";
   for (const models::NextState& state : chosen) {
     text += fmt::format("  row {:4}  {:3.0f} %  {:.1f}\n",
                         state.row,

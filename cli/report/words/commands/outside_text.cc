@@ -27,7 +27,7 @@ std::string FlagText(const models::RowFlag& flag) {
                          symbol.empty() ? "" : " " + symbol,
                          flag.why == models::Outside::kRange
                              ? "trained"
-                             : "the other inputs tell",
+                             : "the other inputs suggest",
                          flag.low,
                          flag.high);
     case models::Outside::kDistance:
@@ -101,10 +101,10 @@ std::vector<std::string> UnlikeLines(const std::vector<models::RowFlag>& flags,
     if (flags[i].why != models::Outside::kRange) ++unlike;
   }
   if (unlike > 0) {
-    lines.push_back(fmt::format(
-        "warning: {} in a thermal state unlike those of training, or with "
-        "inputs that do not go together as they did there",
-        Count(unlike, "row")));
+    lines.push_back(
+        fmt::format("warning: {} unlike those in training: a new thermal "
+                    "state, or thermometers that contradict each other",
+                    Count(unlike, "row")));
   }
   if (!flags.empty() && flags[worst].outside()) {
     lines.push_back(fmt::format("warning: farthest outside is data row {}: {}",

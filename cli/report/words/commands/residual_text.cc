@@ -90,9 +90,9 @@ std::string SerialLine(const models::ResidualReport& report,
   };
   const TestResult& whole = report.whole.*member;
   if (!whole.ok()) {
-    return fmt::format("  {:<20} n/a: {}\n", name, whole.why_not);
+    return fmt::format("  {:<21} n/a: {}\n", name, whole.why_not);
   }
-  return fmt::format("  {:<20}{}{}\n",
+  return fmt::format("  {:<21}{}{}\n",
                      name,
                      cells(report.whole),
                      report.within ? "    " + cells(*report.within) : "");
@@ -101,7 +101,8 @@ std::string SerialLine(const models::ResidualReport& report,
 std::string ShuffledLine(const char* where,
                          const stats::SerialShuffles& shuffles) {
   return fmt::format(
-      "  shuffled {} {} times: p {} runs, {} lag-1, {} D-W, {} L-B\n",
+      "  shuffled {} {} times, p: runs {}, lag-1 autocorrelation {},\n    "
+      "Durbin-Watson {}, Ljung-Box {}\n",
       where,
       shuffles.draws,
       PText(shuffles.runs),
@@ -252,8 +253,8 @@ std::string NormalityText(const models::ResidualReport& report,
                     simulated ? monte_carlo : none);
   };
   std::string text = Heading("normal?", "statistic", "p", "what p assumes");
-  text += TestLine(
-      "K-S, Eq. 140", tests.ks, "D", "assumes that mean and sd were given");
+  text +=
+      TestLine("K-S, Eq. 140", tests.ks, "D", "mean and sd given; asymptotic");
   text += TestLine("K-S, finite n", tests.ks_exact, "D", "the same; exact");
   text += line("Lilliefors",
                tests.lilliefors,
@@ -301,8 +302,8 @@ std::string NormalityText(const models::ResidualReport& report,
   text +=
       line("one mode (dip)", tests.dip, "", "one mode; simulated", none, true);
   text +=
-      "  All p assume independent values; with mean and sd estimated, as here, "
-      "those\n  of K-S are too large.\n";
+      "  All p assume independent values. Those of K-S are too large here, "
+      "where mean\n  and sd are estimated.\n";
   if (rounded) {
     text +=
         fmt::format("  Steps of {}: p by {} normal samples rounded alike.\n",
@@ -319,7 +320,7 @@ std::string NormalityText(const models::ResidualReport& report,
 std::string RandomnessText(const models::ResidualReport& report) {
   const stats::SerialTests& whole = report.whole;
   std::string text =
-      fmt::format("{:<22}{:>11} {:>9}", "random?", "in order", "p");
+      fmt::format("{:<23}{:>11} {:>9}", "random?", "in order", "p");
   std::string lags = fmt::format("Ljung-Box, {}", whole.num_lags);
   if (report.within) {
     text += fmt::format("{:>15} {:>9}", "within " + report.group_column, "p");
@@ -327,7 +328,8 @@ std::string RandomnessText(const models::ResidualReport& report) {
   }
   text += "\n";
   text += SerialLine(report, "runs about median", &stats::SerialTests::runs);
-  text += SerialLine(report, "lag-1 correlation", &stats::SerialTests::lag1);
+  text +=
+      SerialLine(report, "lag-1 autocorrelation", &stats::SerialTests::lag1);
   text +=
       SerialLine(report, "Durbin-Watson", &stats::SerialTests::durbin_watson);
   text += SerialLine(report, lags, &stats::SerialTests::ljung_box);
@@ -338,8 +340,8 @@ std::string RandomnessText(const models::ResidualReport& report) {
     text += ShuffledLine("within groups", report.within_shuffles);
   }
   text +=
-      "  p assume independent values, normal ones but for runs, many for "
-      "Ljung-Box.\n";
+      "  All p assume independent values: normal ones except for runs, many "
+      "for\n  Ljung-Box.\n";
   text +=
       TestLine("halves alike (K-S)", report.halves, "D", "any distribution");
   if (report.by_group) text += BiasLine(*report.by_group);
@@ -375,9 +377,8 @@ std::string Report1995Text(const stats::Report1995Statistics& printed,
         unit.display_symbol.empty() ? "" : " " + unit.display_symbol);
   };
   std::string text = fmt::format(
-      "as the 1995 program prints it (single precision; its sums are divided "
-      "by\n(n+1)*2 = {} in place of n, so mean and sd are too small and D is "
-      "wrong):\n",
+      "as the 1995 program prints it (single precision). Its sums are divided\n"
+      "by (n+1)*2 = {}, not n, so mean and sd are too small and D is wrong:\n",
       (printed.n + 1) * 2);
   if (std::isfinite(r_squared)) {
     text += fmt::format("  {:<10} {:.6f}\n", "R-SQ", r_squared);

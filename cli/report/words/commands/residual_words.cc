@@ -57,9 +57,8 @@ std::string ShapeSentence(const stats::Normality& normality, Index values) {
     return "Nothing can be said of the shape: " + normality.lilliefors.why_not +
            ".";
   }
-  const std::string tests = Count(count.tests, "test") + " that " +
-                            (count.tests == 1 ? "allows" : "allow") +
-                            " for the estimated mean and sd";
+  const std::string tests =
+      Count(count.tests, "test") + " for an estimated mean and sd";
   const auto reject = [](int number) {
     return fmt::format("{} {}", number, number == 1 ? "rejects" : "reject");
   };
@@ -114,35 +113,34 @@ std::string Report1995Sentence(const stats::Normality& normality,
       normality.ks.statistic,
       printed.ks_probability);
   const std::string said = fmt::format(
-      "The 1995 program divides by 2(n + 1) in place of n ({}) and so calls "
-      "them {}",
+      "The 1995 program divides by 2(n + 1), not n: {}. So it calls them {}",
       figures,
       said_normal ? "normal" : "not normal");
-  if (said_normal == is_normal) return said + "; Lilliefors' test agrees.";
+  if (said_normal == is_normal) return said + ". Lilliefors' test agrees.";
   // What its own test says with the right divisors tells what they are to
   // blame for.
   if ((normality.ks.p > kHint) == said_normal) {
     return said + fmt::format(
                       ", as it would with the right divisors (p {:.2g}): it "
-                      "takes mean and sd as given. Allowing for their estimate "
-                      "D has p {:.2g} (Lilliefors).",
+                      "takes mean and sd as given. Lilliefors' test allows for "
+                      "their estimate: p {:.2g}.",
                       normality.ks.p,
                       normality.lilliefors.p);
   }
-  return said + fmt::format(
-                    "; with the right divisors D has p {:.2g} "
-                    "(Lilliefors){}.",
-                    normality.lilliefors.p,
-                    CountRejections(normality).at_evidence > 0
-                        ? ", but other tests reject at 1 %"
-                        : ": the slip decided");
+  return said +
+         fmt::format(
+             ". With the right divisors, p is {:.2g} by Lilliefors' test{}.",
+             normality.lilliefors.p,
+             CountRejections(normality).at_evidence > 0
+                 ? ", but other tests reject at 1 %"
+                 : ": the slip decided");
 }
 
 // The tests of order that show memory, by name.
 std::string TestsThatShowMemory(const stats::SerialTests& tests) {
   const std::pair<const char*, const TestResult*> all[] = {
       {"runs", &tests.runs},
-      {"lag-1 correlation", &tests.lag1},
+      {"lag-1 autocorrelation", &tests.lag1},
       {"Durbin-Watson", &tests.durbin_watson},
       {"Ljung-Box", &tests.ljung_box}};
   std::string names;
@@ -177,8 +175,9 @@ std::string MemorySentence(const models::ResidualReport& report,
   const double r = whole.lag1.statistic;
   if (r > 0.0 && r < 1.0) {
     text += fmt::format(
-        " For the mean they count as about {:.0f} of {} values (a first-order "
-        "autoregression's), and p that assume independence are a guide only.",
+        " For the mean they count as about {:.0f} of {} values, as in a "
+        "first-order autoregression. Any p that assumes independence is only a "
+        "guide.",
         static_cast<double>(summary.n) * (1.0 - r) / (1.0 + r),
         summary.n);
   }
@@ -202,7 +201,7 @@ std::string BiasSentence(const models::NamedBias& named,
   const ErrorText error(unit, sd);
   return fmt::format(
       "They are biased by {}: its means explain {:.0f} % of the sum of "
-      "squares; the largest, {} at {} {}, is {:.1f} standard errors.",
+      "squares. The largest, {} at {} {}, is {:.1f} standard errors.",
       noun,
       100.0 * named.bias.explained,
       error.WithUnit(levels[worst].mean),
@@ -216,8 +215,8 @@ std::string WithinSentence(const models::ResidualReport& report) {
   const stats::SerialTests& within = *report.within;
   const bool memory = !TestsThatShowMemory(within).empty();
   return fmt::format(
-      "Within a {}, its mean taken off, {} (lag-1 {:.2f} where {:.2f} is "
-      "expected).",
+      "Within a {}, less its mean, {} (lag-1 autocorrelation {:.2f}, expected "
+      "{:.2f}).",
       report.group_column,
       memory ? "some memory is left" : "no memory shows",
       within.lag1.statistic,

@@ -43,8 +43,7 @@ std::string RuleText(const ZeroTrigger& trigger,
     return fmt::format("a probe with each change by {}", change);
   }
   return fmt::format(
-      "a probe after {} or a change by {}, or where the shares of the two come "
-      "to 1",
+      "a probe after {} or a change by {}, or when the two shares add up to 1",
       DurationText(trigger.time),
       change);
 }
@@ -54,21 +53,21 @@ std::string RuleSentence(const ZeroSchedule& schedule,
                          const ErrorText& error) {
   const ZeroSchedule::Rule& rule = *schedule.rule;
   const std::string figures = fmt::format(
-      "{} against {} RMSE with no more probes, on sessions that had no part in "
-      "the rule; it errs less in {} of {}",
+      "{}, not {} RMSE, with no more probes. It errs less in {} of {} sessions "
+      "not used to find it",
       error(rule.rmse),
       error.WithUnit(rule.clock_rmse),
       rule.better,
       schedule.sessions);
   if (!rule.established) {
     return fmt::format(
-        "A rule with the temperature ({}) is not shown to do better: {}. Keep "
+        "A rule by temperature ({}) is not proven better. It leaves {}. Keep "
         "to the clock.",
         TemperatureText(errors),
         figures);
   }
   return fmt::format(
-      "Better: {}. It has {}.", RuleText(rule.trigger, errors), figures);
+      "Better: {}. It leaves {}.", RuleText(rule.trigger, errors), figures);
 }
 
 std::string TableRow(const std::string& when,
@@ -133,8 +132,8 @@ std::string ZeroAdvice(const ZeroSchedule& schedule,
     const models::ZeroedErrors& best = *std::ranges::min_element(
         schedule.clocks, {}, &models::ZeroedErrors::within_90);
     return fmt::format(
-        "No interval keeps 90 % of the errors within {}: a probe {} leaves "
-        "{}, no probe {}.\n",
+        "No interval keeps 90 % of the errors within {}. A probe {} leaves {}, "
+        "no probe {}.\n",
         error.WithUnit(goal),
         EveryText(best.trigger),
         error.WithUnit(best.within_90),

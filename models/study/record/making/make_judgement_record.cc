@@ -104,8 +104,8 @@ PairRecord JudgementRecord::Pair(const HoldoutComparison& tests,
           .p_holm = pair.p_holm,
           .holm_pairs = pair.num_adjusted,
           .test = pair.memory_shown > 0.0
-                      ? "sign-flip permutation, t with memory"
-                      : "sign-flip permutation",
+                      ? "sign-flip test, t test with autocorrelation"
+                      : "sign-flip test",
           .exact = pair.sign_flip.exact,
           .smallest_p = pair.sign_flip.smallest_p,
           .unit_of_analysis = tests.units.name,
@@ -277,9 +277,16 @@ std::vector<BeyondRecord> BeyondTraining(
       if (under > 0) beyond.below = std::fmax(beyond.below, low);
       if (over > 0) beyond.above = std::fmin(beyond.above, high);
     }
-    if (rows > 0 && !(beyond.below >= beyond.above)) {
-      found.emplace_back(rows, std::move(beyond));
-    }
+    if (rows == 0 || beyond.below >= beyond.above) continue;
+    // The map has learnt what every fold has, and nothing counts below one.
+    const auto values = dataset.input_values().col(column);
+    const bool counts =
+        dataset.inputs()[static_cast<std::size_t>(column)].role ==
+        data::Role::kCounter;
+    beyond.below =
+        std::isnan(beyond.below) || counts ? kNotKnown : values.minCoeff();
+    if (!std::isnan(beyond.above)) beyond.above = values.maxCoeff();
+    found.emplace_back(rows, std::move(beyond));
   }
   std::ranges::stable_sort(
       found, std::greater<>(), [](const auto& one) { return one.first; });

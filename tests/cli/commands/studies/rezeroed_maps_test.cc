@@ -45,7 +45,7 @@ TEST_F(RezeroedMaps, ComparesMapsThatAreRezeroed) {
   const std::string text = OneLine(Run(words).out);
   EXPECT_THAT(text,
               AllOf(HasSubstr("re-zeroed every 15 min"),
-                    HasSubstr("; never: "),
+                    HasSubstr("; without re-zeroing "),
                     HasSubstr("no re-zero")));
 }
 

@@ -48,6 +48,32 @@ TEST(TerminalLeaderboard, StandsByTheDecisiveErrorAndMarksTheRecommended) {
   EXPECT_EQ(table.marked, 1U);
 }
 
+TEST(TerminalLeaderboard, HeadsTheSecondErrorByWhatIsHeldOut) {
+  models::StudyRecord record = Recorded(MakeReportDocument());
+  models::ComponentRecord& component = record.components[0];
+  const ReportView view = ViewOf(component);
+  ASSERT_FALSE(view.neighbours.empty());
+  for (models::HoldoutRecord& holdout : component.holdouts) {
+    if (holdout.name == view.neighbours) holdout.among_neighbours = true;
+  }
+  EXPECT_EQ(TerminalLeaderboard(view, 12).columns[4].name, "neighbours");
+  for (models::HoldoutRecord& holdout : component.holdouts) {
+    holdout.among_neighbours = false;
+  }
+  EXPECT_EQ(TerminalLeaderboard(view, 12).columns[4].name, "held-out rows");
+}
+
+// Where so few units could never show a difference, p says nothing of it.
+TEST(CorrectedP, IsNothingWhereTheUnitsAreTooFew) {
+  models::PairRecord pair;
+  pair.p_holm = 1.0;
+  pair.smallest_p = 0.03;
+  pair.holm_pairs = 1;
+  EXPECT_EQ(Table().Shown(CorrectedP(pair)), "1.0000");
+  pair.holm_pairs = 2;
+  EXPECT_EQ(Table().Shown(CorrectedP(pair)), "-");
+}
+
 TEST(StandInWords, NameWhatTheLineOverATemperatureReadsWithoutOne) {
   models::StudyRecord record = Recorded(MakeReportDocument());
   models::ComponentRecord& component = record.components[0];

@@ -76,7 +76,7 @@ TEST(FirstAnswer, SaysHowSureTheGapIs) {
   SetGap(&record, -2.0, 0.5, false);
   EXPECT_THAT(Text(record), HasSubstr("the gap may be chance"));
   record.comparisons.clear();
-  EXPECT_THAT(Text(record), HasSubstr("6 cycles cannot tell how sure that is"));
+  EXPECT_THAT(Text(record), HasSubstr("6 cycles are too few to tell"));
 }
 
 // The verdict cannot establish it, so the answer does not call it likely.
@@ -92,7 +92,7 @@ TEST(FirstAnswer, CallsNoGapLikelyThatTooFewUnitsCannotEstablish) {
                        .pairs = 3};
   record.verdict = {verdict};
   EXPECT_THAT(Text(record),
-              AllOf(HasSubstr("6 cycles cannot tell how sure that is"),
+              AllOf(HasSubstr("6 cycles are too few to tell"),
                     Not(HasSubstr("likely real"))));
 }
 
@@ -152,7 +152,7 @@ TEST(FirstAnswer, BlamesTheErrorsOfTheMapWhereOthersHaveARange) {
   std::string text = Text(record);
   std::ranges::replace(text, '\n', ' ');
   EXPECT_THAT(text,
-              AllOf(HasSubstr("no range is known: its errors on"),
+              AllOf(HasSubstr("no 95 % range: its errors on"),
                     Not(HasSubstr("too few or too alike"))));
 }
 

@@ -114,7 +114,7 @@ TEST(Marks, SayWhyALowerErrorIsNotTaken) {
   advice.decided_by = advice.holdout;
   EXPECT_EQ(MarkWords(ViewOf(record)),
             "* recommended, an average of maps: no single one "
-            "is proven better; of single maps take poly:eq8 (1.900 um); = "
+            "is proven better. Best single map: poly:eq8 (1.900 um). = marks "
             "the lowest error, or as good in practice (--indifference).");
   advice.decided_by = "every:3";
   record.data.sessions = 2;
@@ -191,7 +191,7 @@ TEST(Sentences, SayForHowManyDaysAPromiseIsGood) {
   promise.good_for = 2;
   EXPECT_THAT(IntervalText(promise, error),
               EndsWith(" um. Trust that for the next 2 days only: neighbouring "
-                       "days may err alike (correlation 0.84)"));
+                       "days may err alike (lag-1 autocorrelation 0.84)"));
   promise.good_for = 1;
   EXPECT_THAT(IntervalText(promise, error),
               HasSubstr("Trust that for the next day only"));
@@ -323,8 +323,8 @@ TEST(Remarks, TellWhatToMeasureWhereTheMapExtrapolates) {
   EXPECT_THAT(TextOf(record, "extrapolated"),
               StartsWith("40 % of the test readings were beyond"));
   EXPECT_EQ(MeasureNext(record),
-            "a colder start or room (t12_degC below 21.5); a longer run or "
-            "hotter room (t12_degC above 27)");
+            "a colder start or room (t12_degC below 21.5); a longer or "
+            "hotter run (t12_degC above 27)");
   record.recommendation->beyond = std::vector<models::BeyondRecord>{
       {"t12_degC", 21.5, models::kNotKnown},
       {"speed_rpm", models::kNotKnown, 3000.0},
@@ -332,7 +332,7 @@ TEST(Remarks, TellWhatToMeasureWhereTheMapExtrapolates) {
   EXPECT_EQ(
       MeasureNext(record),
       "a colder start or room (t12_degC below 21.5); a faster spindle "
-      "(speed_rpm above 3000); a longer run or hotter room (t3_degC above 31)");
+      "(speed_rpm above 3000); a longer or hotter run (t3_degC above 31)");
 }
 
 TEST(Remarks, TellThatNeighboursProveLittle) {
@@ -351,8 +351,24 @@ TEST(Remarks, TellThatNeighboursProveLittle) {
     other.established = false;
   }
   EXPECT_EQ(TextOf(record, "memory"),
-            "cycles err alike (lag-1 correlation 0.75), so their number proves "
+            "neighbouring cycles err alike (lag-1 autocorrelation 0.75), so "
+            "their number proves "
             "little; no difference is established");
+}
+
+TEST(Remarks, NameTheMapsThatABlendAverages) {
+  ComponentRecord record = Base();
+  EXPECT_EQ(TextOf(record, "averages"), "");
+  for (models::ModelRecord& model : record.models) {
+    if (model.name != record.recommendation->model) continue;
+    model.choice = models::Choice::kBlend;
+    model.final.emplace().remarks = {"74 % curves over readings",
+                                     "22 % lines over readings",
+                                     "2 % net:scg",
+                                     "2 % curves and products over readings"};
+  }
+  EXPECT_EQ(TextOf(record, "averages"),
+            "74 % curves over readings; 22 % lines over readings; 2 more");
 }
 
 // Every remark has a label that fits its column, and ends as its text does.
