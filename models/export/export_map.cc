@@ -73,6 +73,7 @@ MapExport PrepareExport(const std::vector<const FittedModel*>& maps,
     made.deviations.anywhere =
         std::max(made.deviations.anywhere, found.anywhere);
   }
+  DropIdleGuards(&made.program);
   made.rows = ControllerSession(*maps.front(), made.program, precision);
   if (precision == Precision::kSingle &&
       !(made.deviations.inside <= AllowedDeviation(precision))) {

@@ -133,28 +133,6 @@ void SetBounds(const FittedModel& fitted, MapProgram* program) {
   }
 }
 
-// Guards of the form's inputs that no reading reaches, now that it is checked.
-void DropIdleGuards(MapProgram* program) {
-  const auto is_idle = [&](const Instruction& clip, const Instruction& copy) {
-    if (copy.to != clip.to || copy.a.space != Space::kReading) return false;
-    const ProgramReading& reading =
-        program->readings[static_cast<std::size_t>(copy.a.index)];
-    const bool is_held = reading.is_position && reading.far_high < kHuge;
-    return clip.op == Op::kFloor
-               ? clip.c <= (is_held ? reading.trained_min : reading.far_low)
-               : clip.c >= (is_held ? reading.trained_max : reading.far_high);
-  };
-  for (MapForm& form : program->forms) {
-    const Instructions all = form.evaluate;
-    std::erase_if(form.evaluate, [&](const Instruction& clip) {
-      return clip.guards && clip.to.space == Space::kForm &&
-             std::ranges::any_of(all, [&](const Instruction& copy) {
-               return copy.op == Op::kCopy && is_idle(clip, copy);
-             });
-    });
-  }
-}
-
 // Limits from training for sensors that hang (models/sensors/standing_still.h).
 void WatchForStandingStill(const std::vector<const FittedModel*>& maps,
                            MapProgram* program) {
@@ -578,7 +556,6 @@ void AddController(const std::vector<const FittedModel*>& maps,
                    const LimitOptions& options,
                    MapProgram* program) {
   SetBounds(*maps.front(), program);
-  DropIdleGuards(program);
   WatchForStandingStill(maps, program);
   for (std::size_t k = 0; k < maps.size(); ++k) {
     if (maps[k]->applicability == nullptr) continue;
@@ -588,6 +565,27 @@ void AddController(const std::vector<const FittedModel*>& maps,
   program->read = ReadRoutine(*program);
   program->move = MoveRoutine(program->limits);
   program->MeasureSpaces();
+}
+
+void DropIdleGuards(MapProgram* program) {
+  const auto is_idle = [&](const Instruction& clip, const Instruction& copy) {
+    if (copy.to != clip.to || copy.a.space != Space::kReading) return false;
+    const ProgramReading& reading =
+        program->readings[static_cast<std::size_t>(copy.a.index)];
+    const bool is_held = reading.is_position && reading.far_high < kHuge;
+    return clip.op == Op::kFloor
+               ? clip.c <= (is_held ? reading.trained_min : reading.far_low)
+               : clip.c >= (is_held ? reading.trained_max : reading.far_high);
+  };
+  for (MapForm& form : program->forms) {
+    const Instructions all = form.evaluate;
+    std::erase_if(form.evaluate, [&](const Instruction& clip) {
+      return clip.guards && clip.to.space == Space::kForm &&
+             std::ranges::any_of(all, [&](const Instruction& copy) {
+               return copy.op == Op::kCopy && is_idle(clip, copy);
+             });
+    });
+  }
 }
 
 }  // namespace errmap::models

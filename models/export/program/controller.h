@@ -67,6 +67,10 @@ void AddController(const std::vector<const FittedModel*>& maps,
                    const LimitOptions& options,
                    MapProgram* program);
 
+/// Takes away guards that no reading reaches once a controller has checked it:
+/// the map's own arithmetic, which has them, is compared with it before.
+void DropIdleGuards(MapProgram* program);
+
 /// Returns the value of a kept cell before the first step.
 double InitialValue(const MapProgram& program, Cell cell);
 /// The cells that are 0 at the known start of a session.

@@ -142,7 +142,6 @@ Routine WatchChanged(int at, bool has_others, bool jumps) {
   }
   changed.push_back(SetAt(Cell::kHeld, at, 0.0));
   Append(WatchOthersFrom(at, has_others), &changed);
-  changed.push_back(Set(Cell::kChanged, 1.0));
   return changed;
 }
 
@@ -199,13 +198,20 @@ Routine WatchTheStill(const MapProgram& program) {
                           }) > 1;
   const bool has_silence = program.limits.silence > 0.0;
 
-  Routine watch{Set(Cell::kChanged, 0.0)};
+  const bool asks_for_change = has_others || has_silence;
+
+  Routine watch;
+  if (asks_for_change) watch.push_back(Set(Cell::kChanged, 0.0));
   Append(OfTheWatched(program,
                       [&](int at) -> Routine {
                         const Expression x{Cell::kReading, at};
+                        Routine changed = WatchChanged(at, has_others, jumps);
+                        if (asks_for_change) {
+                          changed.push_back(Set(Cell::kChanged, 1.0));
+                        }
                         return {If(x == Expression{Cell::kLast, at},
                                    WatchHeld(at, has_others),
-                                   WatchChanged(at, has_others, jumps))};
+                                   std::move(changed))};
                       }),
          &watch);
   Routine moves;
@@ -218,8 +224,10 @@ Routine WatchTheStill(const MapProgram& program) {
     moves.push_back(Set(Cell::kStood, 0.0));
     silent = WatchSilence(program.limits.silence);
   }
-  watch.push_back(
-      If(Read(Cell::kChanged) > 0.0, std::move(moves), std::move(silent)));
+  if (asks_for_change) {
+    watch.push_back(
+        If(Read(Cell::kChanged) > 0.0, std::move(moves), std::move(silent)));
+  }
   Routine first = OfTheWatched(program, [&](int at) {
     Routine anew{SetAt(Cell::kHeld, at, 0.0)};
     Append(WatchOthersFrom(at, has_others), &anew);
