@@ -59,6 +59,7 @@ class Parser {
     if (rows_->PartThousands([this](const std::string& what) { Say(what); })) {
       odd_rows_ = {};
       title_lines_.clear();
+      blanks_.clear();
       loose_ = {};
       short_rows_.clear();
       cells_.GoTo(begin);
@@ -277,6 +278,7 @@ class Parser {
                           {.row = 0, .text = titles[nearest - 1]});
     }
     PartByTitles(title_lines_, odd_rows_.num_names(), &table_);
+    PartByBlankLines(blanks_, &table_);
     for (const TitleLine& line : title_lines_) {
       if (line.row > 0) titles.push_back(line.text);
     }
@@ -331,22 +333,20 @@ class Parser {
         names_as_written_.push_back(AsUtf8(TextOf(layout_.names[i])));
       }
     }
-    std::size_t blank_line = 0;
+    blank_ = {};
     while (!cells_.at_end()) {
       if (cells_.front() == '#') {
         title_lines_.push_back({.row = table_.num_rows, .text = TakeComment()});
       } else if (cells_.AtBlankLine()) {
-        if (blank_line == 0) blank_line = cells_.line();
+        AddBlankLine();
         cells_.SkipLine();
       } else {
-        if (blank_line != 0) odd_rows_.AddBlank();
-        if (blank_line != 0 && table_.columns.size() == 1) {
-          throw InputError(File() + ": line " + std::to_string(blank_line) +
+        if (blank_.count > 0 && table_.columns.size() == 1) {
+          throw InputError(File() + ": line " + std::to_string(blank_.line) +
                            ": blank line inside the data; remove it, or start "
                            "it with #");
         }
-        ReadRow(blank_line != 0);
-        blank_line = 0;
+        ReadRow(blank_.count > 0);
       }
     }
     in_data_ = false;
@@ -355,6 +355,19 @@ class Parser {
                        std::to_string(layout_.header_line) +
                        ": a header without data; put rows of numbers below it");
     }
+  }
+
+  void AddBlankLine() {
+    if (blank_.count++ > 0) return;
+    blank_.line = cells_.line();
+    blank_.row = table_.num_rows;
+  }
+  // Before a row that is one.
+  void EndBlankLines() {
+    if (blank_.count == 0) return;
+    odd_rows_.AddBlank();
+    blanks_.push_back(blank_);
+    blank_ = {};
   }
 
   // Whether the last row, of so many cells, is a line of words: a remark, or
@@ -384,6 +397,12 @@ class Parser {
       cells_.Next();
       more = cells_.PassEnd();
     }
+    if (layout_.width > 1 && num_numbers_ == 0 && IsEmptyRow(table_, column_)) {
+      rows_->Undo(column_);
+      AddBlankLine();
+      return;
+    }
+    EndBlankLines();
     if ((layout_.width > 2 && num_numbers_ == 0 && IsTitle(found)) ||
         (found == 2 && AreTotals(table_))) {
       std::string words = table_.CellText(table_.columns[0], table_.num_rows);
@@ -524,6 +543,8 @@ class Parser {
   bool below_names_ = false;
 
   LooseNumbers loose_;
+  BlankLines blank_;  // those right above
+  std::vector<BlankLines> blanks_;
   std::vector<TitleLine> title_lines_;  // among the rows
 
   // Rows that are not in the table.

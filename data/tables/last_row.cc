@@ -28,6 +28,13 @@ bool IsRemark(const CsvTable& table) {
          !IsMissingNumber(text) && text.find(' ') != text.npos;
 }
 
+bool IsEmptyRow(const CsvTable& table, std::size_t cells) {
+  for (std::size_t i = 0; i < cells; ++i) {
+    if (!TextIn(table, i).empty()) return false;
+  }
+  return true;
+}
+
 bool HoldsRemarkAlone(const CsvTable& table, std::size_t cells) {
   const CsvColumn& first = table.columns[0];
   if (table.num_rows > 0 && !HoldsNumbers(table, first)) return false;

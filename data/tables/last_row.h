@@ -13,6 +13,8 @@ namespace errmap::data {
 
 /// Whether its only cell is a remark: words, and no time.
 bool IsRemark(const CsvTable& table);
+/// Of a row without numbers, of so many cells: whether all are empty.
+bool IsEmptyRow(const CsvTable& table, std::size_t cells);
 /// Of a row of words of so many cells: whether all but the first are empty, and
 /// numbers stood there so far.
 bool HoldsRemarkAlone(const CsvTable& table, std::size_t cells);

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "data/column_words.h"
 #include "data/columns.h"
@@ -135,6 +136,29 @@ void PartByTitles(const std::vector<TitleLine>& lines,
       ": " + QuotedText(blocks[0].text) + ", " + QuotedText(blocks[1].text) +
       (blocks.size() > 2 ? ", ..." : ""));
   table->columns.push_back(WordColumn(name, codes, std::move(words)));
+}
+
+void PartByBlankLines(const std::vector<BlankLines>& blanks, CsvTable* table) {
+  constexpr std::size_t kFewestRows = 4;  // of a block
+  constexpr std::size_t kFewestPlaces = 2;
+  const char* const name = "block";
+  std::size_t most = 0;
+  for (const BlankLines& blank : blanks) most = std::max(most, blank.count);
+  std::vector<std::size_t> starts{0};
+  for (const BlankLines& blank : blanks) {
+    if (blank.count == most && blank.row > 0) starts.push_back(blank.row);
+  }
+  if (starts.size() <= kFewestPlaces || table->Find(name) >= 0) return;
+  starts.push_back(table->num_rows);
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i + 1 < starts.size(); ++i) {
+    if (starts[i + 1] < starts[i] + kFewestRows) return;
+    numbers.resize(starts[i + 1], static_cast<double>(i + 1));
+  }
+  table->columns.push_back(NumberColumn(name, std::move(numbers)));
+  table->remarks.push_back(PrintablePath(table->file) +
+                           ": the rows between blank lines are numbered in a "
+                           "column 'block'");
 }
 
 }  // namespace errmap::data

@@ -28,4 +28,17 @@ void PartByTitles(const std::vector<TitleLine>& lines,
                   std::size_t names_again,
                   CsvTable* table);
 
+/// Blank lines, or rows of empty cells, in one place.
+struct BlankLines {
+  std::size_t row = 0;   // of the table, below them
+  std::size_t line = 0;  // of the first in the file
+  std::size_t count = 0;
+};
+
+/// Numbers the rows between blank lines in a column "block"; where some places
+/// have more of them, as gnuplot parts its data sets, between those. None where
+/// a column has that name, one place alone is blank, or a block has fewer than
+/// four rows.
+void PartByBlankLines(const std::vector<BlankLines>& blanks, CsvTable* table);
+
 }  // namespace errmap::data

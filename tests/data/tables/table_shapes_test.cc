@@ -499,6 +499,28 @@ TEST(TableShape, TakesTheUnitsOfPositionsAndTemperaturesToo) {
               ElementsAre("Position [in]", "T1 [degF]", "Error [in]"));
 }
 
+TEST(TableShape, NumbersBlocksBetweenBlankLinesOrEmptyRows) {
+  const auto text_with = [](const std::string& between) {
+    std::string text = "x_mm,t_degC,error_um\n";
+    for (int i = 0; i < 12; ++i) {
+      if (i == 4 || i == 8) text += between;
+      text +=
+          std::to_string(50 * (i % 4)) + ",20.5," + std::to_string(i) + ".5\n";
+      if (i % 2 == 1 && i % 4 != 3 && between == "\n\n") text += "\n";
+    }
+    return text;
+  };
+  for (const std::string between : {"\n", ",,\n", "\n\n"}) {
+    const CsvTable table = ParseCsv(text_with(between), "f.csv");
+    ASSERT_EQ(table.num_rows, 12U);
+    EXPECT_THAT(table.At(table.Find("block")).values,
+                ElementsAre(1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3));
+  }
+  std::string one = text_with("");
+  one.insert(one.find("0,20.5,4.5"), "\n");
+  EXPECT_LT(ParseCsv(one, "f.csv").Find("block"), 0);
+}
+
 // With the separators of a sheet behind them.
 TEST(TableShape, TakesDatesAmongTheRowsForDays) {
   const CsvTable table = ParseCsv(

@@ -56,6 +56,7 @@ MapProgram LinearMap(double low = 10.0,
   }
   MapProgram program = MakeMapProgram(fitted);
   AddController({&fitted}, options, &program);
+  DropIdleGuards(&program);
   return program;
 }
 
