@@ -9,6 +9,7 @@
 
 #include "data/argument_name.h"
 #include "data/column_words.h"
+#include "data/columns.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/date_time.h"
 #include "data/measurements/joined_tables.h"

@@ -375,9 +375,8 @@ class Parser {
   bool IsTitle(std::size_t found) const {
     const std::string text =
         table_.CellText(table_.columns[0], table_.num_rows);
-    const bool is_date = !DateTokenIn(text).empty();
     return (found == 1 && IsRemark(table_)) ||
-           ((is_date || IsRemark(table_)) && NamesSession(text) &&
+           ((HoldsDate(text) || IsRemark(table_)) && NamesSession(text) &&
             HoldsRemarkAlone(table_, column_));
   }
 

@@ -7,6 +7,29 @@
 
 namespace errmap::data {
 
+namespace {
+
+std::string TextOfRead(const std::string& column,
+                       const std::string& number,
+                       const std::string& line) {
+  return "column " + column +
+         " is read with marks between thousands, as its other numbers are "
+         "whole: " +
+         number + " (line " + line + ")";
+}
+
+std::string TextOfDoubt(const std::string& column,
+                        const std::string& number,
+                        const std::string& as_thousands,
+                        const std::string& line) {
+  return "column " + column +
+         " has numbers with three decimals among whole ones: " + number +
+         " (line " + line + "); if its mark parts thousands, write " +
+         as_thousands;
+}
+
+}  // namespace
+
 bool MayPartThousands(std::string_view number, std::size_t point) {
   const std::string_view behind = number.substr(point + 1);
   if (behind.size() != 3 ||
@@ -50,15 +73,9 @@ bool PartThousands(const CsvTable& table,
         shape.most_whole < kFourDigits) {
       shape.by_thousands = true;
       any = true;
-      say("column " + column_name +
-          " is read with marks between thousands, as its other numbers are "
-          "whole: " +
-          as_thousands + " (line " + line + ")");
+      say(TextOfRead(column_name, as_thousands, line));
     } else {
-      say("column " + column_name +
-          " has numbers with three decimals among whole ones: " +
-          CsvNumber(value) + " (line " + line +
-          "); if its mark parts thousands, write " + as_thousands);
+      say(TextOfDoubt(column_name, CsvNumber(value), as_thousands, line));
     }
   }
   return any;

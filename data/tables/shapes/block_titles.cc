@@ -93,8 +93,10 @@ bool HasColumnOf(const CsvTable& table, const std::string& name) {
 
 }  // namespace
 
+bool HoldsDate(const std::string& text) { return !DateTokenIn(text).empty(); }
+
 bool NamesSession(const std::string& text) {
-  return !DateTokenIn(text).empty() || Says(text, Word::kSession) ||
+  return HoldsDate(text) || Says(text, Word::kSession) ||
          Says(text, Word::kRun) || Says(text, Word::kCycle);
 }
 

@@ -14,6 +14,9 @@ struct TitleLine {
   std::string text;
 };
 
+/// Whether a line of words has a date in it.
+bool HoldsDate(const std::string& text);
+
 /// Whether a line says which day, session, run or cycle follows.
 bool NamesSession(const std::string& text);
 
