@@ -328,7 +328,18 @@ void AdviseOwnOptions(const CLI::App& app, const std::string& command) {
   }
 }
 
+// "-" where a file is read is standard input.
+void NameStandardInput(int argc, char** argv) {
+  static std::string input = "/dev/stdin";
+  for (int i = 1; i < argc; ++i) {
+    const bool is_output =
+        data::IsOneOf(argv[i - 1], "-o --output --out --save-split");
+    if (!is_output && std::string_view(argv[i]) == "-") argv[i] = input.data();
+  }
+}
+
 int RunParsed(int argc, char** argv) {
+  NameStandardInput(argc, argv);
   if (std::find(argv, argv + argc, std::string_view("--keep-paths")) !=
       argv + argc) {
     data::KeepPaths();

@@ -535,8 +535,13 @@ Header ReadHeader(std::string_view name) {
   header.base = name;
   header.unit = AssumedUnit(name);
   const std::size_t last = name.find_last_of(kSeparators.substr(0, 2));
-  if (last != std::string_view::npos &&
-      MayMeanUnit(name.substr(last + 1), header.unit)) {
+  // "T_in" is an inlet's, "x_in" a position in inches.
+  const bool is_position =
+      last != std::string_view::npos &&
+      IsOneOf(name.substr(0, last), "x y z u v w pos posn") &&
+      IsOneOf(name.substr(last + 1), "in ft");
+  if (is_position || (last != std::string_view::npos &&
+                      MayMeanUnit(name.substr(last + 1), header.unit))) {
     header.unit_text = name.substr(last + 1);
     header.unit = Unit{};
     header.source = UnitSource::kUnread;

@@ -157,6 +157,8 @@ TEST(ReadHeader, LeavesWhatMayBeAUnitWithoutOne) {
                            "error_in",
                            "position_m",
                            "position_in",
+                           "x_in",
+                           "pos_ft",
                            "error_furlong",
                            "error_mm2",
                            "flow_m\u00b3"}) {

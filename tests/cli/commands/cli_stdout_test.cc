@@ -56,6 +56,15 @@ TEST_F(CliStdout, AnswersThatCannotBePrintedAreSaidByEveryCommand) {
   }
 }
 
+TEST_F(CliStdout, ADashIsStandardInput) {
+  EXPECT_EQ(Shell("read " + kDown + " > named").status, 0);
+  EXPECT_EQ(Shell("read - > piped < " + kDown).status, 0);
+  EXPECT_EQ(Read("piped"), Read("named"));
+  EXPECT_THAT(RefusalOf(Shell("fit " + kDown + " --model mean -o -"),
+                        kWrongCommandLine),
+              HasSubstr("names no file"));
+}
+
 TEST_F(CliStdout, AnAnswerThatCannotBePrintedDoesNotCostTheFiles) {
   const std::string words =
       "compare " + kDown + " --models mean --quiet --out study > /dev/full";
