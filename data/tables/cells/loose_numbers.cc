@@ -142,8 +142,8 @@ CellLabel TakeLabel(std::string_view* cell) {
   rest = Trimmed(rest.substr(size + (has_sign ? 1 : 0)));
   // "X1" may be the name of a place, "run-1" that of a run.
   const std::size_t mark = rest.find_first_of(".,");
-  const bool has_decimals =
-      mark + 1 < rest.size() && mark > 0 && IsNumeral(rest[mark - 1]);
+  const bool has_decimals = mark != rest.npos && mark > 0 &&
+                            mark + 1 < rest.size() && IsNumeral(rest[mark - 1]);
   const bool is_number =
       has_sign || has_decimals ||
       (label.is_axis &&
