@@ -339,7 +339,6 @@ void NameStandardInput(int argc, char** argv) {
 }
 
 int RunParsed(int argc, char** argv) {
-  NameStandardInput(argc, argv);
   if (std::find(argv, argv + argc, std::string_view("--keep-paths")) !=
       argv + argc) {
     data::KeepPaths();
@@ -356,6 +355,7 @@ int RunParsed(int argc, char** argv) {
     return kWrongCommandLine;
   }
   if (RunHiddenCommand(app, argc, argv)) return kDone;
+  NameStandardInput(argc, argv);
   RequireKnownCommand(app, argv[1]);
   AdviseOwnOptions(app, argv[1]);
   try {
