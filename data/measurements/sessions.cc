@@ -11,8 +11,10 @@
 #include "data/column_words.h"
 #include "data/columns.h"
 #include "data/measurements/column_checks.h"
+#include "data/measurements/cycle_restarts.h"
 #include "data/measurements/date_time.h"
 #include "data/measurements/joined_tables.h"
+#include "data/measurements/reading/clock_columns.h"
 #include "data/measurements/reading/row_columns.h"
 #include "data/measurements/text_times.h"
 #include "data/text.h"
@@ -32,10 +34,12 @@ class SessionFinder : private RowColumns {
         clock_(std::move(clues.clock)),
         nights_(clues.nights),
         passes_(std::move(clues.passes)),
-        cycles_(std::move(clues.cycles)),
         blocks_(clues.blocks),
         rows_repeat_(clues.rows_repeat) {
     found_.ordered = clues.ordered;
+    if (clues.ordered) {
+      restarts_ = FindCycleRestarts(table, rows, clues.cycles);
+    }
   }
 
   FoundSessions Find() {
@@ -169,74 +173,18 @@ class SessionFinder : private RowColumns {
     }
     // A column of dates tells the days where the time does not.
     if (found_.time_column >= 0 && !clock_.hours_alone) return;
-    const std::optional<std::size_t> date = DateColumn();
-    if (!date || CyclesCountOver(table_.columns[*date]) ||
-        !TakeSessions(*date, false)) {
+    const std::ptrdiff_t date = ColumnOfDates(table_, selection_);
+    if (date < 0 ||
+        (restarts_ && CountOver(*restarts_, table_.At(date), rows_)) ||
+        !TakeSessions(static_cast<std::size_t>(date), false)) {
       return;
     }
     found_.by = "dates";
     if (CyclesPartFurther()) found_.sessions = {};
   }
 
-  // Whether cycles count anew more often than there are sessions, each time in
-  // another one or where what else is called a session changes: days and the
-  // shifts of each.
   bool CyclesPartFurther() const {
-    const std::vector<Index>& codes = found_.sessions.codes;
-    for (const std::ptrdiff_t column : cycles_) {
-      if (column < 0 || !CountsAnew(table_.At(column))) continue;
-      const CsvColumn& cycle = table_.At(column);
-      const double way = FirstStep(cycle);
-      std::size_t anew = 1;
-      for (std::size_t i = 1; i < rows_.size(); ++i) {
-        const bool begins = way * StepOf(cycle, i) < 0.0;
-        const bool other = codes[i] != codes[i - 1];
-        if ((other && !begins) || (begins && !other && !OtherLabelChanges(i))) {
-          return false;
-        }
-        anew += begins ? 1 : 0;
-      }
-      return anew > found_.sessions.labels.size();
-    }
-    return false;
-  }
-
-  // Whether a row and the one before it differ in what may be called a session
-  // and is no cycle.
-  bool OtherLabelChanges(std::size_t i) const {
-    return std::ranges::any_of(table_.columns, [&](const CsvColumn& column) {
-      return !IsCalled(column.name, Word::kCycle) &&
-             (IsCalled(column.name, Word::kSession) ||
-              IsCalled(column.name, Word::kRun) ||
-              IsCalled(column.name, Word::kCounter)) &&
-             table_.CellText(column, DataRow(i)) !=
-                 table_.CellText(column, DataRow(i - 1));
-    });
-  }
-
-  // Whether cycles that count anew do so less often than the date changes: they
-  // go on over midnight.
-  bool CyclesCountOver(const CsvColumn& date) const {
-    for (const std::ptrdiff_t column : cycles_) {
-      if (column < 0 || !CountsAnew(table_.At(column))) continue;
-      const CsvColumn& cycle = table_.At(column);
-      const double way = FirstStep(cycle);
-      std::size_t begins = 1;
-      std::size_t days = 1;
-      for (std::size_t i = 1; i < rows_.size(); ++i) {
-        begins += way * StepOf(cycle, i) < 0.0 ? 1 : 0;
-        days += date.TextAt(DataRow(i)) != date.TextAt(DataRow(i - 1)) ? 1 : 0;
-      }
-      return begins > 1 && begins < days;
-    }
-    return false;
-  }
-
-  // The only column of dates without hours.
-  std::optional<std::size_t> DateColumn() const {
-    const auto dates = ColumnsOf(HoldsDates);
-    if (dates.size() != 1) return std::nullopt;
-    return dates.front();
+    return restarts_ && PartFurther(*restarts_, found_.sessions, table_, rows_);
   }
 
   // Whether one clock runs through all of several files, so that its pauses
@@ -271,7 +219,8 @@ class SessionFinder : private RowColumns {
     if (!is_surely && !passes_.empty() && IsPassOfEach(codes)) {
       return "numbers passes along the axis, which are no sessions";
     }
-    if (come_again_ && (found_.dated || DateColumn())) {
+    if (come_again_ &&
+        (found_.dated || ColumnOfDates(table_, selection_) >= 0)) {
       return "comes again on other days";
     }
     if (!found_.dated || column.name == kFileColumn) return "";
@@ -450,16 +399,11 @@ class SessionFinder : private RowColumns {
   }
 
   bool CutWhereCyclesCountAnew() {
-    for (const std::ptrdiff_t column : cycles_) {
-      if (column < 0 || !CountsAnew(table_.At(column))) continue;
-      const CsvColumn& cycle = table_.At(column);
-      const double way = FirstStep(cycle);
-      CutWhere([&](std::size_t i) { return way * StepOf(cycle, i) < 0.0; });
-      found_.by = "counter";
-      found_.counter = cycle.name;
-      return true;
-    }
-    return false;
+    if (!restarts_) return false;
+    CutWhere([&](std::size_t i) { return restarts_->begins[i]; });
+    found_.by = "counter";
+    found_.counter = restarts_->column;
+    return true;
   }
 
   template <typename Begins>
@@ -475,38 +419,10 @@ class SessionFinder : private RowColumns {
     }
   }
 
-  double StepOf(const CsvColumn& column, std::size_t i) const {
-    return column.values[DataRow(i)] - column.values[DataRow(i - 1)];
-  }
-
-  // 0: none.
-  double FirstStep(const CsvColumn& column) const {
-    for (std::size_t i = 1; i < rows_.size(); ++i) {
-      if (StepOf(column, i) != 0.0) return StepOf(column, i);
-    }
-    return 0.0;
-  }
-
-  // Whether cycles, some rows each, count up or down, and anew now and then.
-  bool CountsAnew(const CsvColumn& column) const {
-    if (!found_.ordered || column.is_text() || !column.exceptions.empty()) {
-      return false;
-    }
-    const double way = FirstStep(column);
-    std::size_t runs = 1;
-    std::size_t back = 0;
-    for (std::size_t i = 1; i < rows_.size(); ++i) {
-      const double step = way * StepOf(column, i);
-      runs += step != 0.0 ? 1 : 0;
-      back += step < 0.0 ? 1 : 0;
-    }
-    return back > 0 && runs >= 2 * back && rows_.size() >= 2 * runs;
-  }
-
   Clock clock_;
   Nights nights_;
   std::vector<Index> passes_;
-  std::vector<std::ptrdiff_t> cycles_;
+  std::optional<CycleRestarts> restarts_;
   std::ptrdiff_t blocks_;
   bool rows_repeat_;
   bool come_again_ = false;  // names of sessions, after others

@@ -26,7 +26,8 @@ class ClockFinder : private RowColumns {
   ClockFinder(const CsvTable& table,
               const DatasetSelection& selection,
               const std::vector<Index>& rows)
-      : RowColumns(table, selection, rows) {
+      : RowColumns(table, selection, rows),
+        dates_(ColumnOfDates(table, selection)) {
     UseRowNumbers();
   }
 
@@ -169,8 +170,7 @@ class ClockFinder : private RowColumns {
 
   // The names of files tell days apart, and not the time of a next file.
   bool HasDatesBeside() const {
-    const std::ptrdiff_t date = ColumnOfDates(table_, selection_);
-    return date >= 0 && table_.At(date).name != kFileColumn;
+    return dates_ >= 0 && table_.At(dates_).name != kFileColumn;
   }
 
   // As Excel counts hours beside a column of dates.
@@ -186,7 +186,7 @@ class ClockFinder : private RowColumns {
   // not.
   bool TellsTheHour(const std::vector<double>& values) const {
     if (!HasDatesBeside()) return false;
-    const CsvColumn& dates = table_.At(ColumnOfDates(table_, selection_));
+    const CsvColumn& dates = table_.At(dates_);
     const double pause = kLeapSteps * PaceOf(values).step;
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (values[i] < 0.0 || values[i] >= kSecondsOfDay) return false;
@@ -209,9 +209,8 @@ class ClockFinder : private RowColumns {
 
   // The days of hours that stand in a column of their own.
   void AddDates(std::vector<double>* values, std::vector<bool>* known) {
-    const std::ptrdiff_t at = ColumnOfDates(table_, selection_);
-    if (at < 0) return;
-    const CsvColumn& column = table_.At(at);
+    if (dates_ < 0) return;
+    const CsvColumn& column = table_.At(dates_);
     const TextTimes dates = ReadTimes(column);
     std::vector<double> days;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -222,7 +221,7 @@ class ClockFinder : private RowColumns {
                                    text - column.texts.data())];
       days.push_back(place.value_or(std::nan("")));
     }
-    if (!AddDays(at, std::move(days), values, known)) return;
+    if (!AddDays(std::move(days), values, known)) return;
     clock_.dated = true;
     clock_.hours_alone = false;
     clock_.origin = "1970";
@@ -250,8 +249,7 @@ class ClockFinder : private RowColumns {
   // Adds the days (NaN: missing) of another column to times of day. Between
   // rows of one day it is that day; else the time is not known, or without
   // leave to drop rows no day is.
-  bool AddDays(std::ptrdiff_t column,
-               std::vector<double> days,
+  bool AddDays(std::vector<double> days,
                std::vector<double>* values,
                std::vector<bool>* known) {
     std::vector<double> next(days.size(), std::nan(""));  // from each row on
@@ -268,7 +266,7 @@ class ClockFinder : private RowColumns {
       if (!lack[i]) before = days[i];
     }
     for (std::size_t i = 0; i < lack.size(); ++i) {
-      if (lack[i] && !MayBeMissing(static_cast<std::size_t>(column),
+      if (lack[i] && !MayBeMissing(static_cast<std::size_t>(dates_),
                                    DataRow(i),
                                    false,
                                    &clock_.remarks)) {
@@ -280,7 +278,7 @@ class ClockFinder : private RowColumns {
       (*values)[i] += days[i] + (next_day[i] ? kSecondsOfDay : 0.0);
       (*known)[i] = (*known)[i] && !lack[i];
     }
-    clock_.date_column = column;
+    clock_.date_column = dates_;
     return true;
   }
 
@@ -385,6 +383,7 @@ class ClockFinder : private RowColumns {
     for (double& value : *values) value = std::round(1e3 * value) / 1e3;
   }
 
+  std::ptrdiff_t dates_;  // the only column of dates without hours, or -1
   Clock clock_;
 };
 

@@ -27,7 +27,7 @@ class ClockColumns : private RowColumns {
     std::vector<std::vector<std::size_t>> found(6);
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       const CsvColumn& column = table_.columns[i];
-      if (IsMeasured(i) || Repeats(i)) continue;
+      if (IsMeasured(i)) continue;
       if (column.is_text()) {
         const bool named =
             NamesTime(column.name) || Says(column.name, Word::kTime);
@@ -39,11 +39,10 @@ class ClockColumns : private RowColumns {
         }
         continue;
       }
-      if (NamesTime(column.name)) {
-        found[StartsWithIgnoringCase(column.name, "time") ? 1 : 2].push_back(i);
-      } else if (MayBeTime(column)) {
-        found[4].push_back(i);
-      }
+      const bool is_named = NamesTime(column.name);
+      if (!(is_named || MayBeTime(column)) || Repeats(i)) continue;
+      const bool is_time = StartsWithIgnoringCase(column.name, "time");
+      found[is_time ? 1 : is_named ? 2 : 4].push_back(i);
     }
     // When each session was begun, beside the time since then.
     if (found[0].size() == 1 && !found[4].empty() && Stands(found[0][0])) {

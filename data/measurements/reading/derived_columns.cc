@@ -80,7 +80,8 @@ std::optional<DerivedTarget> Difference(const CsvTable& table,
     Unit of_a = UnitOfColumn(table.At(a).name);
     Unit of_b = UnitOfColumn(table.At(b).name);
     const Unit& in = unit.symbol.empty() ? of_b : unit;
-    if (of_a.symbol.empty() && of_b.symbol.empty()) of_a = of_b = in;
+    // Neither says its unit: it is that of the difference.
+    if (of_a.symbol.empty() && of_b.symbol.empty()) of_a = of_b = unit;
     if (!AreConvertible(of_a, in) || !AreConvertible(of_b, in)) continue;
     const ColumnValues& taken_off = table.At(b).values;
     CsvColumn column =
