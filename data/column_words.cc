@@ -169,6 +169,12 @@ std::vector<std::string> WordsOf(std::string_view column) {
   return words;
 }
 
+bool HasWordOf(std::string_view text, std::string_view list) {
+  return std::ranges::any_of(WordsOf(text), [&](const std::string& word) {
+    return IsOneOf(word, list);
+  });
+}
+
 bool SayAny(const std::vector<std::string>& words, Word word) {
   return std::ranges::any_of(words, [&](const std::string& said) {
     return std::ranges::any_of(WordsFor(word), [&](std::string_view known) {

@@ -32,6 +32,10 @@ enum class Word {
 /// "x", "pos" of "X_Pos [mm]".
 std::vector<std::string> WordsOf(std::string_view column);
 
+/// Whether one of the words of a text (WordsOf) stands in a list, which blanks
+/// part.
+bool HasWordOf(std::string_view text, std::string_view list);
+
 /// Whether one of these words (WordsOf) is such a word, or a longer one with it
 /// in it ("positionsabweichung").
 bool SayAny(const std::vector<std::string>& words, Word word);

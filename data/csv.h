@@ -65,8 +65,8 @@ struct CsvTable {
   /// Of several files: (first row, file as given), ascending; else empty.
   std::vector<std::pair<std::size_t, std::string>> parts;
 
-  /// Lines and comments above the table, and lines of words among its rows: a
-  /// program's name, a date, the axis.
+  /// Lines of words and comments above and below the table: a program's name, a
+  /// date, the axis.
   std::vector<std::string> titles;
   /// What was not plain in the file and how it was read, one line each, to be
   /// told to whoever uses the table.

@@ -14,7 +14,7 @@
 #include "data/measurements/reading/derived_columns.h"
 #include "data/measurements/reading/reading.h"
 #include "data/measurements/sessions.h"
-#include "data/tables/shapes/title_notes.h"
+#include "data/tables/shapes/sign_notes.h"
 #include "data/text.h"
 #include "data/units.h"
 

@@ -16,8 +16,8 @@
 #include "data/tables/csv_parser.h"
 #include "data/tables/shapes/folded_positions.h"
 #include "data/tables/shapes/long_table.h"
-#include "data/tables/shapes/title_notes.h"
 #include "data/tables/shapes/turned_table.h"
+#include "data/tables/shapes/unit_notes.h"
 #include "data/tables/text/gzip.h"
 #include "data/tables/text/rewritten_text.h"
 #include "data/tables/text/spreadsheet.h"
@@ -139,7 +139,7 @@ CsvTable ParseCsv(std::string_view text, const std::string& name, OddRows odd) {
   TurnTable(&table);
   FoldPositions(&table);
   SpreadReadings(&table);
-  TakeUnitOfNotes(&table);
+  TakeUnitsOfNotes(&table);
   if (!converted.encoding.empty()) {
     table.remarks.insert(table.remarks.begin(),
                          PrintablePath(name) + ": the text is read as " +

@@ -280,7 +280,7 @@ class Parser {
     PartByTitles(title_lines_, odd_rows_.num_names(), &table_);
     PartByBlankLines(blanks_, &table_);
     for (const TitleLine& line : title_lines_) {
-      if (line.row > 0) titles.push_back(line.text);
+      if (line.row == table_.num_rows) titles.push_back(line.text);
     }
   }
 
@@ -338,7 +338,7 @@ class Parser {
       if (cells_.front() == '#') {
         title_lines_.push_back({.row = table_.num_rows, .text = TakeComment()});
       } else if (cells_.AtBlankLine()) {
-        AddBlankLine();
+        AddBlankLine(cells_.line());
         cells_.SkipLine();
       } else {
         if (blank_.count > 0 && table_.columns.size() == 1) {
@@ -357,9 +357,9 @@ class Parser {
     }
   }
 
-  void AddBlankLine() {
+  void AddBlankLine(std::size_t line) {
     if (blank_.count++ > 0) return;
-    blank_.line = cells_.line();
+    blank_.line = line;
     blank_.row = table_.num_rows;
   }
   // Before a row that is one.
@@ -398,7 +398,7 @@ class Parser {
     }
     if (layout_.width > 1 && num_numbers_ == 0 && IsEmptyRow(table_, column_)) {
       rows_->Undo(column_);
-      AddBlankLine();
+      AddBlankLine(line);
       return;
     }
     EndBlankLines();

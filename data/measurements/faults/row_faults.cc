@@ -32,17 +32,15 @@ using Eigen::VectorXd;
 
 // "Mean", "1 Average", "End of file".
 bool IsSummary(std::string_view text) {
-  constexpr std::string_view kSummaries =
-      "ergebnis teilergebnis gesamtergebnis mean average avg total totals "
-      "subtotal sum summe gesamt mittel "
-      "mittelwert moyenne media min max minimum maximum std stdev sd sigma "
-      "median count range rms anzahl eof end ende massimo minimo medel "
-      "gemiddelde suma celkem razem \u6700\u5927\u503c \u6700\u5c0f\u503c "
-      "\u5e73\u5747\u503c \u5e73\u5747";
-  const std::vector<std::string> words = WordsOf(text);
-  return std::ranges::any_of(words, [&](const std::string& word) {
-    return IsOneOf(word, kSummaries);
-  });
+  return HasWordOf(
+      text,
+      "mean average avg total totals subtotal sum summe gesamt ergebnis "
+      "teilergebnis gesamtergebnis mittel mittelwert moyenne media min max "
+      "minimum maximum std stdev sd sigma median count range rms anzahl eof "
+      "end "
+      "ende massimo minimo medel gemiddelde suma celkem razem "
+      "\u6700\u5927\u503c \u6700\u5c0f\u503c \u5e73\u5747\u503c "
+      "\u5e73\u5747");
 }
 
 // Of the rows, what numbers or times must be for a word to be out of place.

@@ -114,8 +114,8 @@ void PartByTitles(const std::vector<TitleLine>& lines,
   if (tell) name = NameLabels(&labels);
   if (!tell || HasColumnOf(*table, name)) {
     const auto told = std::ranges::find_if(lines, [](const TitleLine& line) {
-      return line.row > 0 && (Says(line.text, Word::kSession) ||
-                              !DateTokenIn(line.text).empty());
+      return line.row > 0 &&
+             (Says(line.text, Word::kSession) || HoldsDate(line.text));
     });
     if (told != lines.end() && !tell) {
       say("lines among the rows part no sessions: " + QuotedText(told->text) +

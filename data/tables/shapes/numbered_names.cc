@@ -96,11 +96,12 @@ bool TakePlace(std::string_view* rest, PlacedName* placed) {
   return true;
 }
 
-// "x 1" is one of several; "50", "50 [um]" and "x50 [um]" may be positions.
-bool MayBeBare(std::size_t before, std::string_view rest) {
+// "x 1" is one of several; "50", "50 [um]", "x50 [um]" and "X=50 [um]" may be
+// positions.
+bool MayBeBare(std::size_t before, bool is_marked, std::string_view rest) {
   const Header header = ReadHeader("x" + std::string(rest));
   return (before == 0 && (rest.empty() || IsLengthOrAngle(header.unit))) ||
-         (before == 1 && IsUnitOfErrors(header.unit));
+         ((before == 1 || is_marked) && IsUnitOfErrors(header.unit));
 }
 
 // "up" and "down" of a sign that ends a name but for its unit: "Pass 1 - [um]".
@@ -160,7 +161,7 @@ std::optional<PlacedName> ReadPlacedName(std::string_view name) {
   if (!TakePlace(&rest, &placed)) return std::nullopt;
   if (placed.unit.empty() && has_at) placed.unit = "mm";
   if (placed.unit.empty() && before->empty() &&
-      !MayBeBare(placed.is_marked ? 1 : at, rest)) {
+      !MayBeBare(at, placed.is_marked, rest)) {
     return std::nullopt;
   }
   // What follows is the unit of the quantity: "_um", " [um]", or nothing.

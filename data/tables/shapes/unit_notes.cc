@@ -1,0 +1,120 @@
+#include "data/tables/shapes/unit_notes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "data/column_words.h"
+#include "data/tables/cells/unit_cells.h"
+#include "data/text.h"
+#include "data/units.h"
+
+namespace errmap::data {
+namespace {
+
+// A line that states units, and of what; "" for no unit of a kind, or several.
+struct UnitNote {
+  std::string size;         // of lengths or angles
+  std::string temperature;  // "degF"
+  bool of_all = false;
+  bool of_errors = false;
+  bool of_positions = false;
+  bool of_temperatures = false;
+};
+
+// Only words without a number state them.
+void ReadUnits(const std::string& text, UnitNote* note) {
+  if (HasDigit(text)) return;
+  std::set<std::string> sizes;
+  std::set<std::string> temperatures;
+  constexpr std::string_view kBetween = " \t,;:.=()[]\"";
+  std::string_view rest = text;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find_first_of(kBetween), rest.size());
+    const std::string word(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    const Header header = ReadHeader("x [" + word + "]");
+    // "in" is a word, too.
+    if (word == "in" || header.source != UnitSource::kStated) continue;
+    if (header.unit.quantity == Quantity::kTemperature) {
+      temperatures.insert(header.unit.symbol);
+    } else if (IsLengthOrAngle(header.unit)) {
+      sizes.insert(header.unit.symbol);
+    }
+  }
+  if (!temperatures.empty()) sizes.erase("deg");  // "degrees Fahrenheit"
+  if (sizes.size() == 1) note->size = *sizes.begin();
+  if (temperatures.size() == 1) note->temperature = *temperatures.begin();
+}
+
+std::optional<UnitNote> ReadUnitNote(const std::string& text) {
+  UnitNote note;
+  ReadUnits(text, &note);
+  if (note.size.empty() && note.temperature.empty()) return std::nullopt;
+  const std::vector<std::string> words = WordsOf(text);
+  note.of_all = HasWordOf(
+      text,
+      "all units unit alle einheit einheiten tous toutes unite unites tutti "
+      "tutte unita todos todas unidad unidades");
+  note.of_errors = SayAny(words, Word::kError);
+  note.of_positions = SayAny(words, Word::kPosition);
+  note.of_temperatures = SayAny(words, Word::kTemperature);
+  return note;
+}
+
+// Machine tools err by less than a millimetre: the unit is not that of errors.
+bool AreTooMuch(const CsvColumn& column, const std::string& unit) {
+  return unit == "mm" && std::ranges::any_of(column.values, [](double value) {
+           return std::abs(value) > 1.0;
+         });
+}
+
+// The unit that a note gives a column whose name has none; "" for none.
+std::string UnitFor(const CsvColumn& column, const UnitNote& note) {
+  if (StatesTemperature(column.name) ||
+      UnitOfColumn(column.name).quantity == Quantity::kTemperature) {
+    return note.of_all || note.of_temperatures ? note.temperature : "";
+  }
+  if (ErrorSign(column.name) != 0) {
+    const bool is_meant = note.of_all || note.of_errors;
+    return is_meant && !AreTooMuch(column, note.size) ? note.size : "";
+  }
+  // All lengths in mm or um may be those of errors.
+  const bool is_of_axis =
+      note.of_positions || (note.of_all && note.size != "mm" &&
+                            !IsUnitOfErrors(UnitOfSymbol(note.size)));
+  return is_of_axis && !note.of_errors && IsCalledPosition(column.name)
+             ? note.size
+             : "";
+}
+
+}  // namespace
+
+void TakeUnitsOfNotes(CsvTable* table) {
+  for (const std::string& text : table->titles) {
+    const std::optional<UnitNote> note = ReadUnitNote(text);
+    if (!note) continue;
+    bool any = false;
+    for (CsvColumn& column : table->columns) {
+      if (column.is_text() ||
+          ReadHeader(column.name).source == UnitSource::kStated) {
+        continue;
+      }
+      const std::string unit = UnitFor(column, *note);
+      if (unit.empty()) continue;
+      column.name = NameWithUnit(column.name, unit).value_or(column.name);
+      any = true;
+    }
+    if (any) {
+      table->remarks.push_back(PrintablePath(table->file) + ": " +
+                               QuotedText(text) +
+                               " gives the unit of columns that have none");
+    }
+  }
+}
+
+}  // namespace errmap::data
