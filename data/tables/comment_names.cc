@@ -47,16 +47,6 @@ std::vector<std::string> CellsOfComment(std::string_view text,
   return cells;
 }
 
-void AddUnits(const std::vector<std::string>& units,
-              std::vector<std::string>* names) {
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    std::string unit = AsUtf8(units[i]);
-    if (!ReadUnitCell(&unit) || unit.empty()) continue;
-    std::string& name = (*names)[i];
-    name = NameWithUnit(AsUtf8(name), unit).value_or(name);
-  }
-}
-
 }  // namespace
 
 CommentNames FindNamesInComments(std::string_view above,
@@ -84,7 +74,9 @@ CommentNames FindNamesInComments(std::string_view above,
       found = {.names = std::move(cells), .line = line};
     }
   }
-  if (found.line > 0) AddUnits(units, &found.names);
+  for (std::size_t i = 0; found.line > 0 && i < units.size(); ++i) {
+    AddUnitOfCell(units[i], &found.names[i]);
+  }
   return found;
 }
 

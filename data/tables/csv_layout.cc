@@ -157,10 +157,7 @@ class LayoutFinder {
   void TakeUnitsBelow(std::size_t row) {
     const std::vector<std::string>& units = records_[row + 1].cells;
     for (std::size_t i = 0; i < std::min(units.size(), usual_); ++i) {
-      std::string unit = AsUtf8(units[i]);
-      std::string& name = layout_.names[i];
-      if (!columns_.Holds(i) || !ReadUnitCell(&unit) || unit.empty()) continue;
-      name = NameWithUnit(AsUtf8(name), unit).value_or(name);
+      if (columns_.Holds(i)) AddUnitOfCell(units[i], &layout_.names[i]);
     }
     layout_.data = After(row + 2);
     Say("line " + std::to_string(records_[row + 2].start.line) +
@@ -210,10 +207,7 @@ class LayoutFinder {
     const bool has_others = TellAnError(layout_.names, meant);
     if (has_others) layout_.names = std::move(meant);
     for (std::size_t i = 0; i < usual_; ++i) {
-      std::string unit = AsUtf8(units[i]);
-      if (!columns_.Holds(i) || !ReadUnitCell(&unit) || unit.empty()) continue;
-      std::string& name = layout_.names[i];
-      name = NameWithUnit(AsUtf8(name), unit).value_or(name);
+      if (columns_.Holds(i)) AddUnitOfCell(units[i], &layout_.names[i]);
     }
     Say("line " + std::to_string(records_[row - 1].start.line) +
         " has the units of the columns" +

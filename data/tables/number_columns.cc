@@ -40,6 +40,7 @@ void NumberColumns::FindLabels(const std::vector<CsvRecord>& records,
   for (const CsvRecord& record : records) {
     if (record.cells.size() != width) continue;
     for (std::size_t i = 0; i < width; ++i) {
+      if (!is_first && labels_[i].empty()) continue;
       std::string_view cell = record.cells[i];
       const std::string label = TakeLabel(&cell).text;
       if (is_first) labels_[i] = label;

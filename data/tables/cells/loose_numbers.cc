@@ -255,7 +255,9 @@ std::optional<std::string> FreeNameWithUnit(const CsvTable& table,
 }  // namespace
 
 void TakeUnitsOfCells(bool decimal_comma, CsvTable* table) {
+  std::size_t number = 0;
   for (CsvColumn& column : table->columns) {
+    const std::string unnamed = "column_" + std::to_string(++number);
     if (!column.is_text() || column.values.empty()) continue;
     const auto cells = ReadUnitCells(column, decimal_comma);
     if (!cells) continue;
@@ -268,7 +270,7 @@ void TakeUnitsOfCells(bool decimal_comma, CsvTable* table) {
           (cells->label.is_axis ? " are words of a program, read as positions "
                                 : " begin with their name, ") +
           label);
-      if (column.name.starts_with("column_") ||
+      if (column.name == unnamed ||
           (cells->label.is_axis && !IsCalledPosition(column.name))) {
         column.name = FreeName(*table, label);
       }

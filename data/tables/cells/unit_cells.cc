@@ -76,4 +76,10 @@ std::optional<std::string> NameWithUnit(const std::string& name,
   return name;
 }
 
+void AddUnitOfCell(const std::string& cell, std::string* name) {
+  std::string unit = AsUtf8(cell);
+  if (!ReadUnitCell(&unit) || unit.empty()) return;
+  *name = NameWithUnit(AsUtf8(*name), unit).value_or(*name);
+}
+
 }  // namespace errmap::data

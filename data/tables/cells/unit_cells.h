@@ -28,4 +28,8 @@ bool AreRules(const std::vector<std::string>& cells);
 std::optional<std::string> NameWithUnit(const std::string& name,
                                         std::string_view unit);
 
+/// Adds the unit in a cell to a name that states none; another cell, or another
+/// unit than the name states, changes nothing.
+void AddUnitOfCell(const std::string& cell, std::string* name);
+
 }  // namespace errmap::data

@@ -43,20 +43,11 @@ bool IsInSingleQuotes(std::string_view line) {
   return true;
 }
 
-std::size_t CellsApart(std::string_view line) {
+// Cells that so many blanks or more part.
+std::size_t CellsParted(std::string_view line, std::string_view blanks) {
   std::size_t cells = 1;
-  for (std::size_t at = line.find("  "); at != line.npos;
-       at = line.find("  ", at)) {
-    ++cells;
-    at = line.find_first_not_of(' ', at);
-  }
-  return cells;
-}
-
-std::size_t CellsByBlanks(std::string_view line) {
-  std::size_t cells = 1;
-  for (std::size_t at = line.find(' '); at != line.npos;
-       at = line.find(' ', at)) {
+  for (std::size_t at = line.find(blanks); at != line.npos;
+       at = line.find(blanks, at)) {
     ++cells;
     at = line.find_first_not_of(' ', at);
   }
@@ -68,11 +59,11 @@ std::size_t CellsByBlanks(std::string_view line) {
 bool IsSetApart(const std::vector<std::string_view>& lines) {
   constexpr std::size_t kFewest = 3;
   if (lines.size() < kFewest) return false;
-  const std::size_t names = CellsApart(lines[0]);
-  return names > 1 && CellsByBlanks(lines[0]) != names &&
+  const std::size_t names = CellsParted(lines[0], "  ");
+  return names > 1 && CellsParted(lines[0], " ") != names &&
          std::ranges::all_of(lines, [&](std::string_view line) {
            return line.find_first_of(",;\t|\"") == line.npos &&
-                  CellsApart(line) == names;
+                  CellsParted(line, "  ") == names;
          });
 }
 
