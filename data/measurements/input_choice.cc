@@ -172,71 +172,86 @@ class InputChooser {
     return steps.on > 2 * steps.back;
   }
 
+  bool IsTaken(std::size_t i) const {
+    return i == roles_.target || Is(roles_.group, i) || Is(roles_.weight, i) ||
+           Is(found_.time_column, i) || Is(found_.date_column, i) ||
+           (Is(roles_.direction, i) && !table_.At(i).is_text()) ||
+           Name(i) == found_.sessions.column || IsFiltered(i);
+  }
+
+  // Words, or nothing at all.
+  void ConsiderText(std::size_t i) {
+    const CsvColumn& column = table_.At(i);
+    if (NamesPosition(column.name)) {
+      RefuseNumbersAsText(table_, column);
+    } else if (IsAllMissing(column)) {
+      Drop(i, "no number in any row");
+      chosen_.remarks.push_back("input " + NameInRemark(column.name) +
+                                " has no number in any row and is left out");
+    } else if (!HoldsTimes(column)) {
+      RefuseNumbersAsText(table_, column);
+      if (!PartsComponents(table_, column)) texts_.push_back(column.name);
+      chosen_.words.push_back(i);
+    }
+  }
+
+  // Why a column of numbers is no default input, kept for what is said of all
+  // such; "" where it is one.
+  std::string_view WhyNone(std::size_t i, const MeasuredBeside& measured) {
+    const CsvColumn& column = table_.At(i);
+    const bool is_axis = column.name == selection_.position;
+    if (!is_axis && CountsRows(column)) return "counts the rows";
+    if (IsAnotherClock(column)) return "is another clock";
+    if (is_axis) return "";
+    if (IsCalled(column.name, Word::kPart)) {
+      chosen_.words.push_back(i);
+      return "tells which one, and measures nothing";
+    }
+    const std::string_view why = measured.Why(column.name);
+    if (!why.empty()) beside_.push_back(column.name);
+    return why;
+  }
+
+  void Consider(std::size_t i, const MeasuredBeside& measured) {
+    const CsvColumn& column = table_.At(i);
+    if (IsUnnamed(column)) {
+      had_candidates_ = true;
+      Drop(i, "has no name in the header");
+      chosen_.remarks.push_back(
+          "column " + NameInRemark(column.name) +
+          " has no name in the header and is left out of the inputs");
+    } else if (column.is_text()) {
+      ConsiderText(i);
+    } else if (const std::string_view why = WhyNone(i, measured); why.empty()) {
+      chosen_.inputs.push_back(i);
+    } else {
+      had_candidates_ = true;
+      Drop(i, std::string(why));
+    }
+  }
+
   void ChooseDefaultInputs() {
     const std::unordered_set<std::string> excluded = ExcludedNames();
     const MeasuredBeside measured(Name(roles_.target));
-    std::vector<std::string> texts;
-    std::vector<std::string> beside;
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
-      if (i == roles_.target || Is(roles_.group, i) || Is(roles_.weight, i) ||
-          Is(found_.time_column, i) || Is(found_.date_column, i) ||
-          (Is(roles_.direction, i) && !table_.At(i).is_text()) ||
-          Name(i) == found_.sessions.column || IsFiltered(i)) {
-        continue;
-      }
-      if (KeepsRecord(table_.At(i))) {
-        if (!table_.At(i).is_text()) chosen_.records.push_back(i);
-        continue;
-      }
-      const std::string name = NameInRemark(Name(i));
-      if (excluded.contains(Name(i))) {
-        had_candidates_ = had_candidates_ || !table_.At(i).is_text();
-      } else if (IsUnnamed(table_.At(i))) {
-        had_candidates_ = true;
-        Drop(i, "has no name in the header");
-        chosen_.remarks.push_back(
-            "column " + name +
-            " has no name in the header and is left out of the "
-            "inputs");
-      } else if (NamesPosition(Name(i)) && table_.At(i).is_text()) {
-        RefuseNumbersAsText(table_, table_.At(i));
-      } else if (IsAllMissing(table_.At(i))) {
-        Drop(i, "no number in any row");
-        chosen_.remarks.push_back("input " + name +
-                                  " has no number in any row and is left out");
-      } else if (table_.At(i).is_text()) {
-        if (HoldsTimes(table_.At(i))) continue;
-        RefuseNumbersAsText(table_, table_.At(i));
-        if (!PartsComponents(table_, table_.At(i))) texts.push_back(Name(i));
-        chosen_.words.push_back(i);
-      } else if (CountsRows(table_.At(i)) && Name(i) != selection_.position) {
-        had_candidates_ = true;
-        Drop(i, "counts the rows");
-      } else if (IsAnotherClock(table_.At(i))) {
-        had_candidates_ = true;
-        Drop(i, "is another clock");
-      } else if (IsCalled(Name(i), Word::kPart) &&
-                 Name(i) != selection_.position) {
-        had_candidates_ = true;
-        Drop(i, "tells which one, and measures nothing");
-        chosen_.words.push_back(i);
-      } else if (const std::string_view why = measured.Why(Name(i));
-                 !why.empty() && Name(i) != selection_.position) {
-        had_candidates_ = true;
-        Drop(i, std::string(why));
-        beside.push_back(Name(i));
+      const CsvColumn& column = table_.At(i);
+      if (IsTaken(i)) continue;
+      if (KeepsRecord(column)) {
+        if (!column.is_text()) chosen_.records.push_back(i);
+      } else if (excluded.contains(column.name)) {
+        had_candidates_ = had_candidates_ || !column.is_text();
       } else {
-        chosen_.inputs.push_back(i);
+        Consider(i, measured);
       }
     }
-    const bool one = beside.size() == 1;
-    SayLeftOut(beside,
+    const bool one = beside_.size() == 1;
+    SayLeftOut(beside_,
                one ? "measures an error as the target does"
                    : "measure errors as the target does",
                "; name " + std::string(one ? "it" : "them") + " in " +
                    ArgumentName("inputs") + " to use " + (one ? "it" : "them"));
-    SayLeftOut(texts,
-               texts.size() == 1 ? "holds text" : "hold text",
+    SayLeftOut(texts_,
+               texts_.size() == 1 ? "holds text" : "hold text",
                " of the inputs");
     if (chosen_.inputs.empty() && found_.time_column >= 0) {
       had_candidates_ = true;
@@ -252,6 +267,8 @@ class InputChooser {
   const ColumnRoles& roles_;
   const FoundSessions& found_;
   bool had_candidates_ = false;  // numeric columns that might have been inputs
+  std::vector<std::string> texts_;   // names of columns of words
+  std::vector<std::string> beside_;  // of errors beside the target
   ChosenInputs chosen_;
 };
 
