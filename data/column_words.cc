@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "data/column_header.h"
 #include "data/text.h"
 #include "data/units.h"
 

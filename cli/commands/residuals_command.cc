@@ -17,6 +17,7 @@
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
+#include "data/column_header.h"
 #include "data/csv.h"
 #include "data/files/shown_path.h"
 #include "data/input_error.h"

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "data/column_header.h"
 #include "data/text.h"
 
 namespace errmap::desk {

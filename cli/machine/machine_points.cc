@@ -9,6 +9,7 @@
 
 #include "cli/report/number_text.h"
 #include "data/argument_name.h"
+#include "data/column_header.h"
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_match.h"

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/machine/machine_points.h"
+#include "data/column_header.h"
 #include "data/columns.h"
 #include "data/input_error.h"
 #include "data/measurements/column_match.h"

@@ -4,6 +4,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "data/column_header.h"
 #include "data/csv.h"
 #include "data/files/atomic_file.h"
 #include "data/formats/fortran_format.h"

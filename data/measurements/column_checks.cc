@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "data/argument_name.h"
+#include "data/column_header.h"
 #include "data/columns.h"
 #include "data/text.h"
 #include "data/units.h"

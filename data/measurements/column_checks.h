@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "data/column_header.h"
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
 #include "data/tables/cells/missing_cells.h"

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "data/column_header.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/reading/digit_dates.h"
 #include "data/measurements/reading/merged_cells.h"

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "data/column_header.h"
 #include "data/csv.h"
 #include "data/measurements/column_faults.h"
 #include "data/measurements/reading/reading.h"

@@ -6,11 +6,11 @@
 #include <set>
 #include <utility>
 
+#include "data/column_header.h"
 #include "data/columns.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/text_times.h"
 #include "data/text.h"
-#include "data/units.h"
 
 namespace errmap::data {
 namespace {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "data/column_header.h"
 #include "data/column_words.h"
 #include "data/tables/cells/missing_cells.h"
 #include "data/tables/cells/unit_cells.h"

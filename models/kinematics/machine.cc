@@ -1,5 +1,7 @@
 #include "models/kinematics/machine.h"
 
+#include "data/column_header.h"
+
 namespace errmap::models {
 
 data::Unit UnitOf(const Machine& machine, ErrorDirection direction) {

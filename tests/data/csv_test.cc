@@ -23,7 +23,7 @@ using ::testing::Not;
 using ::testing::Pair;
 
 // Message of the InputError, or what happened instead.
-std::string ErrorOf(std::string_view text) {
+std::string RefusalIn(std::string_view text) {
   try {
     ParseCsv(text, "f.csv");
   } catch (const InputError& error) {
@@ -339,84 +339,84 @@ TEST(ParseCsvError, EmptyFile) {
   const std::string message =
       "f.csv: the file is empty; it needs a line of column names and rows of "
       "numbers below";
-  EXPECT_EQ(ErrorOf(""), message);
-  EXPECT_EQ(ErrorOf("\xEF\xBB\xBF"), message);
+  EXPECT_EQ(RefusalIn(""), message);
+  EXPECT_EQ(RefusalIn("\xEF\xBB\xBF"), message);
 }
 
 TEST(ParseCsvError, OnlyCommentsOrBlankLines) {
   for (const char* text : {"# a\n# b", "\n\n", "  ", "\xEF\xBB\xBF#\n"}) {
-    EXPECT_THAT(ErrorOf(text), HasSubstr("f.csv: no header, only comments"))
+    EXPECT_THAT(RefusalIn(text), HasSubstr("f.csv: no header, only comments"))
         << text;
   }
 }
 
 TEST(ParseCsvError, HeaderAlone) {
-  EXPECT_EQ(ErrorOf("# x\na,b\n\n# nothing\n"),
+  EXPECT_EQ(RefusalIn("# x\na,b\n\n# nothing\n"),
             "f.csv: line 2: a header without data; put rows of numbers below "
             "it");
-  EXPECT_THAT(ErrorOf("a,b"), HasSubstr("a header without data"));
+  EXPECT_THAT(RefusalIn("a,b"), HasSubstr("a header without data"));
 }
 
 TEST(ParseCsvError, NumberWhereANameShouldBe) {
-  EXPECT_EQ(ErrorOf("a;1,5\n1;2\n"),
+  EXPECT_EQ(RefusalIn("a;1,5\n1;2\n"),
             "f.csv: line 1: no header: cell 2 is the number '1,5' where a "
             "column name should be; put a line of column names first (of "
             "errors at a position: error_um@1,5mm; of a run: Run 1,5 [um])");
 }
 
 TEST(ParseCsvError, RaggedRows) {
-  EXPECT_EQ(ErrorOf("a;b;c\n1;2;3\n4;5\n"),
+  EXPECT_EQ(RefusalIn("a;b;c\n1;2;3\n4;5\n"),
             "f.csv: line 3 (data row 1): 2 fields where the header has 3; "
             "complete the row or remove it");
-  EXPECT_THAT(ErrorOf("a;b\n1;2;3;4\n"),
+  EXPECT_THAT(RefusalIn("a;b\n1;2;3;4\n"),
               AllOf(HasSubstr("4 fields where"), Not(HasSubstr("decimal"))));
-  EXPECT_THAT(ErrorOf("a;b\n1\n"), HasSubstr("1 field where"));
+  EXPECT_THAT(RefusalIn("a;b\n1\n"), HasSubstr("1 field where"));
 }
 
 TEST(ParseCsvError, RaggedRowsHintAtDecimalCommas) {
-  EXPECT_THAT(ErrorOf("a,b\n1,5,2,5\n"),
+  EXPECT_THAT(RefusalIn("a,b\n1,5,2,5\n"),
               AllOf(HasSubstr("line 2 (data row 0): 4 fields where the header "
                               "has 2"),
                     HasSubstr("if these are decimal commas")));
 }
 
 TEST(ParseCsvError, BlankLineInsideTheData) {
-  EXPECT_EQ(ErrorOf("a\n1\n \n\n3\n"),
+  EXPECT_EQ(RefusalIn("a\n1\n \n\n3\n"),
             "f.csv: line 3: blank line inside the data; remove it, or start it "
             "with #");
 }
 
 TEST(ParseCsvError, QuoteNeverClosed) {
-  EXPECT_EQ(ErrorOf("a,b\n1,2\n3,\"open\n4,5\n6,7\n"),
+  EXPECT_EQ(RefusalIn("a,b\n1,2\n3,\"open\n4,5\n6,7\n"),
             "f.csv: line 3 (data row 1), column 'b': the quote that opens here "
             "is never closed; close it, or remove it");
-  EXPECT_THAT(ErrorOf("a,\"b\n1,2\n"), HasSubstr("f.csv: line 1: the quote"));
-  EXPECT_THAT(ErrorOf("a,b\n1,\""), HasSubstr("line 2 (data row 0)"));
+  EXPECT_THAT(RefusalIn("a,\"b\n1,2\n"), HasSubstr("f.csv: line 1: the quote"));
+  EXPECT_THAT(RefusalIn("a,b\n1,\""), HasSubstr("line 2 (data row 0)"));
 }
 
 TEST(ParseCsvError, TextAfterAClosingQuoteOfSeveralLines) {
-  EXPECT_EQ(ErrorOf("a,b\n1,2\n3,\"x\ny\" z\"\n"),
+  EXPECT_EQ(RefusalIn("a,b\n1,2\n3,\"x\ny\" z\"\n"),
             "f.csv: line 3 (data row 1), column 'b': the quote that opens here "
             "is never closed; close it, or remove it");
 }
 
 TEST(ParseCsvError, NulByte) {
-  EXPECT_THAT(ErrorOf(std::string_view("a,b\n1,2\n3,\0\n", 12)),
+  EXPECT_THAT(RefusalIn(std::string_view("a,b\n1,2\n3,\0\n", 12)),
               HasSubstr("f.csv: line 3: NUL byte"));
 }
 
 TEST(ParseCsvError, Utf16ThatBreaksOff) {
-  EXPECT_EQ(ErrorOf(std::string_view("\xFF\xFE"
-                                     "a\0b",
-                                     5)),
+  EXPECT_EQ(RefusalIn(std::string_view("\xFF\xFE"
+                                       "a\0b",
+                                       5)),
             "f.csv: UTF-16 that breaks off at byte 4; save it as CSV in UTF-8");
-  EXPECT_THAT(ErrorOf(std::string_view("\xFE\xFF\xDC\x00", 4)),
+  EXPECT_THAT(RefusalIn(std::string_view("\xFE\xFF\xDC\x00", 4)),
               HasSubstr("breaks off at byte 2"));
 }
 
 TEST(ParseCsvError, StaysOnOneReadableLine) {
   const auto with_name = [](const std::string& name) {
-    return ErrorOf(name + ",b\n1,2\n\"3,4\n");
+    return RefusalIn(name + ",b\n1,2\n\"3,4\n");
   };
   const std::string error = with_name(std::string(200, 'n'));
   EXPECT_THAT(error, HasSubstr("nnn...'"));
@@ -429,7 +429,7 @@ TEST(ParseCsvError, StaysOnOneReadableLine) {
 TEST(ParseCsvError, DoesNotCutACharacterInTwo) {
   std::string name;
   for (int i = 0; i < 100; ++i) name += "\u00e4";
-  EXPECT_THAT(ErrorOf(name + ",b\n1,2\n\"3,4\n"), HasSubstr("\u00e4...'"));
+  EXPECT_THAT(RefusalIn(name + ",b\n1,2\n\"3,4\n"), HasSubstr("\u00e4...'"));
 }
 
 TEST(ReadCsv, NamesAFileThatCannotBeRead) {
@@ -521,7 +521,7 @@ TEST(ParseCsv, SurvivesRandomPiecesOfCsv) {
       text += pieces[random() % pieces.size()];
     }
     ASSERT_NO_FATAL_FAILURE(ExpectTableOrInputError(text)) << text;
-    if (ErrorOf(text) == "no error") ++tables;
+    if (RefusalIn(text) == "no error") ++tables;
   }
   EXPECT_GT(tables, kTrials / 20);  // the test sees both outcomes
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "data/column_header.h"
 #include "tests/models/model_test_data.h"
 
 namespace errmap::models {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "data/column_header.h"
 #include "data/input_error.h"
 #include "models/model_file.h"
 #include "models/study/judgement/choice.h"

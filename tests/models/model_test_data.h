@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "data/column_header.h"
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"

@@ -14,12 +14,12 @@
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
+#include "data/column_header.h"
 #include "data/csv.h"
 #include "data/files/atomic_file.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/reading/read_table.h"
 #include "data/text.h"
-#include "data/units.h"
 #include "models/study/record/record_json.h"
 
 namespace errmap::cli {

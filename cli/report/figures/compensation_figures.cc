@@ -11,7 +11,7 @@
 
 #include "cli/report/figures/figure_parts.h"
 #include "cli/report/figures/held_out_rows.h"
-#include "data/units.h"
+#include "data/column_header.h"
 #include "stats/summary.h"
 
 namespace errmap::report {

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "data/units.h"
+#include "data/column_header.h"
 
 namespace errmap::report {
 

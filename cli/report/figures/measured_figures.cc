@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/report/figures/figure_parts.h"
+#include "data/column_header.h"
 #include "data/text.h"
 #include "data/units.h"
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "data/argument_name.h"
+#include "data/column_header.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/dataset.h"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "data/argument_name.h"
+#include "data/column_header.h"
 #include "data/column_words.h"
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"

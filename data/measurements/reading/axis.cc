@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "data/argument_name.h"
+#include "data/column_header.h"
 #include "data/column_words.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"

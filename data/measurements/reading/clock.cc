@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "data/argument_name.h"
+#include "data/column_header.h"
 #include "data/column_words.h"
 #include "data/measurements/date_time.h"
 #include "data/measurements/joined_tables.h"
@@ -14,7 +15,6 @@
 #include "data/measurements/sessions.h"
 #include "data/measurements/text_times.h"
 #include "data/text.h"
-#include "data/units.h"
 
 namespace errmap::data {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "data/column_header.h"
 #include "data/column_words.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/reading/axis.h"

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "data/column_header.h"
 #include "data/column_words.h"
 #include "data/columns.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/text_times.h"
 #include "data/text.h"
-#include "data/units.h"
 
 namespace errmap::data {
 namespace {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "data/argument_name.h"
+#include "data/column_header.h"
 #include "data/column_words.h"
 #include "data/columns.h"
 #include "data/measurements/reading/axis.h"

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "data/column_header.h"
 #include "data/files/shown_path.h"
-#include "data/units.h"
 
 namespace errmap::data {
 namespace {

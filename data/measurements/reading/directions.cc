@@ -4,11 +4,11 @@
 #include <optional>
 #include <utility>
 
+#include "data/column_header.h"
 #include "data/column_words.h"
 #include "data/columns.h"
 #include "data/measurements/row_filters.h"
 #include "data/text.h"
-#include "data/units.h"
 
 namespace errmap::data {
 

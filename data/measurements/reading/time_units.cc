@@ -6,11 +6,11 @@
 #include <string>
 #include <utility>
 
+#include "data/column_header.h"
 #include "data/column_words.h"
 #include "data/csv.h"
 #include "data/measurements/sessions.h"
 #include "data/text.h"
-#include "data/units.h"
 
 namespace errmap::data {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string_view>
 
+#include "data/column_header.h"
 #include "data/tables/cells/csv_cells.h"
 #include "data/text.h"
-#include "data/units.h"
 
 namespace errmap::data {
 

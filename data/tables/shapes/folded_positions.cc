@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "data/column_header.h"
 #include "data/column_words.h"
 #include "data/columns.h"
 #include "data/tables/shapes/numbered_names.h"

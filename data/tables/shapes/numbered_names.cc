@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 
+#include "data/column_header.h"
 #include "data/column_words.h"
 #include "data/text.h"
 #include "data/units.h"

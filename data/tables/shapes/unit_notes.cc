@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "data/column_header.h"
 #include "data/column_words.h"
 #include "data/tables/cells/unit_cells.h"
 #include "data/text.h"

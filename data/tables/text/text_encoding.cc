@@ -8,10 +8,10 @@
 #include <iconv.h>
 #include <optional>
 
+#include "data/column_header.h"
 #include "data/column_words.h"
 #include "data/input_error.h"
 #include "data/text.h"
-#include "data/units.h"
 
 namespace errmap::data {
 namespace {

@@ -92,4 +92,12 @@ inline Rows Changed(
 
 inline double Number(const std::string& text) { return std::stod(text); }
 
+inline Rows WithCell(std::size_t row,
+                     std::size_t column,
+                     const std::string& text) {
+  Rows rows = Measured();
+  rows[row + 1][column] = text;
+  return rows;
+}
+
 }  // namespace errmap::data::as_measured

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/turning_centre/simulation.h"
+#include "data/column_header.h"
 #include "data/measurements/dataset.h"
 #include "data/measurements/faults/drift_faults.h"
 #include "tests/data/measurements/as_measured.h"

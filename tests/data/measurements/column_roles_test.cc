@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "data/column_header.h"
 #include "tests/data/measurements/make_dataset_test_data.h"
 
 namespace errmap::data {

@@ -9,18 +9,18 @@
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
 #include "data/measurements/reading/reading.h"
+#include "tests/data/tables/small_tables.h"
 
 namespace errmap::data {
 namespace {
 
+using small_tables::NamesIn;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
 
 std::vector<std::string> ColumnsOf(const std::string& text) {
-  std::vector<std::string> names;
-  for (const CsvColumn& column : ParseCsv(text, "f.csv").columns) {
-    names.push_back(column.name);
-  }
-  return names;
+  return NamesIn(ParseCsv(text, "f.csv"));
 }
 
 Reading ReadingOfSheet(const std::string& text) {
@@ -220,6 +220,99 @@ TEST(FoldedRuns, LeaveOutWhatASheetMakesOfThem) {
   EXPECT_THAT(ParseCsv(text, "f.csv").remarks,
               ::testing::Contains(::testing::HasSubstr(
                   "; 'Mean', 'Range', 's' made of these left out")));
+}
+
+TEST(FoldedPositions, BecomeARowForEachReading) {
+  const CsvTable table = ParseCsv(
+      "day,e@-215.9mm_um,e@-203.2mm_um,e@+10mm_um,t_degC\n"
+      "1,2.5,NA,4,20\n2,5,6,7,21\n",
+      "f.csv");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("day", "t_degC", "position_mm", "error_um"));
+  EXPECT_THAT(table.columns[0].values, ElementsAre(1, 1, 1, 2, 2, 2));
+  EXPECT_THAT(table.columns[2].values,
+              ElementsAre(-215.9, -203.2, 10, -215.9, -203.2, 10));
+  EXPECT_THAT(table.columns[3].exceptions, ElementsAre(::testing::Pair(1, 0)));
+  EXPECT_EQ(table.columns[3].values[5], 7.0);
+  EXPECT_EQ(table.Where(4, "error_um"),
+            "f.csv: line 3 (data row 4), column 'error_um'");
+  EXPECT_THAT(table.remarks,
+              ElementsAre(HasSubstr("2 rows with a column for each of 3 "
+                                    "positions (-215.9 to 10 mm) are read as 6 "
+                                    "rows, of 'error_um'")));
+}
+
+TEST(FoldedPositions, AreSeveralQuantitiesOrNoneByTheirPositions) {
+  EXPECT_THAT(
+      NamesIn(ParseCsv("ex@1 mm [um],ex@2 mm [um],ex@3 mm [um],ey@1 mm [um],"
+                       "ey@2 mm [um],ey@3 mm [um]\n1,2,3,4,5,6\n",
+                       "f.csv")),
+      ElementsAre("position_mm", "ex [um]", "ey [um]"));
+  EXPECT_THAT(ParseCsv("a@1,a@2,b@1\n1,2,3\n", "f.csv").columns, SizeIs(3));
+  EXPECT_THAT(ParseCsv("t01_degC,t02_degC,t03_degC\n1,2,3\n", "f").columns,
+              SizeIs(3));
+}
+
+TEST(FoldedPositions, MayStandInParenthesesOrBehindAnAxis) {
+  for (const std::string names : {"err_um(0),err_um(50),err_um(100)",
+                                  "X0 [um],X50 [um],X100 [um]",
+                                  "X=0 (um),X=50 (um),X=100 (um)"}) {
+    const CsvTable table = ParseCsv("T1," + names + "\n20,1,2,3\n", "f.csv");
+    EXPECT_THAT(table.At(table.Find("position_mm")).values,
+                ElementsAre(0, 50, 100));
+    EXPECT_THAT(table.columns[2].values, ElementsAre(1, 2, 3));
+  }
+}
+
+TEST(FoldedPositions, AreThoseOfErrors) {
+  EXPECT_THAT(
+      ParseCsv("X [mm],Error [um],T@100mm [degC],T@200mm [degC],T@300mm "
+               "[degC]\n1,2,20,21,22\n",
+               "f.csv")
+          .columns,
+      SizeIs(5));
+}
+
+TEST(FoldedPositions, GoBlockByBlockInRunsAndWays) {
+  const CsvTable table = ParseCsv(
+      "cycle,X [mm],Error up [um],Error down [um]\n1,0,1,6\n1,50,2,5\n"
+      "1,100,3,4\n2,0,7,12\n2,50,8,11\n2,100,9,10\n",
+      "f.csv");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("cycle", "X [mm]", "direction", "error [um]"));
+  EXPECT_THAT(table.columns[3].values,
+              ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12));
+  EXPECT_EQ(table.CellText(table.columns[2], 3), "down");
+}
+
+// One after the other, in whatever order their columns stand.
+TEST(FoldedPositions, GoRunByRunInBothWays) {
+  for (const std::string names :
+       {"Lauf 1 hin,Lauf 2 hin,Lauf 1 her,Lauf 2 her",
+        "x1\u2191 [um],x2\u2191 [um],x1\u2193 [um],x2\u2193 [um]",
+        "1+ (um),2+ (um),1- (um),2- (um)",
+        "Test 1 Fwd,Test 2 Fwd,Test 1 Bwd,Test 2 Bwd",
+        "Series 1 up,Series 2 up,Series 1 down,Series 2 down"}) {
+    const CsvTable table =
+        ParseCsv("X [mm]," + names + "\n0,1,5,4,8\n50,2,6,3,7\n", "f.csv");
+    EXPECT_THAT(table.At(table.Find("cycle")).values,
+                ElementsAre(1, 1, 1, 1, 2, 2, 2, 2))
+        << names;
+    EXPECT_THAT(table.columns.back().values,
+                ElementsAre(1, 2, 3, 4, 5, 6, 7, 8))
+        << names;
+  }
+}
+
+TEST(FoldedPositions, MayBeOfSessionsAndTheirRuns) {
+  const CsvTable table = ParseCsv(
+      "X [mm],Day 1 Run 1 [um],Day 1 Run 2 [um],Day 2 Run 1 [um],"
+      "Day 2 Run 2 [um]\n0,1,2,3,4\n50,5,6,7,8\n",
+      "f.csv");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("X [mm]", "session", "cycle", "error [um]"));
+  EXPECT_THAT(table.columns[1].values, ElementsAre(1, 1, 1, 1, 2, 2, 2, 2));
+  EXPECT_THAT(table.columns[2].values, ElementsAre(1, 1, 2, 2, 1, 1, 2, 2));
 }
 
 }  // namespace

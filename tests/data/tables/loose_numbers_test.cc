@@ -8,12 +8,15 @@
 
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
+#include "tests/data/tables/small_tables.h"
 
 namespace errmap::data {
 namespace {
 
+using namespace small_tables;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 // Thousands go on from the whole numbers beside them; thirds do not.
 TEST(LooseNumbers, TellsThirdsFromThousands) {
@@ -66,6 +69,54 @@ TEST(UnitsOfCells, BecomePartOfANameThatIsFree) {
   EXPECT_EQ(table.columns[0].name, "T1_2 [degF]");
   EXPECT_THAT(table.columns[0].values, ElementsAre(68.5, 69.5));
   EXPECT_THAT(table.remarks, ElementsAre(HasSubstr("'T1_2 [degF]' carry")));
+}
+
+TEST(TableShape, ReadsOneColumnOfDecimalCommas) {
+  const CsvTable table =
+      ParseCsv("residual_um\n1,25\n0,40\n-0,75\n2\n", "f.csv");
+  ASSERT_THAT(table.columns, SizeIs(1));
+  EXPECT_THAT(table.columns[0].values, ElementsAre(1.25, 0.4, -0.75, 2.0));
+}
+
+TEST(ThousandsPoint, IsReadWhereTheOthersAreWholeNumbersOfThreeDigits) {
+  for (const char mark : {'.', ','}) {
+    const std::string text = std::string("x;e\n0;1\n450;2\n-900;3\n1") + mark +
+                             "050;4\n12" + mark + "600;5\n";
+    const CsvTable table = ParseCsv(text, "f.csv");
+    EXPECT_THAT(table.columns[0].values,
+                ElementsAre(0.0, 450.0, -900.0, 1050.0, 12600.0));
+    EXPECT_EQ(table.columns[0].first_decimal_point, -1);
+    EXPECT_EQ(table.columns[0].first_decimal_comma, -1);
+    EXPECT_THAT(table.remarks,
+                ElementsAre(AllOf(HasSubstr("1050"), HasSubstr("line 5"))));
+  }
+}
+
+TEST(ThousandsPoint, IsAskedAboutWhereItIsUnclear) {
+  const CsvTable table = ParseCsv("x;e\n0;1\n50;2\n1.050;3\n", "f.csv");
+  EXPECT_DOUBLE_EQ(table.columns[0].values[2], 1.05);
+  EXPECT_THAT(table.remarks, ElementsAre(HasSubstr("write 1050")));
+}
+
+TEST(ThousandsPoint, IsNoneWhereDecimalsDiffer) {
+  for (const std::string cells : {"-215.900;1\n-203.200;2\n",
+                                  "1500;1\n1.050;2\n150;3\n0.5;4\n",
+                                  "150;1\n0.125;2\n",
+                                  "1.125;1\n1.5;2\n200;3\n"}) {
+    const CsvTable table = ParseCsv("x;e\n" + cells, "f.csv");
+    EXPECT_THAT(table.remarks, IsEmpty()) << cells;
+  }
+}
+
+TEST(CutLine, IsLeftOutAndNamed) {
+  const std::string whole = kNames + "\n" + Rows();
+  const CsvTable table = ParseCsv(whole + "-40,20.8,-9.", "f.csv");
+  ExpectRows(table);
+  EXPECT_THAT(table.remarks, ElementsAre(HasSubstr("'-9.'")));
+  // With a line end, or as many decimals, it is whole.
+  EXPECT_EQ(ParseCsv(whole + "-40,20.8,-9\n", "f.csv").num_rows, 9U);
+  EXPECT_EQ(ParseCsv(whole + "-40,20.8,-9.25", "f.csv").num_rows, 9U);
+  EXPECT_EQ(ParseCsv("a,b\n1,2.5\n3,4", "f.csv").num_rows, 2U);
 }
 
 }  // namespace

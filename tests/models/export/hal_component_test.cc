@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "data/column_header.h"
 #include "models/export/program/safe_names.h"
 #include "models/polynomial/polynomial_model.h"
 

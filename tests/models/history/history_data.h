@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "data/column_header.h"
 #include "data/measurements/dataset.h"
 
 namespace errmap::testing {

@@ -15,6 +15,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "data/column_header.h"
 #include "models/model_file.h"
 #include "models/model_spec.h"
 #include "models/net/feedforward_net.h"

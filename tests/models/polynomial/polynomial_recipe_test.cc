@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "data/column_header.h"
 #include "models/polynomial/polynomial_basis.h"
 #include "models/polynomial/polynomial_model.h"
 #include "models/polynomial/polynomial_options.h"

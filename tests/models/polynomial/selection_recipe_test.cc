@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "data/column_header.h"
 #include "fitting/least_squares/regression_diagnostics.h"
 #include "models/polynomial/polynomial_basis.h"
 #include "models/polynomial/polynomial_model.h"

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "data/column_header.h"
 #include "models/study/judgement/judgement.h"
 #include "stats/random.h"
 #include "tests/models/study/study_test_tools.h"

@@ -14,6 +14,7 @@
 #include "cli/report/words/answers/mark_words.h"
 #include "cli/report/words/answers/rezero_text.h"
 #include "cli/report/words/answers/verdict_sentences.h"
+#include "data/column_header.h"
 #include "data/text.h"
 #include "data/units.h"
 

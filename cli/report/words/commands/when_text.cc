@@ -8,6 +8,7 @@
 
 #include "cli/report/number_text.h"
 #include "cli/report/words/answers/rezero_text.h"
+#include "data/column_header.h"
 #include "data/text.h"
 
 namespace errmap::report {

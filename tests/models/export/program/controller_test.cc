@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "data/column_header.h"
 #include "models/export/program/run_program.h"
 #include "models/map_experience.h"
 #include "models/polynomial/polynomial_model.h"

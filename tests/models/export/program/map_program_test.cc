@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "data/column_header.h"
 #include "models/averaged_model.h"
 #include "models/export/export_map.h"
 #include "models/export/program/nested_polynomial.h"

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "data/column_header.h"
 #include "data/csv.h"
 #include "models/study/given_predictions.h"
 #include "models/study/judgement/judgement.h"
