@@ -20,8 +20,8 @@
 #include "data/measurements/faults/row_faults.h"
 #include "data/measurements/input_choice.h"
 #include "data/measurements/making/idle_inputs.h"
-#include "data/measurements/making/leaking_inputs.h"
 #include "data/measurements/making/parts.h"
+#include "data/measurements/making/useless_inputs.h"
 #include "data/measurements/making/value_checks.h"
 #include "data/measurements/making/word_columns.h"
 #include "data/measurements/reading/read_table.h"
@@ -52,12 +52,18 @@ class DatasetBuilder {
     TakeTarget();
     TakeWeights();
     TakeInputs();
-    LeaveOutLeaks();
-    LeaveOutCounters();
+    if (!selection_.only_to_judge) {
+      LeaveOutUseless(LeakingInputs(parts_));
+      if (NumSessions() > 1) {
+        LeaveOutUseless(CountingInputs(parts_, SessionOfRows(), NumSessions()));
+      }
+    }
     LookForFaults();
-    LeaveOutStuck();
-    LookForParts();
-    RequireSquaresOfInputs();
+    if (!selection_.only_to_judge) {
+      if (!selection_.keep_dead) LeaveOutUseless(StuckInputs(parts_, faults_));
+      LookForParts();
+      RequireSquaresOfInputs();
+    }
     if (roles_.group != kNoColumn) {
       parts_.groups = GroupByColumn(table_, Name(roles_.group), parts_.rows);
     }
@@ -301,7 +307,6 @@ class DatasetBuilder {
   }
 
   void RequireSquaresOfInputs() const {
-    if (selection_.only_to_judge) return;
     for (std::size_t i = 0; i < parts_.inputs.size(); ++i) {
       RequireSquares(table_,
                      parts_.rows,
@@ -452,8 +457,16 @@ class DatasetBuilder {
     LeaveOutInput(input, why, "; " + ArgumentName("keep_dead") + " keeps it");
   }
 
-  // Those of `parts_.inputs` that are not marked, and the faults of these.
-  void KeepInputs(const std::vector<bool>& left_out) {
+  // And the faults of these.
+  void LeaveOutUseless(const std::vector<UselessInput>& useless) {
+    std::vector<bool> left_out(parts_.inputs.size(), false);
+    for (const UselessInput& one : useless) {
+      const auto at = static_cast<std::size_t>(one.input);
+      const std::string& name = parts_.inputs[at].name;
+      if (left_out[at] || (IsNamed(name) && !one.even_named)) continue;
+      left_out[at] = true;
+      LeaveOutInput(name, one.why, one.behind);
+    }
     if (std::ranges::count(left_out, true) == 0) return;
     if (std::ranges::count(left_out, false) == 0) {
       ThrowNoInputs(table_, dropped_);
@@ -467,71 +480,6 @@ class DatasetBuilder {
       if (fault.input < 0) continue;
       fault.input = places[static_cast<std::size_t>(fault.input)];
     }
-  }
-
-  void LeaveOutLeaks() {
-    if (selection_.only_to_judge) return;
-    std::vector<bool> left_out(parts_.inputs.size(), false);
-    for (const Leak& leak : FindLeaks(parts_.target,
-                                      parts_.target_values,
-                                      parts_.inputs,
-                                      parts_.input_values)) {
-      for (const Eigen::Index input : leak.left_out) {
-        left_out[static_cast<std::size_t>(input)] = true;
-        LeaveOutInput(parts_.inputs[static_cast<std::size_t>(input)].name,
-                      "holds the error itself (" +
-                          NameInRemark(parts_.target.name) + " = " +
-                          leak.formula + " in all rows, to rounding)",
-                      ": no control knows it beforehand");
-      }
-    }
-    KeepInputs(left_out);
-  }
-
-  // What numbers the cycles on through the sessions, or never falls in any of
-  // them (hours, kilometres, energy), is a thermal state in none.
-  void LeaveOutCounters() {
-    if (selection_.only_to_judge || NumSessions() < 2) return;
-    const std::vector<Eigen::Index> sessions = SessionOfRows();
-    std::vector<bool> left_out(parts_.inputs.size(), false);
-    for (std::size_t i = 0; i < left_out.size(); ++i) {
-      const ColumnInfo& input = parts_.inputs[i];
-      const auto values = parts_.input_values.col(static_cast<Eigen::Index>(i));
-      const bool may_count =
-          CountsCycles(input) ||
-          (input.unit.symbol.empty() && NumberEach(values, NumSessions()));
-      const bool counts = (may_count && CountsOn(values, sessions)) ||
-                          (input.unit.quantity != Quantity::kTemperature &&
-                           !IsPosition(input) && NeverFalls(values));
-      if (!counts || IsNamed(input.name)) continue;
-      left_out[i] = true;
-      LeaveOutInput(input.name,
-                    "counts on from session to session",
-                    "; name it in " + ArgumentName("inputs") + " to use it");
-    }
-    KeepInputs(left_out);
-  }
-
-  // A thermometer that was alive and ends stuck is of no use to a map.
-  void LeaveOutStuck() {
-    if (selection_.only_to_judge || selection_.keep_dead) return;
-    std::vector<bool> left_out(parts_.inputs.size(), false);
-    for (const ColumnFault& fault : faults_) {
-      if (fault.kind != FaultKind::kStuck || parts_.rows.empty() ||
-          fault.rows.back() != parts_.rows.back()) {
-        continue;
-      }
-      const std::string& name =
-          parts_.inputs[static_cast<std::size_t>(fault.input)].name;
-      if (IsNamed(name)) continue;  // the fault is told
-      left_out[static_cast<std::size_t>(fault.input)] = true;
-      LeaveOutInput(name,
-                    "is dead (stuck at " + CsvNumber(fault.value) +
-                        " from data row " + std::to_string(fault.rows.front()) +
-                        " on)",
-                    "; " + ArgumentName("keep_dead") + " keeps it");
-    }
-    KeepInputs(left_out);
   }
 
   // By name and values, where the axis has not said it.
@@ -581,7 +529,6 @@ class DatasetBuilder {
 
   // Rows of several machines, tools or directions, which err differently.
   void LookForParts() {
-    if (selection_.only_to_judge) return;
     for (PartingRemark& remark :
          FindParts(table_,
                    words_,
