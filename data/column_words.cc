@@ -41,7 +41,7 @@ constexpr auto kWords = std::to_array<std::string_view>({
     "feedback fbk ar arvarde измеренное факт 実測 实测",
     // kTime
     "time timestamp datetime elapsed uptime runtime laufzeit utc zeit uhrzeit "
-    "zeitstempel zeitpunkt "
+    "zeitstempel zeitpunkt tick ticks "
     "uhr tiempo hora ora heure horodatage orario temps tempo tijd czas "
     "godzina cas tid klockslag klokken kello aika saat zaman jikoku jikan "
     "время 時刻 時間 时间 시간 시각",
@@ -91,38 +91,6 @@ const std::vector<std::string_view>& WordsFor(Word word) {
   return kSplit[static_cast<std::size_t>(word)];
 }
 
-// Small letters without accents: those of Latin-1 are two bytes of UTF-8, the
-// first of them 0xC3, those of Latin Extended-A begin with 0xC4 or 0xC5; an
-// accent of its own (0xCC) follows its letter. Cyrillic capitals (0xD0) are 32
-// letters before the small ones.
-std::string Plain(std::string_view text) {
-  constexpr std::string_view kLatin =
-      "aaaaaaaceeeeiiiidnooooo*ouuuuypsaaaaaaaceeeeiiiidnooooo/ouuuuypy";
-  constexpr std::string_view kExtended =
-      "aaaaaaccccccccddddeeeeeeeeeegggggggghhhhiiiiiiiiiiiijjkkklllllll"
-      "lllnnnnnnnnnoooooooorrrrrrssssssssttttttuuuuuuuuuuuuwwyyyzzzzzzs";
-  std::string plain;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    const bool more = i + 1 < text.size();
-    const std::size_t next =
-        more ? static_cast<unsigned char>(text[i + 1]) & 0x3FU : 0;
-    if (more && c == 0xC3) {
-      plain += kLatin[next];
-    } else if (more && (c == 0xC4 || c == 0xC5)) {
-      plain += kExtended[64U * (c - 0xC4U) + next];
-    } else if (more && c == 0xD0 && next >= 0x10 && next < 0x30) {
-      plain += next < 0x20 ? '\xD0' : '\xD1';
-      plain += static_cast<char>(0x80U | ((next + 0x20U) & 0x3FU));
-    } else if (!more || c != 0xCC) {
-      plain += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-      continue;
-    }
-    ++i;
-  }
-  return plain;
-}
-
 bool IsLetter(char c) { return (c >= 'a' && c <= 'z') || (c & 0x80) != 0; }
 
 bool IsOrMany(std::string_view word, std::string_view known) {
@@ -154,9 +122,41 @@ std::string WithGaps(std::string_view name) {
 
 }  // namespace
 
+// Letters with accents of Latin-1 are two bytes of UTF-8, the
+// first of them 0xC3, those of Latin Extended-A begin with 0xC4 or 0xC5; an
+// accent of its own (0xCC) follows its letter. Cyrillic capitals (0xD0) are 32
+// letters before the small ones.
+std::string PlainText(std::string_view text) {
+  constexpr std::string_view kLatin =
+      "aaaaaaaceeeeiiiidnooooo*ouuuuypsaaaaaaaceeeeiiiidnooooo/ouuuuypy";
+  constexpr std::string_view kExtended =
+      "aaaaaaccccccccddddeeeeeeeeeegggggggghhhhiiiiiiiiiiiijjkkklllllll"
+      "lllnnnnnnnnnoooooooorrrrrrssssssssttttttuuuuuuuuuuuuwwyyyzzzzzzs";
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    const bool more = i + 1 < text.size();
+    const std::size_t next =
+        more ? static_cast<unsigned char>(text[i + 1]) & 0x3FU : 0;
+    if (more && c == 0xC3) {
+      plain += kLatin[next];
+    } else if (more && (c == 0xC4 || c == 0xC5)) {
+      plain += kExtended[64U * (c - 0xC4U) + next];
+    } else if (more && c == 0xD0 && next >= 0x10 && next < 0x30) {
+      plain += next < 0x20 ? '\xD0' : '\xD1';
+      plain += static_cast<char>(0x80U | ((next + 0x20U) & 0x3FU));
+    } else if (!more || c != 0xCC) {
+      plain += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+      continue;
+    }
+    ++i;
+  }
+  return plain;
+}
+
 std::vector<std::string> WordsOf(std::string_view column) {
   const Header header = ReadHeader(column);
-  const std::string plain = Plain(WithGaps(
+  const std::string plain = PlainText(WithGaps(
       header.unit_text.empty() ? column : std::string_view(header.base)));
   std::vector<std::string> words(1);
   for (const char c : plain) {
@@ -247,7 +247,7 @@ std::string_view WordFrom(std::string_view text, std::size_t at) {
 // other way round or of words unknown here ("encoder - laser"); 0, no
 // difference ("X-error", "run-in").
 int SignOfDifference(std::string_view column) {
-  const std::string text = Plain(ReadHeader(column).base);
+  const std::string text = PlainText(ReadHeader(column).base);
   for (std::size_t at = text.find('-'); at != text.npos;
        at = text.find('-', at + 1)) {
     const std::string a(WordBefore(text, at));

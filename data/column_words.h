@@ -28,6 +28,9 @@ enum class Word {
   kPlace,      // "station", "point": numbers places along the axis
 };
 
+/// In small letters without accents: "zuruck" of "Zurück".
+std::string PlainText(std::string_view text);
+
 /// The words of a name in small letters without accents, its unit left out:
 /// "x", "pos" of "X_Pos [mm]".
 std::vector<std::string> WordsOf(std::string_view column);

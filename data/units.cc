@@ -85,6 +85,8 @@ constexpr auto kKnownUnits = std::to_array<KnownUnit>({
      "fahrenheit \u00b0F degreesF",
      "F"},
     {"100ns", kTime, 1e-7, 0, "", ""},
+    {"10ms", kTime, 1e-2, 0, "", ""},
+    {"100ms", kTime, 0.1, 0, "", ""},
     {"us", kTime, 1e-6, 0, "", ""},
     {"ms", kTime, 1e-3, 0, "", ""},
     {"s", kTime, 1.0, 0, "sec seconds sekunden", ""},

@@ -5,36 +5,9 @@
 #include "data/column_words.h"
 #include "data/measurements/column_checks.h"
 #include "data/text.h"
+#include "data/way_words.h"
 
 namespace errmap::data {
-namespace {
-
-// Of the position, and of a way that may go up or down.
-constexpr std::string_view kUp =
-    "up + 1 +1 pos positive positiv plus increasing auf >";
-constexpr std::string_view kDown =
-    "down dn - -1 neg negative negativ minus decreasing ab <";
-constexpr std::string_view kForth =
-    "forward forwards fwd f vor vorw\u00e4rts hin aller avanti andata ida "
-    "zheng";
-constexpr std::string_view kBack =
-    "reverse rev r backward backwards bwd b r\u00fcck zur\u00fcck "
-    "r\u00fcckw\u00e4rts her retour indietro ritorno vuelta fan";
-
-}  // namespace
-
-std::optional<bool> IsUpwards(std::string_view word) {
-  if (IsOneOf(word, kUp) || IsOneOf(word, kForth)) return true;
-  if (IsOneOf(word, kDown) || IsOneOf(word, kBack)) return false;
-  return std::nullopt;
-}
-
-std::optional<bool> FirstIsUp(std::string_view first, std::string_view second) {
-  if (IsOneOf(first, kUp) && IsOneOf(second, kDown)) return true;
-  if (IsOneOf(first, kDown) && IsOneOf(second, kUp)) return false;
-  return std::nullopt;
-}
-
 const ColumnFilter* DirectionFilter(std::span<const ColumnFilter> filters) {
   const auto found =
       std::ranges::find_if(filters, [](const ColumnFilter& filter) {

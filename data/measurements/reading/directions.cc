@@ -7,8 +7,8 @@
 #include "data/column_header.h"
 #include "data/column_words.h"
 #include "data/columns.h"
-#include "data/measurements/row_filters.h"
 #include "data/text.h"
+#include "data/way_words.h"
 
 namespace errmap::data {
 

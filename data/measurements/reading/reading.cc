@@ -7,8 +7,8 @@
 #include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/rounded.h"
-#include "data/measurements/row_filters.h"
 #include "data/text.h"
+#include "data/way_words.h"
 
 namespace errmap::data {
 namespace {

@@ -16,6 +16,8 @@ namespace errmap::data {
 namespace {
 
 constexpr auto kTimeUnits = std::to_array<TimeUnit>({{"s", 1.0},
+                                                     {"100ms", 0.1},
+                                                     {"10ms", 1e-2},
                                                      {"ms", 1e-3},
                                                      {"us", 1e-6},
                                                      {"100ns", 1e-7},
@@ -50,7 +52,6 @@ const TimeUnit* FindTimeUnit(std::string_view name) {
 
 const TimeUnit* StatedUnit(std::string_view column) {
   const Header header = ReadHeader(column);
-  if (header.unit.symbol == "100ns") return FindTimeUnit("100ns");
   if (const TimeUnit* unit = FindTimeUnit(Trimmed(column))) return unit;
   if (const TimeUnit* unit = FindTimeUnit(header.unit.symbol)) return unit;
   if (EqualsIgnoringCase(header.unit_text, "d") ||

@@ -156,7 +156,8 @@ struct RunColumn {
   RunName name;
 };
 
-// Ways of one run follow each other, in whatever order their columns stand.
+// Ways of one run follow each other, in whatever order their columns stand;
+// dates stand in theirs.
 void SortByRun(std::vector<RunColumn>* runs) {
   std::stable_sort(
       runs->begin(), runs->end(), [](const RunColumn& a, const RunColumn& b) {
@@ -165,40 +166,76 @@ void SortByRun(std::vector<RunColumn>* runs) {
       });
 }
 
+// Whether all names say a date and a way, or none of them does.
+bool SayTheSame(const std::vector<RunColumn>& columns) {
+  const auto all_or_none = [&](const auto& says) {
+    const auto number = std::ranges::count_if(columns, says);
+    return number == 0 || number == std::ssize(columns);
+  };
+  return all_or_none([](const RunColumn& of) { return of.name.date != ""; }) &&
+         all_or_none(
+             [](const RunColumn& of) { return of.name.direction != ""; });
+}
+
+// What tells the slots apart: sessions, dates, cycles and ways, where all names
+// say them.
+std::vector<CsvColumn> LabelsOfRuns(const std::vector<RunColumn>& columns) {
+  std::vector<double> sessions;
+  std::vector<double> numbers;
+  std::vector<std::string> dates;
+  std::vector<std::ptrdiff_t> places;
+  std::vector<std::ptrdiff_t> ways;  // 0: up, 1: down
+  for (const auto& [column, name] : columns) {
+    sessions.push_back(name.session);
+    numbers.push_back(name.run);
+    places.push_back(std::ssize(dates));
+    dates.push_back(name.date);
+    ways.push_back(name.direction == "down" ? 1 : 0);
+  }
+  const RunName& first = columns.front().name;
+  std::vector<CsvColumn> labels;
+  if (std::ranges::count(sessions, 0.0) == 0) {
+    labels.push_back(NumberColumn("session", std::move(sessions)));
+  }
+  if (!first.date.empty()) {
+    labels.push_back(WordColumn("date", places, std::move(dates)));
+  }
+  if (std::ranges::count(numbers, 0.0) == 0) {
+    labels.push_back(NumberColumn("cycle", std::move(numbers)));
+  }
+  if (!first.direction.empty()) {
+    labels.push_back(WordColumn("direction", ways, {"up", "down"}));
+  }
+  return labels;
+}
+
 // Of runs that have numbers, or else of one column for each way.
 std::optional<Fold> FindRuns(const CsvTable& table, bool are_numbered) {
   Fold fold;
   fold.slot_by_slot = true;
-  std::set<std::tuple<int, int, std::string>> runs;
+  std::set<std::tuple<int, std::string, int, std::string>> runs;
   std::vector<RunColumn> columns;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     std::optional<RunName> name = ReadRunName(table.columns[i].name);
-    if (!name || (name->run > 0) != are_numbered ||
+    if (!name || name->is_numbered() != are_numbered ||
         table.columns[i].is_text() ||
         !(are_numbered || MeasuresError(table.columns[i].name))) {
       fold.kept.push_back(i);
       continue;
     }
-    if (!runs.emplace(name->session, name->run, name->direction).second) {
+    if (!runs.emplace(name->session, name->date, name->run, name->direction)
+             .second) {
       return std::nullopt;
     }
     columns.push_back({i, *std::move(name)});
   }
   SortByRun(&columns);
-  std::vector<double> sessions;
-  std::vector<double> numbers;
-  std::vector<std::ptrdiff_t> ways;  // 0: up, 1: down, 2: nothing said
   for (const auto& [column, name] : columns) {
     fold.quantities[name.quantity].push_back(column);
-    sessions.push_back(name.session);
-    numbers.push_back(name.run);
-    ways.push_back(name.direction.empty() ? 2 : name.direction == "up" ? 0 : 1);
   }
-  const auto unsaid = std::ranges::count(ways, 2);
   const std::size_t fewest = are_numbered ? 3 : 2;
   if (fold.quantities.size() != 1 || runs.size() < fewest ||
-      fold.kept.empty() ||
-      (unsaid > 0 && std::cmp_not_equal(unsaid, runs.size()))) {
+      fold.kept.empty() || !SayTheSame(columns)) {
     return std::nullopt;
   }
   // Beside errors in another unit they are something else: positions read.
@@ -208,21 +245,16 @@ std::optional<Fold> FindRuns(const CsvTable& table, bool are_numbered) {
     return std::nullopt;
   }
   fold.slots = runs.size();
-  // Each run goes from where the one before it ended.
-  fold.block = RowsOfBlock(table, fold.kept);
+  // Each run goes from where the one before it ended; a session has all rows.
+  const RunName& first = columns.front().name;
+  const bool of_sessions = first.session > 0 || !first.date.empty();
+  fold.block = of_sessions ? table.num_rows : RowsOfBlock(table, fold.kept);
   const bool descend = PositionsDescend(table, fold.kept, fold.block);
-  for (const std::ptrdiff_t way : ways) {
-    fold.backwards.push_back(way != 2 && (way == 1) != descend);
+  for (const auto& [column, name] : columns) {
+    fold.backwards.push_back(!name.direction.empty() &&
+                             (name.direction == "down") != descend);
   }
-  if (std::ranges::count(sessions, 0.0) == 0) {
-    fold.labels.push_back(NumberColumn("session", std::move(sessions)));
-  }
-  if (are_numbered) {
-    fold.labels.push_back(NumberColumn("cycle", std::move(numbers)));
-  }
-  if (unsaid == 0) {
-    fold.labels.push_back(WordColumn("direction", ways, {"up", "down"}));
-  }
+  fold.labels = LabelsOfRuns(columns);
   fold.what = "a column for each of " + std::to_string(fold.slots) +
               (are_numbered ? " runs" : " ways");
   return fold;

@@ -8,6 +8,7 @@
 #include "data/column_words.h"
 #include "data/text.h"
 #include "data/units.h"
+#include "data/way_words.h"
 
 namespace errmap::data {
 namespace {
@@ -133,6 +134,27 @@ std::string_view TakePart(std::string_view* rest) {
   return part;
 }
 
+// "2026-03-02", "02.03.2026", "2.3.26": numbers of a day, a month and a year.
+bool IsDate(std::string_view text) {
+  std::size_t parts = 0;
+  std::size_t longest = 0;
+  const std::size_t first = text.find_first_not_of(kDigits);
+  if (first == text.npos ||
+      std::string_view(".-/").find(text[first]) == text.npos) {
+    return false;
+  }
+  const char between = text[first];
+  for (std::size_t at = 0; at <= text.size(); ++parts) {
+    const std::size_t end = std::min(text.find(between, at), text.size());
+    const std::string_view part = text.substr(at, end - at);
+    const bool fits = part.size() == 4 || part.size() == 2 || part.size() == 1;
+    if (!fits || part.find_first_not_of(kDigits) != part.npos) return false;
+    longest = std::max(longest, part.size());
+    at = end + 1;
+  }
+  return parts == 3 && longest >= 2;
+}
+
 }  // namespace
 
 std::optional<PlacedName> ReadPlacedName(std::string_view name) {
@@ -178,22 +200,18 @@ std::optional<RunName> ReadRunName(std::string_view name) {
   constexpr std::string_view kRuns =
       "j run cycle pass test series serie messreihe traverse lauf zyklus "
       "messung messlauf ciclo cyclus";
-  constexpr std::string_view kUp =
-      "up upwards fwd forward pos vor vorw\u00e4rts vorwaerts hin "
-      "aufw\u00e4rts aufwaerts \u2191 \u2192 f";
-  constexpr std::string_view kDown =
-      "down downwards dn rev reverse neg bwd backward zur\u00fcck zurueck "
-      "r\u00fcckw\u00e4rts rueckwaerts her abw\u00e4rts abwaerts \u2193 \u2190 "
-      "r b";
   constexpr std::string_view kLetters = "x y z m";
   const Header header = ReadHeader(name);
   RunName said{.direction = SignBehind(name, header.unit_text)};
-  bool is_run = false;
+  bool is_run = IsDate(header.base);
+  if (is_run) said.date = header.base;
   int* number = &said.run;
-  std::string_view rest = header.base;
+  std::string_view rest = is_run ? std::string_view() : header.base;
   for (std::string_view word = TakePart(&rest); !word.empty();
        word = TakePart(&rest)) {
-    const bool is_up = IsOneOf(word, kUp);
+    // Fans are numbered, too.
+    const std::optional<bool> up =
+        IsOneOf(word, "fan") ? std::nullopt : IsUpwards(word);
     if (IsDigitOfName(word.front())) {
       std::from_chars(word.data(), word.data() + word.size(), *number);
     } else if (IsOneOf(word, kRuns)) {
@@ -201,18 +219,19 @@ std::optional<RunName> ReadRunName(std::string_view name) {
       number = &said.run;
     } else if (IsCalled(word, Word::kSession)) {
       number = &said.session;
-    } else if (is_up || IsOneOf(word, kDown)) {
-      said.direction = is_up ? "up" : "down";
+    } else if (up) {
+      said.direction = *up ? "up" : "down";
       // "f1" may be anything, "1 fwd" is a run.
       is_run = is_run || word.size() > 1;
     } else if (!IsOneOf(word, kErrors) && !IsOneOf(word, kLetters)) {
       return std::nullopt;
     }
   }
-  // "1+ (um)"
-  is_run = is_run || (!said.direction.empty() && said.run > 0 &&
-                      IsLengthOrAngle(header.unit));
-  if (!is_run || (said.run <= 0 && said.direction.empty())) {
+  // "1+ (um)", "- (um)", "Day 1 (um)"
+  is_run = is_run ||
+           (!said.direction.empty() && IsLengthOrAngle(header.unit)) ||
+           (said.session > 0 && IsUnitOfErrors(header.unit));
+  if (!is_run || !(said.is_numbered() || !said.direction.empty())) {
     return std::nullopt;
   }
   said.quantity = "error";

@@ -18,13 +18,16 @@ struct PlacedName {
 std::optional<PlacedName> ReadPlacedName(std::string_view name);
 
 /// What the name of a column of one run says, such as "Run 3 up [um]",
-/// "Lauf 1 rückwärts", "x2↓ (µm)", "Day 2 Run 1"; what is not said is 0, as the
-/// run of "Error up [um]".
+/// "Lauf 1 rückwärts", "x2↓ (µm)", "Day 2 Run 1", "2026-03-02"; what is not
+/// said is 0 or "", as the run of "Error up [um]".
 struct RunName {
   std::string quantity = {};  // "error [um]"
   int session = 0;
+  std::string date = {};
   int run = 0;
   std::string direction = {};  // "up", "down", or ""
+
+  bool is_numbered() const { return session > 0 || run > 0 || !date.empty(); }
 };
 std::optional<RunName> ReadRunName(std::string_view name);
 

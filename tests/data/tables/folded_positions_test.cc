@@ -103,8 +103,28 @@ TEST(FoldedRuns, AreCyclesOfOneSessionHoweverMany) {
   }
 }
 
+TEST(FoldedRuns, OfDaysHaveAllRowsOfADayTogether) {
+  for (const std::string names : {"Day 1 (um),Day 2 (um),Day 3 (um)",
+                                  "2.3.26 [um],3.3.26 [um],4.3.26 [um]"}) {
+    std::string text = "x [mm],Run," + names + "\n";
+    for (int row = 0; row < 12; ++row) {
+      text +=
+          std::to_string(100 * (row % 6)) + "," + std::to_string(row / 6 + 1);
+      for (int day = 0; day < 3; ++day) {
+        text += "," + CsvNumber(0.3 * (row % 6) + day + 0.01 * (row % 5));
+      }
+      text += "\n";
+    }
+    const Reading reading = ReadingOfSheet(text);
+    EXPECT_EQ(reading.sessions.count, 3) << names;
+    EXPECT_EQ(reading.cycles.count, 6) << names;
+  }
+}
+
 TEST(FoldedPositions, AreNoneOfColumnsThatAreNumbered) {
   for (const char* names : {"A1 deg,A2 deg,A3 deg",
+                            "fan 1,fan 2,fan 3",
+                            "1.2.3,1.2.4,1.2.5",
                             "U1 in,U2 in,U3 in",
                             "X1 mm,X2 mm,X3 mm",
                             "Run 1 [mm],Run 2 [mm],Run 3 [mm]"}) {
@@ -200,6 +220,11 @@ TEST(FoldedRuns, AreNamedInManyWays) {
       {"1 fwd;1 rev;2 fwd", {"t1_degC", "cycle", "direction", "error"}},
       {"Deviation run 1 (um);Deviation run 2 (um);Deviation run 3 (um)",
        {"t1_degC", "cycle", "error [um]"}},
+      {"Day 1 (um);Day 2 (um);Day 3 (um)",
+       {"t1_degC", "session", "error [um]"}},
+      {"2026-03-02;2026-03-03;2026-03-04", {"t1_degC", "date", "error"}},
+      {"2.3.26 [um];3.3.26 [um];4.3.26 [um]",
+       {"t1_degC", "date", "error [um]"}},
   };
   for (const auto& [names, columns] : kCases) {
     std::vector<std::string> found;
@@ -207,6 +232,18 @@ TEST(FoldedRuns, AreNamedInManyWays) {
       found.push_back(column.name);
     }
     EXPECT_EQ(found, columns) << names;
+  }
+}
+
+TEST(FoldedRuns, AreTwoWaysByTheirWords) {
+  for (const std::string names : {"+ (um),- (um)",
+                                  "err_plus_um,err_minus_um",
+                                  "err_vor_um,err_rueck_um",
+                                  "Hinweg [um],R\u00fcckweg [um]",
+                                  "error aller [um],error retour [um]"}) {
+    EXPECT_THAT(ColumnsOf("x [mm]," + names + "\n0,1,2\n50,2,4\n"),
+                ElementsAre("x [mm]", "direction", "error [um]"))
+        << names;
   }
 }
 

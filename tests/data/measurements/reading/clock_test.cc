@@ -232,6 +232,13 @@ TEST(Clock, OfHoursCountsWithTheDateBesideIt) {
   EXPECT_EQ(reading.sessions.count, 3);
 }
 
+TEST(Clock, MayCountTheTicksOfAController) {
+  const Reading reading = CountedIn("tick_10ms", 0.01, 0.0).reading;
+  EXPECT_EQ(reading.time.unit, "10ms");
+  EXPECT_NEAR(*reading.time.step_s, 30.0, 1e-9);
+  EXPECT_EQ(reading.sessions.count, 3);
+}
+
 // Windows counts 100 ns from 1601: 2024-03-04 08:00.
 TEST(Clock, KnowsTheTicksOfWindows) {
   const Reading reading = CountedIn("FileTime", 1e-7, 1.3354012e17).reading;
