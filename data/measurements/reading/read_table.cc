@@ -211,6 +211,36 @@ class TableReader {
     }
   }
 
+  // With dates, rows that are alike in all else are one reading that was saved
+  // twice. False where there are none.
+  bool LeaveOutSavedTwice() {
+    std::vector<bool> is_kept = IsBaseRow();
+    const std::vector<Index> again =
+        RepeatedRows(table(), read_.roles.target, is_kept);
+    if (again.empty()) return false;
+    for (const Index row : again) {
+      is_kept[static_cast<std::size_t>(row)] = false;
+      read_.reading.rows_left_out.push_back(
+          {.row = row, .why = "stands twice, with its time"});
+    }
+    std::erase_if(base_rows_, [&](Index row) {
+      return !is_kept[static_cast<std::size_t>(row)];
+    });
+    if (!read_.table) read_.table = Borrowed(given_);
+    read_.table->remarks.push_back(
+        PrintablePath(given_.file) + ": " + std::to_string(again.size()) +
+        " rows stand twice, with their times; each is read once");
+    return true;
+  }
+
+  std::vector<bool> IsBaseRow() const {
+    std::vector<bool> is_base(table().num_rows, false);
+    for (const Index row : base_rows_) {
+      is_base[static_cast<std::size_t>(row)] = true;
+    }
+    return is_base;
+  }
+
   void FindClockAndAxis() {
     clock_ = FindClock(table(), selection_, base_rows_);
     if (!looks_for_axis_) return;
@@ -220,6 +250,7 @@ class TableReader {
   // Rows that are in another order than that of time are put in it, by a clock.
   void FindOrder() {
     FindClockAndAxis();
+    if (clock_.dated && LeaveOutSavedTwice()) FindClockAndAxis();
     const auto n = static_cast<Index>(base_rows_.size());
     const Index back = TimesBack(clock_.time);
     const bool sorted = read_.axis.motion.is_sorted && n >= kFewestRowsInOrder;
@@ -463,8 +494,9 @@ class TableReader {
 
   void TakeRows() {
     read_.passes = RowsThatPass(table(), read_.where);
-    for (const Reading::RowLeftOut& row : read_.reading.rows_left_out) {
-      read_.passes[static_cast<std::size_t>(row.row)] = false;
+    const std::vector<bool> is_base = IsBaseRow();
+    for (std::size_t row = 0; row < is_base.size(); ++row) {
+      read_.passes[row] = read_.passes[row] && is_base[row];
     }
     if (!selection_.only_to_judge) {
       // Rows are compared as given, but for rows put in order and for a target

@@ -1,7 +1,9 @@
 #include "data/measurements/reading/reading.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <ctime>
 #include <functional>
 #include <string>
 #include <vector>
@@ -376,6 +378,57 @@ TEST(Reading, PutsShuffledRowsInTheOrderOfTheirClock) {
   EXPECT_EQ(found.dataset.target_values(), measured.dataset.target_values());
   EXPECT_EQ(found.dataset.log()->sessions.codes,
             measured.dataset.log()->sessions.codes);
+}
+
+std::string DateText(double seconds) {
+  const auto time = static_cast<std::time_t>(std::round(seconds));
+  std::tm parts{};
+  gmtime_r(&time, &parts);
+  std::array<char, 32> text{};
+  return {text.data(),
+          std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M:%S", &parts)};
+}
+
+// A file's times as dates, with lines that are put in.
+std::string WithDates(const std::vector<Log::Row>& rows,
+                      const std::string& put_in = "") {
+  std::string text =
+      Text("time,position_mm,t1_degC,error_um", rows, [](const Log::Row& row) {
+        std::vector<std::string> cells = TimePositionTempError(row);
+        cells[0] = DateText(1772000000.0 + row.time);
+        return cells;
+      });
+  return text.insert(text.find('\n', text.size() / 3) + 1, put_in);
+}
+
+TEST(Reading, LeavesOutTheRowOfWordsWhereverTimePutsTheOthers) {
+  std::vector<Log::Row> rows = Log().Rows();
+  std::ranges::stable_sort(rows, {}, &Log::Row::position);
+  const auto make = [&](const std::string& put_in) {
+    return MakeDataset(ParseCsv(WithDates(rows, put_in), "log.csv"),
+                       {.missing = MissingPolicy::kDropRows});
+  };
+  const PreparedDataset found = make("Mean,100,22,9\n");
+  EXPECT_EQ(found.reading.order, "time");
+  EXPECT_EQ(found.reading.cycles.count, 20);
+  EXPECT_EQ(found.dataset.target_values(), make("").dataset.target_values());
+}
+
+TEST(Reading, ReadsOnceWhatWasSavedTwiceWithItsDate) {
+  const std::vector<Log::Row> rows = Log().Rows();
+  std::vector<Log::Row> again = rows;
+  again.insert(again.begin() + 40, rows.begin() + 25, rows.begin() + 40);
+  const PreparedDataset once =
+      MakeDataset(ParseCsv(WithDates(rows), "log.csv"), {});
+  const PreparedDataset twice =
+      MakeDataset(ParseCsv(WithDates(again), "log.csv"), {});
+  EXPECT_EQ(twice.dataset.target_values(), once.dataset.target_values());
+  EXPECT_EQ(twice.reading.sessions.count, 4);
+  EXPECT_TRUE(twice.reading.sessions.sure);
+  EXPECT_EQ(twice.reading.cycles.count, 20);
+  EXPECT_EQ(twice.reading.rows_left_out.size(), 15U);
+  EXPECT_THAT(twice.remarks,
+              Contains(HasSubstr("15 rows stand twice, with their times")));
 }
 
 TEST(Reading, TakesNoHistoryFromRowsThatWereSortedWithoutAClock) {
