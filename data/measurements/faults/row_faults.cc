@@ -368,6 +368,7 @@ std::vector<Index> RepeatedRows(const CsvTable& table,
                                 const std::vector<bool>& passes) {
   std::unordered_map<std::uint64_t, std::size_t> first;
   std::vector<Index> repeated;
+  std::vector<std::size_t> back;  // rows, from each of those to its first
   std::set<double> levels;
   std::size_t others = 0;
   std::vector<const CsvColumn*> columns;
@@ -379,18 +380,29 @@ std::vector<Index> RepeatedRows(const CsvTable& table,
   }
   for (std::size_t row = 0; row < table.num_rows; ++row) {
     if (!passes[row]) continue;
-    if (!first.emplace(RowHash(table, columns, row), row).second) {
+    const auto [at, is_new] = first.emplace(RowHash(table, columns, row), row);
+    if (!is_new) {
       repeated.push_back(static_cast<Index>(row));
+      back.push_back(row - at->second);
       continue;
     }
     ++others;
     const double value = table.columns[target].values[row];
     if (!std::isnan(value)) levels.insert(value);
   }
+  // Rows that agree by chance do not follow each other.
+  const auto follows = [&](std::size_t i) {
+    return i > 0 && i < back.size() && back[i] == back[i - 1] &&
+           repeated[i] - repeated[i - 1] <= (back[i] == 1 ? 2 : 1);
+  };
+  std::vector<Index> in_blocks;
+  for (std::size_t i = 0; i < repeated.size(); ++i) {
+    if (follows(i) || follows(i + 1)) in_blocks.push_back(repeated[i]);
+  }
   constexpr std::size_t kFewestRepeated = 3;
-  if (repeated.size() < kFewestRepeated || 2 * levels.size() < others)
+  if (in_blocks.size() < kFewestRepeated || 2 * levels.size() < others)
     return {};
-  return repeated;
+  return in_blocks;
 }
 
 std::vector<ColumnFault> FindTargetFaults(const MeasuredColumns& measured) {

@@ -20,8 +20,8 @@ std::vector<Eigen::Index> LeaveOutRowsOfWords(
     std::vector<bool>* passing);
 
 /// Rows that pass and repeat an earlier one value for value in all named
-/// columns, ascending; none where the target's values are so few that rows may
-/// be alike by chance.
+/// columns, as the row beside them repeats that beside it, ascending; none
+/// where the target's values are so few that rows may be alike by chance.
 std::vector<Eigen::Index> RepeatedRows(const CsvTable& table,
                                        std::size_t target,
                                        const std::vector<bool>& passes);
