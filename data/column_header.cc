@@ -216,6 +216,22 @@ std::string_view ScaledUnit(std::string_view name) {
              : "";
 }
 
+// "T1_C", "T_bed_F": the letter counts behind the name of a temperature.
+bool ReadDegrees(std::string_view name, std::size_t last, Header* header) {
+  if (last == std::string_view::npos) return false;
+  const std::string_view base = name.substr(0, last);
+  const std::string_view letter = name.substr(last + 1);
+  if ((letter != "C" && letter != "F") ||
+      !(NamesTemperature(base) || StartsWithIgnoringCase(base, "t_"))) {
+    return false;
+  }
+  header->base = base;
+  header->unit_text = letter;
+  header->unit = UnitOfSymbol(letter == "F" ? "degF" : "degC");
+  header->source = UnitSource::kStated;
+  return true;
+}
+
 }  // namespace
 
 Header ReadHeader(std::string_view name) {
@@ -273,6 +289,7 @@ Header ReadHeader(std::string_view name) {
   header.base = name;
   header.unit = AssumedUnit(name);
   const std::size_t last = name.find_last_of(kSeparators.substr(0, 2));
+  if (ReadDegrees(name, last, &header)) return header;
   // "T_in" is an inlet's, "x_in" a position in inches.
   const bool is_position =
       last != std::string_view::npos &&

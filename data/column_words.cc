@@ -14,9 +14,12 @@ namespace {
 // The words of each kind, parted by blanks, in the order of Word.
 constexpr auto kWords = std::to_array<std::string_view>({
     // kError
-    "error err errors deviation dev fehler abweichung abw messfehler erreur "
+    "error err errors xerr yerr zerr deviation dev fehler abweichung abw "
+    "messfehler erreur "
     "ecart deviazione errore scarto scostamento desvio desviacion erro "
     "afwijking fout odchylka blad chyba avvikelse fel afvigelse avvik fejl "
+    "hiba elteres eroare abatere napaka odstopanje odstupanje похибка "
+    "відхилення σφαλμα αποκλιση "
     "feil virhe poikkeama hata sapma gosa ошибка погрешность отклонение откл "
     "誤差 误差 偏差 오차 편차",
     // kCorrection
@@ -50,7 +53,7 @@ constexpr auto kWords = std::to_array<std::string_view>({
     "날짜",
     // kTemperature
     "temperature temp temperatur temperatura temperatuur teplota lampotila "
-    "sicaklik ondo температура темп 温度 온도",
+    "sicaklik sicaklig ondo температура темп 温度 온도",
     // kDirection
     "direction dir bidir approach motion richtung anfahrrichtung direccion "
     "direzione direcao sens sentido senso richting kierunek riktning "
@@ -67,7 +70,8 @@ constexpr auto kWords = std::to_array<std::string_view>({
     "day tag jour giorno dia dag",
     // kCounter
     "segment record index row id sample messung versuch durchgang nr no "
-    "number nummer zeile test trial repeat block batch hour hr minute min "
+    "number nummer zeile test trial repeat repetition wiederholung repeticion "
+    "ripetizione block batch hour hr minute min "
     "second sec stunde sekunde ms msec night nacht nuit notte noche week "
     "woche semaine settimana semana visit campaign kampagne sitzung warmup "
     "experiment dataset doy hhmm hhmmss",
@@ -288,8 +292,9 @@ int ErrorSign(std::string_view column) {
       !IsErrorSymbol(column)) {
     return 0;
   }
+  const bool is_negative = Trimmed(column).starts_with('-');
   const bool opposite =
-      Trimmed(column).starts_with('-') || corrects || difference < 0 ||
+      is_negative != corrects || difference < 0 ||
       column.find("(-1)") != column.npos || column.find("*-1") != column.npos ||
       std::ranges::any_of(words,
                           [](const std::string& word) {

@@ -33,6 +33,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 using enum Quantity;
 constexpr auto kKnownUnits = std::to_array<KnownUnit>({
+    {"pm", kLength, 1e-6, 0, "picometer picometre", ""},
     {"nm", kLength, 1e-3, 0, "nanometer nanometre", ""},
     {"um",
      kLength,

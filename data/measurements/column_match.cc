@@ -88,8 +88,10 @@ MatchedColumn MatchColumn(const CsvTable& table, const ColumnInfo& of_map) {
       exact >= 0 ? table.At(exact) : SameNameInAnyUnit(table, of_map.name);
   MatchedColumn match{.of_map = of_map,
                       .of_file = {column.name, UnitOfColumn(column.name)}};
-  // The very name, and nothing in it that says otherwise.
-  if (exact >= 0 && match.of_file.unit.symbol.empty()) {
+  // The very name, and nothing in it that says otherwise; an earlier version
+  // read no unit in "t1_C".
+  if (exact >= 0 &&
+      (match.of_file.unit.symbol.empty() || of_map.unit.symbol.empty())) {
     match.of_file.unit = of_map.unit;
   }
   if (AreConvertible(match.of_file.unit, of_map.unit)) return match;

@@ -188,27 +188,35 @@ class RoleChooser {
                       .means = "the error itself, actual - nominal"}}});
   }
 
-  // Where the axis was sent and where it was read, and no error.
+  // Where the axis was sent and where it was read, by one instrument or by
+  // several, and no error.
   void AskForDifference() const {
-    const std::optional<ReadBeside> pair = FindReadBeside(table_);
-    if (!pair) return;
-    const std::string& read = Name(pair->read);
-    const std::string& sent = Name(pair->commanded);
-    const Unit unit = UnitOfColumn(sent);
-    const std::string symbol = unit.symbol.empty() ? "mm" : unit.symbol;
-    std::string difference = read + "-" + sent;
-    if (UnitOfColumn(difference).symbol != symbol)
-      difference += " [" + symbol + "]";
-    throw OpenQuestion(
-        PrintablePath(table_.file),
-        {.topic = "target",
-         .question = "no column is an error; is " + QuotedName(read) +
-                     " what was measured where " + QuotedName(sent) +
-                     " was commanded?",
-         .answers = {{.option = ArgumentName("target", difference),
-                      .means = "yes, the error is actual - nominal" +
-                               std::string(unit.symbol.empty() ? ", both in mm"
-                                                               : "")}}});
+    const std::vector<ReadBeside> pairs = FindReadBeside(table_);
+    if (pairs.empty()) return;
+    const bool one = pairs.size() == 1;
+    const ReadBeside& first = pairs.front();
+    Reading::Question question{
+        .topic = "target",
+        .question =
+            "no column is an error; " +
+            (one ? "is " + QuotedName(Name(first.read)) +
+                       " what was measured where " +
+                       QuotedName(Name(first.commanded)) + " was commanded?"
+                 : std::string("which is actual - nominal?")),
+        .answers = {}};
+    for (const ReadBeside& pair : pairs) {
+      const Unit unit = UnitOfColumn(Name(pair.commanded));
+      const std::string symbol = unit.symbol.empty() ? "mm" : unit.symbol;
+      std::string difference = Name(pair.read) + "-" + Name(pair.commanded);
+      if (UnitOfColumn(difference).symbol != symbol)
+        difference += " [" + symbol + "]";
+      question.answers.push_back(
+          {.option = ArgumentName("target", difference),
+           .means = (one ? "yes, the error is actual - nominal"
+                         : "by " + QuotedName(Name(pair.read))) +
+                    std::string(unit.symbol.empty() ? ", both in mm" : "")});
+    }
+    throw OpenQuestion(PrintablePath(table_.file), std::move(question));
   }
 
   void ChooseGroup() {

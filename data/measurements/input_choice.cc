@@ -63,12 +63,13 @@ class MeasuredBeside {
     const Header header = ReadHeader(name);
     const bool is_called =
         ErrorSign(name) != 0 &&
-        (IsLengthOrAngle(header.unit) || header.unit.symbol.empty());
+        (IsLengthOrAngle(header.unit) || header.unit.symbol.empty() ||
+         header.unit.quantity == Quantity::kRatio);
     const bool alike = header.unit == header_.unit &&
                        header.unit_text.empty() == header_.unit_text.empty() &&
                        DifferInAxis(stem, stem_);
     return alike || is_called || StartsWithIgnoringCase(name, "error") ||
-                   IsInUnitOfErrors(name)
+                   IsInUnitOfErrors(name) || header.unit.symbol == "um/m"
                ? "measures an error, as the target does"
                : "";
   }

@@ -128,7 +128,9 @@ bool IsColumnOfCommas(const std::vector<CsvRecord>& records) {
     if (record.cells.size() > 2) return false;
     const std::string text = JoinWords(record.cells, ",");
     NumberForm form;
-    if (!ReadNumberForm(text, true, &form)) return IsMissingNumber(text);
+    if (!ReadNumberForm(text, true, &form) && !IsMissingNumber(text)) {
+      return false;
+    }
     any = any || form.decimal_comma;
   }
   return any;

@@ -147,8 +147,17 @@ TEST(ReadHeader, TakesBareLettersForNames) {
     EXPECT_EQ(ReadHeader(name).unit, Unit{}) << name;
   }
   EXPECT_EQ(ReadHeader("error_C").unit.symbol, "mm");
-  EXPECT_EQ(ReadHeader("temp_C").unit.symbol, "degC");
   EXPECT_EQ(ReadHeader("temp_in").unit.symbol, "degC");
+}
+
+TEST(ReadHeader, TakesBareDegreesBehindTheNameOfATemperature) {
+  for (const char* name : {"temp_C", "T1_C", "tc03 C", "T_bed_C"}) {
+    EXPECT_EQ(ReadHeader(name).unit.symbol, "degC") << name;
+    EXPECT_EQ(ReadHeader(name).source, UnitSource::kStated) << name;
+  }
+  EXPECT_EQ(ReadHeader("Temp_F").unit.symbol, "degF");
+  EXPECT_EQ(ReadHeader("t1_c").unit.symbol, "");
+  EXPECT_EQ(ReadHeader("valve_C").unit.symbol, "");
 }
 
 TEST(ReadHeader, LeavesWhatMayBeAUnitWithoutOne) {

@@ -17,6 +17,7 @@ TEST(ErrorSign, TurnsWithEveryWordForACorrection) {
     EXPECT_EQ(ErrorSign(name), -1) << name;
   }
   EXPECT_EQ(ErrorSign("Abweichung [um]"), 1);
+  EXPECT_EQ(ErrorSign("-correction_um"), 1);
   EXPECT_EQ(ErrorSign("company"), 0);
 }
 

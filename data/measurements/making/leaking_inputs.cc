@@ -206,7 +206,11 @@ class LeakFinder {
     return kSlack * rounding;
   }
 
-  bool MayBe(const std::vector<Index>& set, const VectorXd& b) const {
+  // `worst`: what the sum leaves of the target.
+  bool MayBe(const std::vector<Index>& set,
+             const VectorXd& b,
+             double worst) const {
+    if (worst <= kMostOfOther * sd_ && GoesOneToOne(set, b)) return true;
     const double rounding = RoundingOf(set, b);
     if (IsTheErrorItself(set, b)) return rounding <= kMostOfDifference * sd_;
     const double least = b.cwiseAbs().minCoeff();
@@ -245,7 +249,7 @@ class LeakFinder {
         ((b.cwiseAbs().array() - 1.0).abs() < kUnitSlack).all();
     const double allowed =
         std::max(2.0 * RoundingOf(set, b), adds_up ? kMostOfParts * sd_ : 0.0);
-    if (!b.allFinite() || worst > allowed || !MayBe(set, b)) {
+    if (!b.allFinite() || worst > allowed || !MayBe(set, b, worst)) {
       return std::nullopt;
     }
     return MakeLeak(set, b);
@@ -288,22 +292,26 @@ class LeakFinder {
     return leak;
   }
 
-  // A position that goes with the error one to one is where it was measured; of
-  // a name whose unit could not be told ("position_in"), in any unit of length.
+  // A position that goes with the error one to one is where it was measured.
   bool IsTheErrorItself(const std::vector<Index>& set,
                         const VectorXd& b) const {
-    if (set.size() != 1 || !Of(set[0]).position) return false;
-    const auto goes_one_to_one = [&](const Unit& unit) {
+    return Of(set[0]).position && GoesOneToOne(set, b);
+  }
+
+  // One column, in its unit; of a name whose unit could not be told
+  // ("position_in") in any unit of length.
+  bool GoesOneToOne(const std::vector<Index>& set, const VectorXd& b) const {
+    if (set.size() != 1) return false;
+    const auto is_factor_of = [&](const Unit& unit) {
       return AreConvertible(unit, unit_) &&
              std::abs(std::abs(b[0]) / Converted(1.0, unit, unit_) - 1.0) <
                  kUnitSlack;
     };
     const Unit& unit = inputs_[static_cast<std::size_t>(Of(set[0]).input)].unit;
-    if (!unit.symbol.empty()) return goes_one_to_one(unit);
-    return std::ranges::any_of(std::array{"mm", "in", "m", "um", "cm"},
-                               [&](const char* symbol) {
-                                 return goes_one_to_one(UnitOfSymbol(symbol));
-                               });
+    if (!unit.symbol.empty()) return is_factor_of(unit);
+    return std::ranges::any_of(
+        std::array{"mm", "in", "m", "um", "cm"},
+        [&](const char* symbol) { return is_factor_of(UnitOfSymbol(symbol)); });
   }
 
   const Unit& unit_;

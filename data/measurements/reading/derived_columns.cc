@@ -170,7 +170,7 @@ void AddDerivedColumns(const std::vector<ColumnFilter>& filters,
   table->columns.push_back(DirectionColumn(*table, rows, axis.motion));
 }
 
-std::optional<ReadBeside> FindReadBeside(const CsvTable& table) {
+std::vector<ReadBeside> FindReadBeside(const CsvTable& table) {
   constexpr std::size_t kMostColumns = 200;
   constexpr double kSmallPart = 0.02;  // of the range
   const std::size_t count = std::min(table.columns.size(), kMostColumns);
@@ -189,6 +189,7 @@ std::optional<ReadBeside> FindReadBeside(const CsvTable& table) {
     const auto& values = table.columns[i].values;
     return std::set<double>(values.begin(), values.end()).size();
   };
+  std::vector<ReadBeside> found;
   for (const std::size_t b : positions) {
     for (const std::size_t a : positions) {
       const Unit of_a = UnitOfColumn(table.columns[a].name);
@@ -208,11 +209,19 @@ std::optional<ReadBeside> FindReadBeside(const CsvTable& table) {
       }
       if (most > 0.0 && most < kSmallPart * (high - low) &&
           values_of(a) > 2 * values_of(b)) {
-        return ReadBeside{.read = a, .commanded = b};
+        found.push_back({.read = a, .commanded = b});
       }
     }
   }
-  return std::nullopt;
+  if (found.empty()) return found;
+  // What was read may itself come again, yet less often than what was sent.
+  const std::size_t sent =
+      std::ranges::min_element(found, {}, [&](const ReadBeside& pair) {
+        return values_of(pair.commanded);
+      })->commanded;
+  std::erase_if(found,
+                [&](const ReadBeside& pair) { return pair.commanded != sent; });
+  return found;
 }
 
 void RequireDifference(const CsvTable& table,

@@ -42,7 +42,7 @@ struct ReadBeside {
   std::size_t read;
   std::size_t commanded;
 };
-std::optional<ReadBeside> FindReadBeside(const CsvTable& table);
+std::vector<ReadBeside> FindReadBeside(const CsvTable& table);
 
 /// Throws OpenQuestion where the target is the difference of these columns, but
 /// with the other sign or in another unit than its name states: nominal -

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -98,6 +99,15 @@ std::string ClockOfDigits(double digits) {
                      whole / 10000,
                      whole / 100 % 100,
                      std::fmod(digits, 100.0));
+}
+
+// "08.15" as a clock whose point parts hours and minutes.
+std::string ClockOfPoints(double digits) {
+  const double minutes = std::round(100.0 * digits);
+  if (std::isnan(digits) || std::abs(100.0 * digits - minutes) > 1e-6) {
+    return "";
+  }
+  return ClockOfDigits(100.0 * minutes);
 }
 
 // Columns of one number each that make a date together, "" where none.
@@ -203,6 +213,18 @@ bool AreClocksOfDigits(const CsvColumn& column) {
                              [](double value) { return value >= kOneHour; });
 }
 
+// Parts of an hour have more than 59 hundredths.
+bool AreClocksOfPoints(const CsvColumn& column) {
+  constexpr std::size_t kEnough = 12;
+  std::set<double> minutes;
+  return All(column,
+             [&](double value) {
+               minutes.insert(std::round(100.0 * (value - std::floor(value))));
+               return !ClockOfPoints(value).empty();
+             }) &&
+         minutes.size() >= kEnough;
+}
+
 }  // namespace
 
 DigitDates FindDigitDates(const CsvTable& table) {
@@ -228,9 +250,11 @@ DigitDates FindDigitDates(const CsvTable& table) {
   }
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const CsvColumn& column = table.columns[i];
-    if (!column.is_text() && IsCalledTimeOfDay(column, has_date) &&
-        AreClocksOfDigits(column)) {
+    if (column.is_text() || !IsCalledTimeOfDay(column, has_date)) continue;
+    if (AreClocksOfDigits(column)) {
       rewrite(i, ClockOfDigits);
+    } else if (has_date && AreClocksOfPoints(column)) {
+      rewrite(i, ClockOfPoints);
     }
   }
   if (const DateParts parts(table); parts.are_found()) {

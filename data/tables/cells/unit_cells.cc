@@ -70,10 +70,14 @@ std::optional<std::string> NameWithUnit(const std::string& name,
   const std::string with_unit = name + " [" + std::string(unit) + "]";
   const Header header = ReadHeader(name);
   if (header.source != UnitSource::kStated) return with_unit;
-  if (header.unit != ReadHeader("x [" + std::string(unit) + "]").unit) {
-    return std::nullopt;
+  if (header.unit == ReadHeader("x [" + std::string(unit) + "]").unit) {
+    return name;
   }
-  return name;
+  // "Temp_A" over degC is the first of several.
+  if (header.unit_text.size() == 1 && name.ends_with(header.unit_text)) {
+    return with_unit;
+  }
+  return std::nullopt;
 }
 
 void AddUnitOfCell(const std::string& cell, std::string* name) {

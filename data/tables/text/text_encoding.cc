@@ -118,6 +118,7 @@ const char* EncodingByWords(std::string_view bytes) {
   for (const char* encoding : {"CP850",
                                "CP1250",
                                "CP1251",
+                               "CP1254",
                                "CP932",
                                "EUC-JP",
                                "GB18030",

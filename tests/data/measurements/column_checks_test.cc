@@ -186,7 +186,7 @@ TEST(ColumnChecks, RefusesUnknownUnitsInBracketsAndOnTheTarget) {
   EXPECT_THAT(ErrorOf("a,error [furlong]\n1,2\n2,3\n"),
               HasSubstr("f.csv: column 'error [furlong]': 'furlong' is no unit "
                         "known here; rename the column, with one of these in "
-                        "brackets: nm, um, mm, cm, m, in,"));
+                        "brackets: pm, nm, um, mm, cm, m, in,"));
   EXPECT_THAT(
       ErrorOf("a,error_m\n1,2\n2,3\n"),
       HasSubstr("'m' counts as a unit in brackets or parentheses only"));

@@ -62,6 +62,12 @@ TEST(MatchColumn, ConvertsFromTheUnitOfTheMap) {
       "");
 }
 
+TEST(MatchColumn, ReadsMapsThatHaveNoUnitOfANameThatHasOneNow) {
+  const MatchedColumn match =
+      MatchColumn(ParseCsv("T1_C,b\n1,2\n", "f.csv"), {"T1_C", Unit{}});
+  EXPECT_EQ(match.InMapUnit(20.0), 20.0);
+}
+
 TEST(MatchColumn, RefusesAnotherQuantityAndWhatIsNotSure) {
   EXPECT_THAT(Refusal("t1_mm,e", "t1_degC"),
               HasSubstr("f.csv: column 't1_mm' is in mm, the map's 't1_degC' "

@@ -55,6 +55,14 @@ TEST(ColumnRoles, LeavesOutColumnsThatNumberOrDateTheRows) {
   EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("rowing", "x"));
 }
 
+TEST(ColumnRoles, TakesNoNumberOfARepetitionForASensor) {
+  for (const std::string name : {"Repetition", "Wiederholung", "repeat no"}) {
+    EXPECT_THAT(
+        InputNames(Make("a," + name + ",error_um\n1,1,2\n2,2,3\n").dataset),
+        ElementsAre("a"));
+  }
+}
+
 TEST(ColumnRoles, TakesNoPartOfAClockForASensor) {
   const PreparedDataset prepared = Make(
       "Hour,Min,Sec,Block,x,error\n8,5,10,1,2,3\n8,5,40,1,3,4\n9,2,0,2,2,4\n");
@@ -124,6 +132,9 @@ TEST(ColumnRoles, LeavesOutErrorsMeasuredBesideTheTarget) {
                      "Z-Verlagerung [µm]"),
               ElementsAre("rpm"));
   EXPECT_THAT(inputs("T_x_degC,dx,dy,dz", "dz"), ElementsAre("T_x_degC"));
+  EXPECT_THAT(inputs("T1_C,Scaling error X (ppm),Squareness (µm/m),backlash_um",
+                     "backlash_um"),
+              ElementsAre("T1_C"));
   // Positions stay, whatever their unit, and so do axes of one letter.
   EXPECT_THAT(inputs("position_um,x_um,y_mm,error_um", "error_um"),
               ElementsAre("position_um", "x_um", "y_mm"));

@@ -185,6 +185,9 @@ TEST(MessyFiles, TextMayBeInAnEncodingOfThePlace) {
            {"CP1251",
             "День,Цикл,Время [s],Положение [мм],Темп. 1 [°C],Темп. 2 [°C],"
             "Погрешность [мкм]"},
+           {"CP1254",
+            "gün,Çevrim,Zaman [s],Konum [mm],T1 sıcaklığı [°C],T2 sıcaklığı "
+            "[°C],Hata [µm]"},
            {"CP932",
             "day,サイクル,時間 [s],位置[mm],温度1[℃],温度2[℃],誤差[μm]"},
            {"GB18030", "day,循环,时间 [s],位置[mm],温度1[℃],温度2[℃],误差[μm]"},

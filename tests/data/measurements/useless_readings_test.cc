@@ -60,6 +60,9 @@ TEST(UselessReadings, InputsThatHoldTheErrorAreLeftOut) {
     return rounded(actual(cells), 4);
   };
   const auto copy = [&](const auto& cells) { return -25.4 * error(cells); };
+  const auto coarse_copy = [&](const auto& cells) {
+    return rounded(40.0 + error(cells) / 1000.0, 4);
+  };
   const auto counts = [&](const auto& cells) {
     return 12345.0 +
            std::round(2000.0 * Number(cells[kPosition]) + 2.0 * error(cells));
@@ -70,6 +73,7 @@ TEST(UselessReadings, InputsThatHoldTheErrorAreLeftOut) {
   };
   for (const std::string& text : {with("actual_mm", actual),
                                   with("actual_mm", coarse),
+                                  with("diameter_mm", coarse_copy),
                                   with("raw", copy),
                                   with("raw_counts", counts),
                                   with("err_ppm", share),
@@ -81,6 +85,7 @@ TEST(UselessReadings, InputsThatHoldTheErrorAreLeftOut) {
         prepared.remarks,
         Contains(
             AnyOf(HasSubstr("holds the error itself (error_um = "),
+                  HasSubstr("measures an error as the target does"),
                   HasSubstr("reads the position that position_mm commands"))));
   }
   const PreparedDataset asked =

@@ -129,6 +129,21 @@ TEST(TableNames, FindsNamesAndUnitsAboveChannels) {
               ElementsAre("position [mm]", "bed [degC]", "error [um]"));
 }
 
+TEST(TableNames, TakesALetterForANameWhereTheUnitBelowIsAnother) {
+  EXPECT_THAT(NamesIn(ParseCsv("Temp_A,Temp_B,error\ndegC,degC,um\n" + Rows(),
+                               "f.csv")),
+              ElementsAre("Temp_A [degC]", "Temp_B [degC]", "error [um]"));
+}
+
+TEST(TableNames, FindsNamesBetweenBlanksAboveALineOfDashes) {
+  std::string text = Rows();
+  std::ranges::replace(text, ',', ' ');
+  const CsvTable table =
+      ParseCsv("position  t1  error\n--------------------\n" + text, "f.txt");
+  EXPECT_THAT(NamesIn(table), ElementsAre("position", "t1", "error"));
+  ExpectRows(table);
+}
+
 TEST(TableNames, FindsNamesBetweenBlanksBelowABlockOfWords) {
   std::string text = Rows();
   std::ranges::replace(text, ',', ' ');

@@ -232,6 +232,26 @@ TEST(Clock, OfHoursCountsWithTheDateBesideIt) {
   EXPECT_EQ(reading.sessions.count, 3);
 }
 
+// 8.59 is a minute before 9.00; of parts of an hour some are above .59.
+TEST(Clock, HasAPointBetweenHoursAndMinutesBesideADate) {
+  const auto made = [](bool is_clock) {
+    return MadeOf(Days("Date,Time",
+                       [&](int i, double /*warm*/) {
+                         const int minutes = 480 + 2 * (i % 40);
+                         return "2024-03-0" + std::to_string(4 + i / 40) + "," +
+                                CsvNumber(
+                                    is_clock
+                                        ? minutes / 60 + minutes % 60 / 100.0
+                                        : std::round(minutes / 0.6) / 100.0);
+                       }))
+        .reading;
+  };
+  EXPECT_EQ(made(true).time.column, "Date + Time");
+  EXPECT_EQ(made(true).time.unit, "date");
+  EXPECT_NEAR(*made(true).time.step_s, 120.0, 1e-6);
+  EXPECT_NE(made(false).time.step_s, made(true).time.step_s);
+}
+
 TEST(Clock, MayCountTheTicksOfAController) {
   const Reading reading = CountedIn("tick_10ms", 0.01, 0.0).reading;
   EXPECT_EQ(reading.time.unit, "10ms");

@@ -183,6 +183,20 @@ TEST(Counting, FillsMergedCellsFromAbove) {
   EXPECT_THAT(made.remarks, Contains(HasSubstr("'Day', 'Cycle' are filled")));
 }
 
+TEST(Counting, HoldsTheReadingOfAThermometerThatIsReadOnceACycle) {
+  constexpr int kRows = 2 * kPositions;
+  const auto made = [&](int every) {
+    return MadeWith("day,T_bed [degC]", [&](const Place& at) {
+      return Number(at.day + 1) + "," +
+             (at.row % every == 0 ? Number(20 + at.row / every % 7)
+                                  : std::string());
+    });
+  };
+  EXPECT_EQ(made(kRows).dataset.num_rows(), kDays * kCycles * kRows);
+  EXPECT_THAT(made(kRows).remarks,
+              Contains(HasSubstr("'T_bed [degC]' are filled")));
+}
+
 // As numbers "1.10" is "1.1".
 TEST(Counting, TellsCyclesOfTwoPartsByThePositions) {
   const Reading reading = MadeWith("day,cycle", [](const Place& at) {

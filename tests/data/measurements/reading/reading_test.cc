@@ -550,6 +550,28 @@ TEST(Reading, AsksForTheDifferenceOfWhatWasReadAndCommanded) {
   }
 }
 
+TEST(Reading, OffersEachInstrumentThatReadWhatWasCommanded) {
+  const std::string text = Text(
+      "T1,cmd_mm,encoder_mm,laser_mm", Log().Rows(), [](const Log::Row& row) {
+        return std::vector<std::string>{Fixed(row.warm),
+                                        Fixed(row.position),
+                                        Fixed(row.position + 1e-4 * row.warm),
+                                        Fixed(row.position + row.error / 1e3)};
+      });
+  try {
+    Read(text);
+    FAIL() << "no question";
+  } catch (const OpenQuestion& open) {
+    std::vector<std::string> options;
+    for (const auto& answer : open.question().answers) {
+      options.push_back(answer.option);
+    }
+    EXPECT_THAT(options,
+                ElementsAre(HasSubstr("encoder_mm-cmd_mm"),
+                            HasSubstr("laser_mm-cmd_mm")));
+  }
+}
+
 TEST(Reading, GoesOnOverMidnight) {
   // Shifts from 21:00 on, by a clock without dates.
   Log log;
