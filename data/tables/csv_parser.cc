@@ -402,8 +402,11 @@ class Parser {
       return;
     }
     EndBlankLines();
-    if ((layout_.width > 2 && num_numbers_ == 0 && IsTitle(found)) ||
-        (found == 2 && AreTotals(table_))) {
+    below_totals_ = (found == 2 || ((after_blank || below_totals_) &&
+                                    found < layout_.width)) &&
+                    AreTotals(table_);
+    if (below_totals_ ||
+        (layout_.width > 2 && num_numbers_ == 0 && IsTitle(found))) {
       std::string words = table_.CellText(table_.columns[0], table_.num_rows);
       odd_rows_.AddWords(words);
       if (found == 2) {
@@ -540,6 +543,7 @@ class Parser {
   bool is_beyond_ = false;  // it has something beyond the last name
   bool last_named_is_empty_ = false;
   bool below_names_ = false;
+  bool below_totals_ = false;  // the row before held totals
 
   LooseNumbers loose_;
   BlankLines blank_;  // those right above

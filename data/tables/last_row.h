@@ -18,8 +18,8 @@ bool IsEmptyRow(const CsvTable& table, std::size_t cells);
 /// Of a row of words of so many cells: whether all but the first are empty, and
 /// numbers stood there so far.
 bool HoldsRemarkAlone(const CsvTable& table, std::size_t cells);
-/// Whether its two cells are totals below the rows ("Mean,2.31"): a name where
-/// numbers stood so far, and a value, in far fewer cells than a row has.
+/// Whether its cells, fewer than a row has, may be totals below the rows
+/// ("Mean,2.31"): a name where numbers stood so far.
 bool AreTotals(const CsvTable& table);
 /// Of a row of words: whether it repeats these names; never where there are
 /// none.

@@ -93,6 +93,15 @@ TEST(TableShape, PassesOverTotalsBelowTheRows) {
   }
 }
 
+TEST(TableShape, PassesOverTotalsUnderTheirColumns) {
+  const CsvTable table = ParseCsv(
+      "day,cycle,x_mm,error_um,t1_degC\n1,1,0,1.5,20\n1,1,50,2.5,20\n"
+      "1,1,90,3.5,21\n\nMean,,,2.5\nStd dev,,,1\n",
+      "f.csv");
+  EXPECT_EQ(table.num_rows, 3U);
+  EXPECT_FALSE(table.columns[0].is_text());
+}
+
 TEST(TableShape, TakesNoBreakSpacesOffNamesAndNumbers) {
   const CsvTable table = ParseCsv(
       " x\xC2\xA0;\xE2\x80\xAFy ;z\n1\xC2\xA0;\xC2\xA0"
