@@ -70,7 +70,8 @@ constexpr auto kWords = std::to_array<std::string_view>({
     "day tag jour giorno dia dag",
     // kCounter
     "segment record index row id sample messung versuch durchgang nr no "
-    "number nummer zeile test trial repeat repetition wiederholung repeticion "
+    "number nummer zeile test trial repeat rep reps repetition wiederholung "
+    "repeticion "
     "ripetizione block batch hour hr minute min "
     "second sec stunde sekunde ms msec night nacht nuit notte noche week "
     "woche semaine settimana semana visit campaign kampagne sitzung warmup "

@@ -132,6 +132,9 @@ void DescribeReading(const CsvTable& given,
     DescribeSessions(table, clock, nights, read);
   }
   reading.rows -= std::ssize(reading.rows_left_out);
+  if (selection.faults == FaultPolicy::kDropRows) {
+    reading.rows -= std::ssize(read->repeated_rows);
+  }
   for (const Index row : read->repeated_rows) {
     reading.rows_left_out.push_back(
         {.row = row, .why = "repeats another value for value"});

@@ -15,9 +15,11 @@ namespace {
 
 constexpr auto kLengths = std::to_array<std::string_view>(
     {"mm", "um", "\u00b5m", "\u03bcm", "inch", "in", "m", "deg"});
-constexpr std::string_view kErrors =
-    "e err error dev deviation fehler abw abweichung";
 constexpr std::string_view kDigits = "0123456789";
+
+bool IsErrorWord(std::string_view word) {
+  return IsOneOf(word, "e") || IsWord(PlainText(word), Word::kError);
+}
 
 bool IsDigitOfName(char c) { return kDigits.find(c) != kDigits.npos; }
 
@@ -59,7 +61,7 @@ std::optional<std::string_view> BeforePlace(std::string_view before) {
   // "x_1" is one of several, too.
   if (before.empty()) return is_line ? std::nullopt : std::optional(before);
   const bool is_error =
-      IsOneOf(ReadHeader(before).base, kErrors) || IsOneOf(before, kErrors);
+      IsErrorWord(ReadHeader(before).base) || IsErrorWord(before);
   return is_error ? std::optional(before) : std::nullopt;
 }
 
@@ -223,7 +225,7 @@ std::optional<RunName> ReadRunName(std::string_view name) {
       said.direction = *up ? "up" : "down";
       // "f1" may be anything, "1 fwd" is a run.
       is_run = is_run || word.size() > 1;
-    } else if (!IsOneOf(word, kErrors) && !IsOneOf(word, kLetters)) {
+    } else if (!IsErrorWord(word) && !IsOneOf(word, kLetters)) {
       return std::nullopt;
     }
   }

@@ -180,6 +180,7 @@ TEST(ColumnChecks, MissingCellsAreCountedAmongTheRowsAskedFor) {
       {.missing = MissingPolicy::kDropRows, .where = {{"direction", "up"}}});
   EXPECT_THAT(prepared.dataset.rows(), ElementsAre(3, 5));
   EXPECT_THAT(prepared.remarks, Contains(HasSubstr("1 of 3 rows is dropped")));
+  EXPECT_EQ(prepared.reading.rows, 5);
 }
 
 TEST(ColumnChecks, RefusesUnknownUnitsInBracketsAndOnTheTarget) {

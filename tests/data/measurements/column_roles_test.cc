@@ -56,7 +56,8 @@ TEST(ColumnRoles, LeavesOutColumnsThatNumberOrDateTheRows) {
 }
 
 TEST(ColumnRoles, TakesNoNumberOfARepetitionForASensor) {
-  for (const std::string name : {"Repetition", "Wiederholung", "repeat no"}) {
+  for (const std::string name :
+       {"Repetition", "Wiederholung", "repeat no", "Rep"}) {
     EXPECT_THAT(
         InputNames(Make("a," + name + ",error_um\n1,1,2\n2,2,3\n").dataset),
         ElementsAre("a"));

@@ -236,11 +236,12 @@ TEST(FoldedRuns, AreNamedInManyWays) {
 }
 
 TEST(FoldedRuns, AreTwoWaysByTheirWords) {
-  for (const std::string names : {"+ (um),- (um)",
-                                  "err_plus_um,err_minus_um",
-                                  "err_vor_um,err_rueck_um",
-                                  "Hinweg [um],R\u00fcckweg [um]",
-                                  "error aller [um],error retour [um]"}) {
+  for (const std::string names :
+       {"+ (um),- (um)",
+        "err_plus_um,err_minus_um",
+        "err_vor_um,err_rueck_um",
+        "Hinweg [um],R\u00fcckweg [um]",
+        "\u00c9cart aller [um],\u00c9cart retour [um]"}) {
     EXPECT_THAT(ColumnsOf("x [mm]," + names + "\n0,1,2\n50,2,4\n"),
                 ElementsAre("x [mm]", "direction", "error [um]"))
         << names;
