@@ -8,11 +8,8 @@
 #include <memory>
 #include <new>
 #include <set>
-#include <string>
 #include <string_view>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <CLI/Version.hpp>

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "models/error_model.h"
 #include "models/inner_folds.h"

@@ -1,7 +1,6 @@
 #include "models/recipe_catalog.h"
 
 #include <algorithm>
-#include <string_view>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 #include "cli/commands/progress.h"
 
 #include <cmath>
-#include <string>
 #include <unistd.h>
 
 #include <fmt/format.h>

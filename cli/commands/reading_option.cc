@@ -1,8 +1,5 @@
 #include "cli/commands/reading_option.h"
 
-#include <optional>
-#include <vector>
-
 #include <fmt/format.h>
 
 #include "data/files/atomic_file.h"

@@ -1,10 +1,8 @@
 #include "cli/python/studies.h"
 
 #include <mutex>
-#include <optional>
 #include <utility>
 
-#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include "cli/commands/data_arguments.h"

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/report/number_text.h"
 #include "data/text.h"
 #include "models/learning/sensor_curve.h"
 

@@ -1,7 +1,6 @@
 #include "cli/shell/reference_page.h"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "cli/shell/remedies.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <vector>
 

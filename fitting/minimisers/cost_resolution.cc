@@ -1,7 +1,5 @@
 #include "fitting/minimisers/cost_resolution.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 namespace errmap::fitting {

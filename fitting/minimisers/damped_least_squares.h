@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "fitting/minimisers/levenberg_marquardt.h"
 #include "fitting/minimisers/objective.h"
 
 namespace errmap::fitting {

@@ -1,7 +1,6 @@
 #include "fitting/minimisers/discrepancy_principle.h"
 
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "stats/require.h"

@@ -10,7 +10,6 @@
 #include "fitting/least_squares/linear_least_squares.h"
 #include "fitting/selection/swept_candidates.h"
 #include "stats/f_test.h"
-#include "stats/not_a_number.h"
 #include "stats/require.h"
 
 namespace errmap::fitting {

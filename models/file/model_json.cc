@@ -1,6 +1,5 @@
 #include "models/file/model_json.h"
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>

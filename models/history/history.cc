@@ -16,9 +16,7 @@
 #include "data/measurements/sessions.h"
 #include "data/text.h"
 #include "models/history/history_state.h"
-#include "models/history/lag.h"
 #include "models/history/session_start.h"
-#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {

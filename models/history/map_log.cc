@@ -10,7 +10,6 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_match.h"
 #include "data/measurements/joined_tables.h"
-#include "data/measurements/row_filters.h"
 #include "data/text.h"
 #include "models/trained_range.h"
 #include "stats/indices.h"

@@ -1,6 +1,5 @@
 #include "models/history/view.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

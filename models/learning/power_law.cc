@@ -5,8 +5,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include <Eigen/Core>
-
 #include "fitting/least_squares/decompositions.h"
 
 namespace errmap::models {

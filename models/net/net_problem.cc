@@ -1,7 +1,5 @@
 #include "models/net/net_problem.h"
 
-#include <algorithm>
-
 #include "fitting/multiversion.h"
 
 namespace errmap::models {

@@ -14,7 +14,6 @@
 #include "models/net/feedforward_net.h"
 #include "models/net/net_effective_parameters.h"
 #include "models/net/net_fit.h"
-#include "models/net/net_options.h"
 #include "models/net/net_trainer.h"
 #include "models/net/net_tuning.h"
 #include "models/net/training_sample.h"

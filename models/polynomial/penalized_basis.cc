@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "fitting/least_squares/cross_products.h"
 #include "fitting/matrix_product.h"
 #include "models/polynomial/polynomial_fit.h"
 #include "models/polynomial/polynomial_model.h"

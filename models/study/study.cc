@@ -18,7 +18,6 @@
 #include "models/shared_work.h"
 #include "models/study/fold_pool.h"
 #include "models/study/repeated_rows.h"
-#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {

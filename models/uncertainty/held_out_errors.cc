@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "models/error_model.h"
 #include "models/session/zero_schedule.h"
 #include "models/study/judgement/units_of_analysis.h"
 #include "stats/error_metrics.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "stats/comparison/holm.h"
 #include "stats/not_a_number.h"

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "stats/kolmogorov_smirnov.h"
 #include "stats/normality/bimodality.h"

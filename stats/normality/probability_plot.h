@@ -2,8 +2,6 @@
 
 #include <Eigen/Core>
 
-#include "stats/normality/ordered_sample.h"
-
 namespace errmap::stats {
 
 /// Returns the medians of the order statistics of n >= 1 uniform values by

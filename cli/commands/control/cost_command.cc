@@ -1,5 +1,4 @@
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
@@ -18,7 +17,6 @@
 #include "models/export/export_map.h"
 #include "models/export/measured_cost.h"
 #include "models/export/program_cost.h"
-#include "models/model_file.h"
 
 namespace errmap::cli {
 namespace {

@@ -27,7 +27,6 @@
 #include "models/export/program/safe_names.h"
 #include "models/export/python_code.h"
 #include "models/export/structured_text.h"
-#include "models/model_file.h"
 
 namespace errmap::cli {
 namespace {

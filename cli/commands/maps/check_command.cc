@@ -4,7 +4,6 @@
 #include <limits>
 #include <optional>
 #include <set>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -27,7 +26,6 @@
 #include "data/measurements/measured_files.h"
 #include "data/text.h"
 #include "models/history/map_log.h"
-#include "models/model_file.h"
 #include "models/sensors/sensor_check.h"
 #include "models/session/map_rows.h"
 #include "models/session/session_check.h"

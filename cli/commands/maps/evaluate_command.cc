@@ -19,7 +19,6 @@
 #include "cli/shell/terminal.h"
 #include "data/measurements/measured_files.h"
 #include "data/text.h"
-#include "models/model_file.h"
 #include "models/sensors/sensor_check.h"
 #include "models/session/kept_promise.h"
 #include "models/session/map_rows.h"

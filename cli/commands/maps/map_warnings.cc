@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/commands/data_arguments.h"
 #include "cli/desk/provenance.h"
-#include "cli/json_blocks.h"
 #include "cli/report/number_text.h"
 #include "cli/report/words/commands/fault_text.h"
 #include "cli/report/words/commands/outside_text.h"

@@ -28,7 +28,6 @@
 #include "data/measurements/measured_files.h"
 #include "models/history/map_log.h"
 #include "models/history/view.h"
-#include "models/model_file.h"
 #include "models/sensors/sensor_check.h"
 #include "models/session/probe_correction.h"
 #include "models/uncertainty/learnt_rows.h"

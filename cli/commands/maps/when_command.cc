@@ -18,8 +18,6 @@
 #include "data/columns.h"
 #include "data/files/shown_path.h"
 #include "data/input_error.h"
-#include "data/text.h"
-#include "models/model_file.h"
 #include "models/session/map_rows.h"
 #include "models/session/zero_schedule.h"
 

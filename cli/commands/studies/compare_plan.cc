@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <set>
-#include <string>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "data/input_error.h"
 #include "data/text.h"
 #include "data/throwing_as.h"
 #include "stats/holdout.h"

@@ -1,7 +1,6 @@
 #include "cli/commands/studies/study_plan_text.h"
 
 #include <cmath>
-#include <vector>
 
 #include <fmt/format.h>
 

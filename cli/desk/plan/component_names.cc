@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <iterator>
 #include <set>
-#include <string>
 #include <utility>
 
 #include <fmt/format.h>

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <map>
 #include <new>
-#include <set>
 #include <vector>
 
 #include <fmt/format.h>

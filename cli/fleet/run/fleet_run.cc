@@ -12,7 +12,6 @@
 
 #include "cli/desk/configuration_record.h"
 #include "cli/desk/plan/run_files.h"
-#include "cli/desk/plan/study_plan.h"
 #include "cli/desk/plan/study_run.h"
 #include "cli/desk/provenance.h"
 #include "data/files/atomic_file.h"

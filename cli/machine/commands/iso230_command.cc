@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +27,6 @@
 #include "data/measurements/row_filters.h"
 #include "data/text.h"
 #include "models/kinematics/iso230.h"
-#include "models/model_file.h"
 #include "models/study/record/record_json.h"
 
 namespace errmap::cli {

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <functional>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,7 +22,6 @@
 #include "data/columns.h"
 #include "data/csv.h"
 #include "data/files/atomic_file.h"
-#include "data/formula_text.h"
 #include "data/text.h"
 #include "data/throwing_as.h"
 #include "models/history/map_log.h"

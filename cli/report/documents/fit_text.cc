@@ -14,7 +14,6 @@
 #include "cli/report/words/commands/kept_promise_text.h"
 #include "cli/report/wrap_text.h"
 #include "data/text.h"
-#include "models/study/record/make_study_record.h"
 #include "models/study/record/making/parts.h"
 
 namespace errmap::report {

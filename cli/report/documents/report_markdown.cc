@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include "cli/report/documents/report_headline.h"
 #include "cli/report/figures/figures.h"

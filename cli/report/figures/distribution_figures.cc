@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 #include <fmt/format.h>
 
-#include "stats/distributions.h"
 #include "stats/normality/probability_plot.h"
 #include "stats/summary.h"
 

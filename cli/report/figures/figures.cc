@@ -1,7 +1,6 @@
 #include "cli/report/figures/figures.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 

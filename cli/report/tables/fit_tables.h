@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "cli/report/report_view.h"
 #include "cli/report/table.h"
 

@@ -1,6 +1,5 @@
 #include "cli/report/tables/report_tables.h"
 
-#include <string>
 #include <vector>
 
 #include <fmt/format.h>

@@ -7,7 +7,6 @@
 
 #include "cli/report/plot.h"
 #include "cli/report/words/answers/verdict_text.h"
-#include "cli/report/wrap_text.h"
 #include "data/text.h"
 #include "stats/comparison/paired_comparison.h"
 #include "stats/error_metrics.h"

@@ -16,7 +16,6 @@
 #include "models/export/program/nested_polynomial.h"
 #include "models/export/program/safe_names.h"
 #include "models/history/history.h"
-#include "models/history/lag.h"
 #include "models/history/with_history.h"
 #include "models/map_experience.h"
 #include "models/polynomial/polynomial_model.h"

@@ -14,7 +14,6 @@
 #include "data/argument_name.h"
 #include "data/files/link.h"
 #include "data/input_error.h"
-#include "data/sha256.h"
 #include "data/text.h"
 #include "models/study/journal/fit_record.h"
 

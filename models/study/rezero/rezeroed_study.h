@@ -5,7 +5,6 @@
 
 #include "models/study/rezero/rezero_rule.h"
 #include "models/study/study.h"
-#include "stats/not_a_number.h"
 
 namespace errmap::models {
 
