@@ -7,7 +7,6 @@
 #include <type_traits>
 
 #include "cli/command.h"
-#include "cli/commands/reading_option.h"
 #include "cli/report/words/commands/fault_text.h"
 #include "cli/shell/command_reference.h"
 #include "cli/shell/standard_streams.h"

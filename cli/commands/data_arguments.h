@@ -1,5 +1,9 @@
 #pragma once
 
+namespace CLI {
+class App;
+}
+
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -14,10 +18,6 @@
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/history/map_log.h"
-
-namespace CLI {
-class App;
-}
 
 namespace errmap::cli {
 
@@ -123,5 +123,10 @@ void AddForceFlag(CLI::App* command, bool* force);
 void AddSeedOption(CLI::App* command,
                    std::uint64_t* seed,
                    const std::string& what = "Seed of all random choices");
+
+/// Copies a reading from a file (`errmap read --format json`) to `selection`:
+/// columns, sign, units and the pause that separates sessions. Throws
+/// data::InputError if the file is not a reading.
+void TakeReading(const std::string& path, data::DatasetSelection* selection);
 
 }  // namespace errmap::cli

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "cli/netcg/netcg_objective.h"
-#include "cli/netcg/random_weights.h"
 #include "fitting/minimisers/ordered_sums.h"
 #include "fitting/minimisers/scaled_conjugate_gradient.h"
 #include "stats/kolmogorov_smirnov.h"

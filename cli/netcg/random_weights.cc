@@ -1,7 +1,7 @@
-#include "cli/netcg/random_weights.h"
-
 #include <algorithm>
 #include <cstdlib>
+
+#include "cli/netcg/netcg_run.h"
 
 namespace errmap::netcg {
 

@@ -1,7 +1,6 @@
-#include "cli/netcg/run_report.h"
-
 #include <array>
 
+#include "cli/netcg/netcg_files.h"
 #include "data/argument_name.h"
 #include "data/formats/fortran_format.h"
 

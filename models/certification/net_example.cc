@@ -1,6 +1,6 @@
-#include "models/certification/net_example.h"
-
 #include <cmath>
+
+#include "models/certification/parts.h"
 
 namespace errmap::models {
 

@@ -1,9 +1,9 @@
-#include "models/certification/strd_functions.h"
-
 #include <cmath>
 #include <map>
 #include <stdexcept>
 #include <string>
+
+#include "models/certification/parts.h"
 
 namespace errmap::models {
 namespace {

@@ -1,5 +1,3 @@
-#include "models/export/c_code.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +6,7 @@
 #include "models/export/c_language.h"
 #include "models/export/program/safe_names.h"
 #include "models/export/program/saved_state.h"
+#include "models/export/program_text.h"
 #include "models/history/lag.h"
 
 namespace errmap::models {

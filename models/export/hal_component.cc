@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "models/export/c_code.h"
 #include "models/export/program/error_curve.h"
 #include "models/export/program/safe_names.h"
+#include "models/export/program_text.h"
 
 namespace errmap::models {
 namespace {

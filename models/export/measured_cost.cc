@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "data/files/atomic_file.h"
-#include "models/export/c_code.h"
 #include "models/export/program/safe_names.h"
+#include "models/export/program_text.h"
 
 namespace errmap::models {
 namespace {

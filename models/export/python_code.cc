@@ -1,5 +1,3 @@
-#include "models/export/python_code.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +5,7 @@
 
 #include "models/export/program/safe_names.h"
 #include "models/export/program/saved_state.h"
+#include "models/export/program_text.h"
 #include "models/history/lag.h"
 
 namespace errmap::models {

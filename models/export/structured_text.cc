@@ -1,11 +1,10 @@
-#include "models/export/structured_text.h"
-
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "models/export/program/safe_names.h"
 #include "models/export/program/saved_state.h"
+#include "models/export/program_text.h"
 #include "models/history/lag.h"
 
 namespace errmap::models {

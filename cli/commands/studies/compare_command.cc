@@ -8,8 +8,6 @@
 #include "cli/command.h"
 #include "cli/commands/progress.h"
 #include "cli/commands/studies/compare_arguments.h"
-#include "cli/commands/studies/compare_plan.h"
-#include "cli/commands/studies/study_plan_text.h"
 #include "cli/desk/plan/run_files.h"
 #include "cli/desk/plan/study_forecast.h"
 #include "cli/desk/plan/study_run.h"

@@ -1,5 +1,3 @@
-#include "cli/commands/studies/compare_plan.h"
-
 #include <algorithm>
 #include <array>
 #include <set>
@@ -9,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/studies/compare_arguments.h"
 #include "data/text.h"
 #include "data/throwing_as.h"
 #include "stats/holdout.h"

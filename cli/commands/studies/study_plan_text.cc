@@ -1,9 +1,8 @@
-#include "cli/commands/studies/study_plan_text.h"
-
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "cli/commands/studies/compare_arguments.h"
 #include "cli/desk/plan/rough_time.h"
 #include "cli/report/number_text.h"
 #include "cli/report/words/answers/data_words.h"

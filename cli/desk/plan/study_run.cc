@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "cli/desk/configuration_record.h"
+#include "cli/desk/provenance.h"
 #include "cli/report/report.h"
 #include "data/files/shown_path.h"
 #include "models/study/journal/kept_fits.h"

@@ -13,7 +13,6 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/fleet/commands/compare_fleet.h"
-#include "cli/fleet/run/fleet_plan.h"
 #include "cli/fleet/run/fleet_run.h"
 #include "cli/report/shell_word.h"
 #include "cli/shell/command_options.h"

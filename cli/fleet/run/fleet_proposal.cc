@@ -1,5 +1,3 @@
-#include "cli/fleet/run/fleet_proposal.h"
-
 #include <algorithm>
 #include <array>
 #include <exception>
@@ -12,6 +10,7 @@
 
 #include "cli/desk/plan/study_plan.h"
 #include "cli/desk/toml/toml_text.h"
+#include "cli/fleet/run/fleet_run.h"
 #include "data/argument_name.h"
 #include "data/input_error.h"
 #include "data/measurements/measured_files.h"

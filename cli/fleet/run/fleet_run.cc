@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/desk/configuration_record.h"
 #include "cli/desk/plan/run_files.h"
 #include "cli/desk/plan/study_run.h"
 #include "cli/desk/provenance.h"

@@ -9,7 +9,7 @@
 
 #include "cli/report/number_text.h"
 #include "cli/report/table.h"
-#include "cli/report/tables/regression_tables.h"
+#include "cli/report/tables/report_tables.h"
 #include "cli/report/words/answers/interval_text.h"
 #include "cli/report/words/commands/kept_promise_text.h"
 #include "cli/report/wrap_text.h"

@@ -4,17 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "cli/report/documents/report_glossary.h"
-#include "cli/report/documents/report_headline.h"
-#include "cli/report/documents/report_style.h"
 #include "cli/report/figures/row_pictures.h"
 #include "cli/report/html.h"
 #include "cli/report/number_text.h"
 #include "cli/report/shell_word.h"
-#include "cli/report/tables/fit_tables.h"
-#include "cli/report/tables/regression_tables.h"
 #include "cli/report/tables/report_tables.h"
-#include "cli/report/tables/result_table.h"
 #include "cli/report/words/answers/data_words.h"
 #include "cli/report/words/answers/next_steps.h"
 #include "cli/report/words/answers/verdict_text.h"

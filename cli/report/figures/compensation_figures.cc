@@ -1,5 +1,3 @@
-#include "cli/report/figures/compensation_figures.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "cli/report/figures/figure_parts.h"
-#include "cli/report/figures/held_out_rows.h"
 #include "data/column_header.h"
 #include "stats/summary.h"
 

@@ -1,11 +1,10 @@
-#include "cli/report/figures/distribution_figures.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Core>
 #include <fmt/format.h>
 
+#include "cli/report/figures/figure_parts.h"
 #include "stats/normality/probability_plot.h"
 #include "stats/summary.h"
 

@@ -1,8 +1,7 @@
-#include "cli/report/figures/held_out_rows.h"
-
 #include <cmath>
 #include <cstdint>
 
+#include "cli/report/figures/figure_parts.h"
 #include "cli/report/plot.h"
 
 namespace errmap::report {

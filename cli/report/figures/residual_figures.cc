@@ -1,5 +1,3 @@
-#include "cli/report/figures/residual_figures.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/report/figures/distribution_figures.h"
 #include "cli/report/figures/figure_parts.h"
 #include "stats/summary.h"
 

@@ -6,7 +6,6 @@
 
 #include "cli/report/number_text.h"
 #include "cli/report/plot.h"
-#include "cli/report/tables/result_table.h"
 #include "stats/error_metrics.h"
 
 namespace errmap::report {

@@ -1,11 +1,10 @@
-#include "cli/report/tables/result_table.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "cli/report/plot.h"
+#include "cli/report/tables/report_tables.h"
 #include "cli/report/words/answers/verdict_text.h"
 #include "data/text.h"
 #include "stats/comparison/paired_comparison.h"

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "fitting/least_squares/decompositions.h"
-#include "models/export/program/controller_routines.h"
 #include "models/export/program/run_program.h"
 #include "models/history/view.h"
 #include "models/map_experience.h"

@@ -94,4 +94,9 @@ bool IsCount(const data::Unit& unit);
 /// other unit: `max_error` in 10 s.
 double DefaultMaxRate(const data::Unit& unit, double max_error);
 
+/// Return MapProgram::read and MapProgram::move. The bounds and slopes of the
+/// program's readings, and its judgement, must already be set.
+Routine ReadRoutine(const MapProgram& program);
+Routine MoveRoutine(const ControllerLimits& limits);
+
 }  // namespace errmap::models

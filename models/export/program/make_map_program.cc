@@ -13,7 +13,6 @@
 #include "data/argument_name.h"
 #include "data/measurements/row_filters.h"
 #include "models/export/program/map_program.h"
-#include "models/export/program/nested_polynomial.h"
 #include "models/export/program/safe_names.h"
 #include "models/history/history.h"
 #include "models/history/with_history.h"

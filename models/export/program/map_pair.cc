@@ -1,11 +1,10 @@
-#include "models/export/program/map_pair.h"
-
 #include <algorithm>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "models/export/program/error_curve.h"
+#include "models/export/program/map_program.h"
 #include "models/export/program/safe_names.h"
 
 namespace errmap::models {

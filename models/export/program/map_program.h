@@ -9,7 +9,6 @@
 #include <Eigen/Core>
 
 #include "models/error_model.h"
-#include "models/export/program/operand.h"
 #include "models/export/program/routine.h"
 
 namespace errmap::models {
@@ -206,5 +205,24 @@ Eigen::VectorXd MeanReadings(const MapProgram& program);
 /// Throws std::invalid_argument if a filter of its history uses another unit of
 /// time than seconds: a controller does not count rows.
 MapProgram MakeMapProgram(const FittedModel& fitted);
+
+/// Returns instructions that compute the polynomial in kTerm 0 from its scaled
+/// inputs in kScaled 0, 1, .... They nest it (Horner's scheme) by the input
+/// that most terms contain, then recursively, so that no power is computed.
+Instructions NestedPolynomial(const PolynomialForm& form);
+
+/// Joins two maps of one axis and error into one program: the first acts while
+/// its position increases, the second while it decreases. Readings of the same
+/// name are shared; the filters of both always run. Throws
+/// std::invalid_argument if a map reads no position, if they read different
+/// ones, or if a column or the error differs in unit.
+MapProgram JoinedPrograms(const MapProgram& increasing,
+                          const MapProgram& decreasing);
+
+/// Converts readings of the map `form` to those of the program; readings that
+/// only the other map uses are at their means.
+Eigen::VectorXd ReadingsOfProgram(const MapProgram& program,
+                                  std::size_t form,
+                                  const Eigen::VectorXd& of_map);
 
 }  // namespace errmap::models

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "models/export/program/map_pair.h"
+#include "models/export/program/map_program.h"
 #include "models/history/history.h"
 #include "models/history/history_state.h"
 #include "models/map_experience.h"

@@ -1,5 +1,3 @@
-#include "models/study/journal/fit_record.h"
-
 #include <array>
 #include <concepts>
 #include <cstdint>
@@ -21,6 +19,7 @@
 #include "models/map_experience.h"
 #include "models/members.h"
 #include "models/regression_record.h"
+#include "models/study/journal/kept_fits.h"
 
 namespace errmap::models {
 

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
-#include "models/study/judgement/blend_or_simpler.h"
 #include "models/study/judgement/extrapolated_rows.h"
-#include "models/study/judgement/telling_holdout.h"
-#include "models/study/judgement/worth_of_sensors.h"
+#include "models/study/judgement/parts.h"
 
 namespace errmap::models {
 

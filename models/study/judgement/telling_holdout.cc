@@ -1,6 +1,6 @@
-#include "models/study/judgement/telling_holdout.h"
-
 #include <utility>
+
+#include "models/study/judgement/parts.h"
 
 namespace errmap::models {
 

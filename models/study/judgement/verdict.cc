@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "models/study/judgement/telling_holdout.h"
+#include "models/study/judgement/parts.h"
 
 namespace errmap::models {
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// The judgement: the models compared with each other on held-out rows.
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -9,8 +11,6 @@
 #include "models/study/judgement/choice.h"
 #include "models/study/judgement/confidence.h"
 #include "models/study/judgement/holdout_comparison.h"
-
-// The judgement: the models compared with each other on held-out rows.
 
 namespace errmap::models {
 
@@ -86,6 +86,27 @@ struct VerdictRecord {
   bool established = false;
   Confidence confidence = Confidence::kNotShown;
   std::string why;
+};
+
+// The effect of re-zeroing on maps, and on no map.
+
+struct RezeroedModelRecord {
+  std::string model;
+  double rmse = kNotKnown;
+  double never = kNotKnown;  // the same rows without re-zeroing
+};
+
+/// See RezeroRule and RezeroWorth.
+struct RezeroRecord {
+  std::string rule;             // as given
+  std::string when;             // "interval", "session", "probe"
+  double interval = kNotKnown;  // s; only for "interval"
+  double noise = kNotKnown;
+  std::string holdout;
+  std::int64_t probes = 0;
+  std::int64_t scored_rows = 0;
+  double no_map = kNotKnown;
+  std::vector<RezeroedModelRecord> models;
 };
 
 }  // namespace errmap::models

@@ -1,5 +1,3 @@
-#include "models/study/record/sensor_importance.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +9,7 @@
 #include "models/scaling.h"
 #include "models/study/fold_pool.h"
 #include "models/study/judgement/recommendation.h"
+#include "models/study/record/worth.h"
 
 namespace errmap::models {
 namespace {

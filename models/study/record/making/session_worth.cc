@@ -1,5 +1,3 @@
-#include "models/study/record/session_worth.h"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -8,6 +6,7 @@
 
 #include "fitting/interruption.h"
 #include "fitting/parallel_for.h"
+#include "models/study/record/worth.h"
 
 namespace errmap::models {
 namespace {
