@@ -29,8 +29,7 @@ AveragedModel::AveragedModel(Index num_inputs,
     if (!(member.weight > 0.0 && std::isfinite(member.weight))) {
       refuse("weights must be above 0 and finite");
     }
-    if (static_cast<Index>(member.inputs.size()) !=
-        member.model->num_inputs()) {
+    if (std::ssize(member.inputs) != member.model->num_inputs()) {
       refuse(member.name + " reads " +
              std::to_string(member.model->num_inputs()) + " inputs, " +
              std::to_string(member.inputs.size()) + " are named");

@@ -57,7 +57,7 @@ Eigen::VectorXd ErrorModel::DoPredict(const Eigen::MatrixXd& inputs) const {
 }
 
 double ErrorModel::PredictRow(std::span<const double> inputs) const {
-  if (static_cast<Eigen::Index>(inputs.size()) != num_inputs()) {
+  if (std::ssize(inputs) != num_inputs()) {
     throw std::invalid_argument(
         "PredictRow: the model reads " + std::to_string(num_inputs()) +
         " inputs, found " + std::to_string(inputs.size()));

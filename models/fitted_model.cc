@@ -36,7 +36,7 @@ void Clip(const Bounds& bounds,
 MatrixXd ColumnsByName(const data::Dataset& dataset,
                        const std::string& model,
                        const std::vector<TrainedInput>& inputs) {
-  MatrixXd values(dataset.num_rows(), static_cast<Index>(inputs.size()));
+  MatrixXd values(dataset.num_rows(), std::ssize(inputs));
   Index column = 0;
   for (const TrainedInput& input : inputs) {
     const Index index = dataset.FindInput(input.column.name);
@@ -57,7 +57,7 @@ Guards MakeGuards(const std::vector<TrainedInput>& form_inputs,
                   bool grows) {
   Guards guards;
   if (grows) guards.error_margin = 1.0;
-  const auto size = static_cast<Index>(form_inputs.size());
+  const auto size = std::ssize(form_inputs);
   guards.input_min.resize(size);
   guards.input_max.resize(size);
   for (Index i = 0; i < size; ++i) {
@@ -113,7 +113,7 @@ double FittedModel::PredictFormRow(std::span<const double> form_inputs,
   if (!guards) {
     error = model->PredictRow(form_inputs);
   } else {
-    if (static_cast<Index>(form_inputs.size()) != guards->input_min.size()) {
+    if (std::ssize(form_inputs) != guards->input_min.size()) {
       throw std::invalid_argument("PredictFormRow: the guards know " +
                                   std::to_string(guards->input_min.size()) +
                                   " inputs, found " +

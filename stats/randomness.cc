@@ -221,7 +221,7 @@ SerialTests NotTested(const std::string& why) {
 
 Segments SegmentsByGroup(const Eigen::Ref<const VectorXd>& values,
                          const std::vector<Index>& group_codes) {
-  if (static_cast<Index>(group_codes.size()) != values.size()) {
+  if (std::ssize(group_codes) != values.size()) {
     throw std::invalid_argument(
         "SegmentsByGroup: " + std::to_string(group_codes.size()) +
         " group codes for " + std::to_string(values.size()) + " values");
@@ -232,8 +232,8 @@ Segments SegmentsByGroup(const Eigen::Ref<const VectorXd>& values,
   }
   Segments segments;
   for (const auto& [code, members] : groups) {
-    segments.emplace_back(Eigen::Map<const VectorXd>(
-        members.data(), static_cast<Index>(members.size())));
+    segments.emplace_back(
+        Eigen::Map<const VectorXd>(members.data(), std::ssize(members)));
   }
   return segments;
 }

@@ -58,7 +58,7 @@ int RunCertify(const CertifyArguments& arguments,
         report::CertificationText(certification, floors, arguments.details));
   }
   if (certification.passed()) return kDone;
-  const auto missed = static_cast<long long>(certification.missed.size());
+  const auto missed = std::ssize(certification.missed);
   Say(
       fmt::format("certify: {} missed, the first: {}; this installation is not "
                   "to be trusted",

@@ -103,7 +103,7 @@ Column FindColumn(const data::CsvTable& table,
 
 // The values of a column in these of its rows.
 Eigen::VectorXd At(const Column& column, const Rows& rows) {
-  Eigen::VectorXd values(static_cast<Index>(rows.size()));
+  Eigen::VectorXd values(std::ssize(rows));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto at =
         std::lower_bound(column.rows.begin(), column.rows.end(), rows[i]);

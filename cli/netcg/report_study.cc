@@ -108,7 +108,7 @@ Direction ReadDirection(const std::string& folder, bool down) {
           .string();
   const data::CsvTable table = data::ReadCsv(direction.file);
   const std::vector<Index> day = FirstDay(table);
-  direction.rows = static_cast<Index>(day.size());
+  direction.rows = std::ssize(day);
   std::vector<Index> rows;
   constexpr Index kStops = 17;
   for (Index i = 0; i < direction.rows; ++i) {
@@ -124,8 +124,7 @@ Direction ReadDirection(const std::string& folder, bool down) {
   data::PatternTable& training = direction.training;
   training.inputs = {"position_mm"};
   training.targets = {"error_mm"};
-  training.input_values.resize(static_cast<Index>(rows.size()),
-                               kThermocouples + 1);
+  training.input_values.resize(std::ssize(rows), kThermocouples + 1);
   training.input_values.col(0) =
       Numbers(table, ColumnStarting(table, "position"))(rows);
   for (int i = 0; i < kThermocouples; ++i) {
@@ -168,7 +167,7 @@ NetcgSpecification SpecificationOf(const NetcgStudyRun& run,
                          prefix + "graph_w2.out",
                          prefix + "graph_res.out"};
   specification.patterns = direction.training.input_values.rows();
-  specification.inputs = static_cast<Index>(run.thermocouples.size()) + 1;
+  specification.inputs = std::ssize(run.thermocouples) + 1;
   specification.hidden = run.report.hidden;
   specification.outputs = 1;
   specification.wfactor = kWfactor;

@@ -53,8 +53,7 @@ NetcgWeights ParseWeights(std::string_view text, const std::string& name) {
                        .scaling = {}};
   // A number and a blank at least: no memory for what cannot be there.
   constexpr Index kLeastCharacters = 2;
-  if (NumWeights(weights) * kLeastCharacters >
-      static_cast<Index>(text.size())) {
+  if (NumWeights(weights) * kLeastCharacters > std::ssize(text)) {
     reader.Refuse("a net of " + std::to_string(nodes[0]) + "-" +
                   std::to_string(nodes[1]) + "-" + std::to_string(nodes[2]) +
                   " nodes has " + std::to_string(NumWeights(weights)) +

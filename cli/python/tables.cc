@@ -166,7 +166,7 @@ py::dict Table::Columns() const {
       continue;
     }
     Numbers numbers;
-    numbers.values.resize(static_cast<Eigen::Index>(column.values.size()), 1);
+    numbers.values.resize(std::ssize(column.values), 1);
     Eigen::Index row = 0;
     for (const double value : column.values) numbers.values(row++) = value;
     columns[py::str(column.name)] = py::cast(std::move(numbers));

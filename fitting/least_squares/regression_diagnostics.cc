@@ -258,7 +258,7 @@ void RowDiagnostics::Add(const RegressionDiagnostics& fit,
                          const MatrixXd& terms,
                          const VectorXd& response,
                          const VectorXd& weights) {
-  const Index k = static_cast<Index>(fit.kept.size());
+  const Index k = std::ssize(fit.kept);
   VectorXd predicted = VectorXd::Constant(terms.rows(), fit.intercept.estimate);
   VectorXd leverage = VectorXd::Constant(
       terms.rows(), fit.has_intercept ? 1.0 / fit.sum_of_weights : 0.0);

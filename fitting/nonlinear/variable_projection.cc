@@ -27,9 +27,7 @@ ProjectedObjective::ProjectedObjective(const RegressionFunction& function)
   }
 }
 
-Index ProjectedObjective::num_parameters() const {
-  return static_cast<Index>(others_.size());
-}
+Index ProjectedObjective::num_parameters() const { return std::ssize(others_); }
 
 VectorXd ProjectedObjective::Reduce(const VectorXd& b) const {
   return b(others_);

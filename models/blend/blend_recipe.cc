@@ -67,7 +67,7 @@ VectorXd WeightsAmong(const std::vector<Score>& scores,
                       Among among,
                       double power) {
   const double least = LeastOf(scores, among);
-  VectorXd weights = VectorXd::Zero(static_cast<Index>(scores.size()));
+  VectorXd weights = VectorXd::Zero(std::ssize(scores));
   for (std::size_t i = 0; i < scores.size(); ++i) {
     const Score& score = scores[i];
     if (std::isnan(score.rmse)) continue;
@@ -343,7 +343,7 @@ class BlendRecipe final : public ModelRecipe {
           MakeGuards(fitted.inputs, training.target_values(), grows);
     }
     fitted.model = std::make_shared<AveragedModel>(
-        static_cast<Index>(all.size()), "likelihood", std::move(members));
+        std::ssize(all), "likelihood", std::move(members));
     if (!history.derived.empty()) {
       fitted = WithHistory(std::move(fitted), training, history);
     }

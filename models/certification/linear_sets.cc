@@ -63,7 +63,7 @@ LinearCertificate Certify(const data::StrdProblem& problem) {
   for (const CoefficientRecord& line : fitted.regression->coefficients) {
     row.estimates.push_back({line.term, line.estimate, line.standard_error});
   }
-  const auto count = static_cast<Eigen::Index>(row.estimates.size());
+  const auto count = std::ssize(row.estimates);
   Eigen::VectorXd coefficients(count);
   Eigen::VectorXd deviations(count);
   for (Eigen::Index j = 0; j < count; ++j) {

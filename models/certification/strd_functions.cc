@@ -273,7 +273,7 @@ const std::map<std::string, FunctionMaker>& Makers() {
 
 template <typename Text>
 Eigen::VectorXd ParameterNumbers(const data::StrdProblem& problem, Text text) {
-  Eigen::VectorXd numbers(static_cast<Index>(problem.parameters.size()));
+  Eigen::VectorXd numbers(std::ssize(problem.parameters));
   for (std::size_t j = 0; j < problem.parameters.size(); ++j) {
     numbers[static_cast<Index>(j)] =
         stats::ParseDoubleDouble(problem.parameters[j].*text).hi;
@@ -285,7 +285,7 @@ Eigen::VectorXd ParameterNumbers(const data::StrdProblem& problem, Text text) {
 
 ExtendedVector StrdColumn(const data::StrdProblem& problem,
                           std::size_t column) {
-  ExtendedVector values(static_cast<Index>(problem.rows.size()));
+  ExtendedVector values(std::ssize(problem.rows));
   for (std::size_t i = 0; i < problem.rows.size(); ++i) {
     values[static_cast<Index>(i)] =
         stats::ParseDoubleDouble(problem.rows[i].at(column));
@@ -304,14 +304,12 @@ std::unique_ptr<fitting::RegressionFunction> MakeStrdFunction(
   if (problem.name == "Nelson") {
     for (DoubleDouble& y : target) y = log(y);
   }
-  ExtendedMatrix predictors(target.size(),
-                            static_cast<Index>(problem.columns.size()) - 1);
+  ExtendedMatrix predictors(target.size(), std::ssize(problem.columns) - 1);
   for (std::size_t j = 1; j < problem.columns.size(); ++j) {
     predictors.col(static_cast<Index>(j) - 1) = StrdColumn(problem, j);
   }
   auto function = maker->second(std::move(predictors), std::move(target));
-  if (function->num_parameters() !=
-      static_cast<Index>(problem.parameters.size())) {
+  if (function->num_parameters() != std::ssize(problem.parameters)) {
     throw std::invalid_argument("MakeStrdFunction: " + problem.name + " has " +
                                 std::to_string(function->num_parameters()) +
                                 " parameters, found " +

@@ -110,7 +110,7 @@ Index Node::Count() const {
 
 Eigen::VectorXd Node::Vector() const {
   const std::vector<Node> elements = Elements();
-  Eigen::VectorXd vector(static_cast<Index>(elements.size()));
+  Eigen::VectorXd vector(std::ssize(elements));
   for (std::size_t i = 0; i < elements.size(); ++i) {
     vector[static_cast<Index>(i)] = elements[i].Number();
   }
@@ -123,7 +123,7 @@ Eigen::MatrixXd Node::Matrix() const {
   Eigen::MatrixXd matrix;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Eigen::VectorXd row = rows[i].Vector();
-    if (i == 0) matrix.resize(static_cast<Index>(rows.size()), row.size());
+    if (i == 0) matrix.resize(std::ssize(rows), row.size());
     if (row.size() != matrix.cols()) {
       rows[i].Refuse(fmt::format(
           "has {} numbers, the first row has {}", row.size(), matrix.cols()));

@@ -195,7 +195,7 @@ Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
     }
   }
   trained.columns = ReadColumnsOf(node.At("columns"), fitted.inputs);
-  const auto size = static_cast<Index>(trained.columns.size());
+  const auto size = std::ssize(trained.columns);
   if (const auto standing = node.Find("standing")) {
     const StandingStill& still = trained.standing;
     RequireSize(standing->At("others_move"), still.others_move, size);

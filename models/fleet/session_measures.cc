@@ -79,7 +79,7 @@ std::string WhyNotWatched(const FittedModel& fitted) {
     return "its map was not judged on whole sessions: it promises nothing for "
            "another one";
   }
-  if (const auto units = static_cast<Index>(fitted.held_out->units.size());
+  if (const auto units = std::ssize(fitted.held_out->units);
       units < kFewestSessions) {
     return fmt::format(
         "its map was judged on {} sessions: how much they differ is not known "

@@ -127,7 +127,7 @@ ExpectedErrors ExpectedOf(const HeldOutErrors& errors,
                           const VectorXd& elapsed,
                           const VectorXd& position) {
   ExpectedErrors expected;
-  const auto num_units = static_cast<Index>(errors.units.size());
+  const auto num_units = std::ssize(errors.units);
   if (num_units < kFewestSessions) return expected;
   const Neighbours neighbours(errors, elapsed, position);
   const Index num_rows = std::max<Index>(

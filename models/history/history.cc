@@ -85,9 +85,8 @@ Derived DeriveLog(const data::SessionLog& log,
     if (to >= 0) again.emplace_back(static_cast<Index>(i), to);
     to = static_cast<Index>(i);
   }
-  MatrixXd derived(static_cast<Index>(log_rows.size()),
-                   static_cast<Index>(state.form_columns().size()));
-  Eigen::VectorXd reading(static_cast<Index>(columns.size()));
+  MatrixXd derived(std::ssize(log_rows), std::ssize(state.form_columns()));
+  Eigen::VectorXd reading(std::ssize(columns));
   const std::vector<std::vector<Index>> sessions = RowsOfSessions(log);
   for (std::size_t s = 0; s < sessions.size(); ++s) {
     Index before = -1;
@@ -117,8 +116,7 @@ Derived DeriveRows(const data::Dataset& dataset,
                    HistoryState state) {
   const MatrixXd readings =
       dataset.input_values()(Eigen::all, columns).transpose();
-  MatrixXd derived(dataset.num_rows(),
-                   static_cast<Index>(state.form_columns().size()));
+  MatrixXd derived(dataset.num_rows(), std::ssize(state.form_columns()));
   for (Index row = 0; row < derived.rows(); ++row) {
     state.Start(readings.col(row));
     derived.row(row) = state.form_inputs().transpose();

@@ -31,7 +31,7 @@ Index FindName(const std::vector<data::ColumnInfo>& columns,
 
 HistoryState::HistoryState(const History& history,
                            const std::vector<data::ColumnInfo>& columns)
-    : num_columns_(static_cast<Index>(columns.size())) {
+    : num_columns_(std::ssize(columns)) {
   std::vector<data::ColumnInfo> known = columns;
   for (const DerivedInput& input : history.derived) {
     Node node{.filter = input.filter, .source = FindName(known, input.of)};
@@ -68,12 +68,10 @@ HistoryState::HistoryState(const History& history,
         known[static_cast<std::size_t>(form_sources_.back())]);
   }
   gains_.resize(taus_.size());
-  values_ =
-      Eigen::VectorXd::Constant(static_cast<Index>(known.size()), stats::kNaN);
-  memory_ =
-      Eigen::VectorXd::Constant(static_cast<Index>(nodes_.size()), stats::kNaN);
-  form_inputs_ = Eigen::VectorXd::Constant(
-      static_cast<Index>(form_sources_.size()), stats::kNaN);
+  values_ = Eigen::VectorXd::Constant(std::ssize(known), stats::kNaN);
+  memory_ = Eigen::VectorXd::Constant(std::ssize(nodes_), stats::kNaN);
+  form_inputs_ =
+      Eigen::VectorXd::Constant(std::ssize(form_sources_), stats::kNaN);
 }
 
 void HistoryState::Start(const Eigen::Ref<const Eigen::VectorXd>& readings) {

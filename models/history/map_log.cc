@@ -248,8 +248,7 @@ Eigen::MatrixXd ReadingsOf(const FittedModel& fitted,
                            const data::CsvTable& table) {
   const std::vector<Index> rows =
       stats::AllIndices(static_cast<Index>(table.num_rows));
-  Eigen::MatrixXd readings(static_cast<Index>(rows.size()),
-                           static_cast<Index>(fitted.inputs.size()));
+  Eigen::MatrixXd readings(std::ssize(rows), std::ssize(fitted.inputs));
   Index column = 0;
   for (const TrainedInput& input : fitted.inputs) {
     const std::size_t at =
@@ -262,7 +261,7 @@ Eigen::MatrixXd ReadingsOf(const FittedModel& fitted,
 Eigen::MatrixXd InputsOf(const FittedModel& fitted,
                          const data::CsvTable& table) {
   Eigen::MatrixXd inputs(static_cast<Index>(table.num_rows),
-                         static_cast<Index>(fitted.inputs.size()));
+                         std::ssize(fitted.inputs));
   Index column = 0;
   for (const TrainedInput& input : fitted.inputs) {
     inputs.col(column++) = data::NumericColumn(

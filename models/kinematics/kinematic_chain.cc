@@ -74,7 +74,7 @@ KinematicChain::KinematicChain(std::vector<KinematicLink> links)
       ++num_coordinates_;
     }
     has_tool = has_tool || link.branch == Branch::kTool;
-    const auto index = static_cast<Index>(names.size()) - 1;
+    const auto index = std::ssize(names) - 1;
     for (const ErrorDirection direction : link.errors) {
       errors_.push_back({index, direction});
     }

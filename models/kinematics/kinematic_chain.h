@@ -69,9 +69,7 @@ class KinematicChain {
   const std::vector<KinematicLink>& links() const { return links_; }
   const std::vector<ErrorPlace>& errors() const { return errors_; }
   Eigen::Index num_coordinates() const { return num_coordinates_; }
-  Eigen::Index num_errors() const {
-    return static_cast<Eigen::Index>(errors_.size());
-  }
+  Eigen::Index num_errors() const { return std::ssize(errors_); }
 
   /// The tip less the work's origin (3), without errors, along the axes of the
   /// base: the place of the tool on the work. Throws std::invalid_argument for

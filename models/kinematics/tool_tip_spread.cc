@@ -54,7 +54,7 @@ MatrixX3d ToolTipHalfWidths(const std::vector<HeldOutToolTip>& sessions,
         std::ranges::all_of(sessions, [&](const HeldOutToolTip& session) {
           return IsKnown(session.half_widths, d);
         });
-    VectorXd mean_squares(static_cast<Index>(sessions.size()));
+    VectorXd mean_squares(std::ssize(sessions));
     Index s = 0;
     for (const HeldOutToolTip& session : sessions) {
       VectorXd errors = session.errors.col(d);

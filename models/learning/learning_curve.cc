@@ -128,7 +128,7 @@ VectorXd UnitMeanSquares(const std::vector<Index>& codes,
     sum += std::pow(residuals[static_cast<Index>(i)], 2);
     count += 1.0;
   }
-  VectorXd squares(static_cast<Index>(sums.size()));
+  VectorXd squares(std::ssize(sums));
   Index at = 0;
   for (const auto& [code, sum] : sums) squares[at++] = sum.first / sum.second;
   return squares;

@@ -96,8 +96,7 @@ std::vector<NextState> ChooseNext(const data::Dataset& measured,
   const MatrixXd all_wanted = wanted.transpose();
   std::vector<NextState> chosen;
   std::vector<bool> is_chosen(static_cast<std::size_t>(wanted.rows()));
-  while (static_cast<Index>(chosen.size()) <
-         std::min(most, candidates.rows())) {
+  while (std::ssize(chosen) < std::min(most, candidates.rows())) {
     // Adding r rows phi to M lowers trace(M^-1 P) by
     // r phi' M^-1 P M^-1 phi / (1 + r phi' M^-1 phi) (Sherman-Morrison).
     const MatrixXd solved = information.ldlt().solve(all_wanted);

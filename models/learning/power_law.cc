@@ -36,7 +36,7 @@ constexpr double kMisfit = 1.0;
 
 // Inverse covariance of the logarithms of the points' errors.
 MatrixXd PrecisionOf(const std::vector<LearningPoint>& points, double last) {
-  const auto count = static_cast<Index>(points.size());
+  const auto count = std::ssize(points);
   VectorXd spread(count);
   VectorXd misfit(count);
   for (Index i = 0; i < count; ++i) {

@@ -215,13 +215,13 @@ std::vector<double> InnerHoldoutRmse(const NetDesign& design,
                                      const std::vector<NetTrial>& trials,
                                      const FitContext& context) {
   const std::vector<fitting::FoldCodes::Rows> split = folds.folds.Splits();
-  const auto count = static_cast<Index>(split.size());
+  const auto count = std::ssize(split);
   Eigen::VectorXd rows(count);
   for (Index fold = 0; fold < count; ++fold) {
     rows[fold] =
         static_cast<double>(split[static_cast<std::size_t>(fold)].test.size());
   }
-  Eigen::MatrixXd squares(count, static_cast<Index>(trials.size()));
+  Eigen::MatrixXd squares(count, std::ssize(trials));
   fitting::ParallelFor(
       context.threads, trials.size() * split.size(), [&](std::size_t job) {
         squares.reshaped()[static_cast<Index>(job)] =
@@ -291,7 +291,7 @@ double WfactorWalk::Step(double wfactor) {
     fold.squares = SquaresOn(fold.test, *fold.rows, minimum.x);
     fold.weights = std::move(minimum.x);
   });
-  Eigen::VectorXd squares(static_cast<Index>(folds_.size()));
+  Eigen::VectorXd squares(std::ssize(folds_));
   Eigen::VectorXd rows(squares.size());
   for (Index fold = 0; fold < squares.size(); ++fold) {
     const Fold& from = folds_[static_cast<std::size_t>(fold)];

@@ -65,8 +65,7 @@ NetTrainers TrainersOf(const NetOptions& options) {
   fitting::StoppingRules rules = options.stopping();
   NetTrainers trainers;
   if (*options.path) {  // the steps of a path share the iterations of a fit
-    rules.iterations = Share(rules.iterations,
-                             static_cast<std::int64_t>(WfactorPath().size()));
+    rules.iterations = Share(rules.iterations, std::ssize(WfactorPath()));
   }
   trainers.full_iterations = rules.iterations;
   trainers.full = MakeNetTrainer(options.method, rules);
@@ -299,7 +298,7 @@ class OneLayerRecipe final : public NetRecipe {
                              rows.FormOf(minima[i].x))});
     }
     fitted->model = std::make_shared<AveragedModel>(
-        static_cast<Index>(columns.size()), "equal", std::move(members));
+        std::ssize(columns), "equal", std::move(members));
     // The summary is that of the first start; each is in `starts`.
     fitted->summary = std::move(minima.front().summary);
   }

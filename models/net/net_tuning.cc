@@ -79,7 +79,7 @@ class Tuner {
         hopeless_(kOutOfReach * tuning.rival) {
     Index rows = training.num_rows();
     for (const fitting::FoldCodes::Rows& split : inner_.folds.Splits()) {
-      rows = std::min(rows, static_cast<Index>(split.train.size()));
+      rows = std::min(rows, std::ssize(split.train));
     }
     hidden_to_try_ = HiddenToTry(rows);
   }

@@ -51,7 +51,7 @@ class FormulaRecipe final : public PolynomialRecipe {
   }
 
   std::optional<Index> NumCoefficients(const Dataset&) const override {
-    return static_cast<Index>(terms_.size()) + (form_.intercept ? 1 : 0);
+    return std::ssize(terms_) + (form_.intercept ? 1 : 0);
   }
 
   FittedModel Fit(const Dataset& training,

@@ -92,8 +92,7 @@ std::vector<TermPowers> AllTerms(Index num_inputs, int degree) {
 
 Eigen::MatrixXd TermMatrix(const Eigen::MatrixXd& scaled_inputs,
                            const std::vector<TermPowers>& terms) {
-  Eigen::MatrixXd matrix(scaled_inputs.rows(),
-                         static_cast<Index>(terms.size()));
+  Eigen::MatrixXd matrix(scaled_inputs.rows(), std::ssize(terms));
   for (Index column = 0; column < matrix.cols(); ++column) {
     const TermPowers& powers = terms[static_cast<std::size_t>(column)];
     bool has_factor = false;

@@ -34,9 +34,7 @@ class PolynomialDesign {
                    std::vector<TermPowers> terms);
 
   Eigen::Index rows() const { return dataset_.num_rows(); }
-  Eigen::Index num_terms() const {
-    return static_cast<Eigen::Index>(terms_.size());
-  }
+  Eigen::Index num_terms() const { return std::ssize(terms_); }
   const data::Dataset& dataset() const { return dataset_; }
   const std::vector<Eigen::Index>& inputs() const { return inputs_; }
   const ColumnScaling& scaling() const { return scaling_; }

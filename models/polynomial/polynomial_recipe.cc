@@ -113,7 +113,7 @@ class PositionTemperatureRecipe final : public PolynomialRecipe {
   }
 
   std::optional<Index> NumCoefficients(const Dataset&) const override {
-    return static_cast<Index>(form_.terms.size()) + 1;
+    return std::ssize(form_.terms) + 1;
   }
 
   // T is the candidate that leaves the smallest residual sum of squares in

@@ -37,7 +37,7 @@ int DefaultDegreeOf(TermSet set, Index num_inputs) {
 std::optional<Index> CountTerms(TermSet set,
                                 const std::vector<bool>& is_position,
                                 int degree) {
-  const auto inputs = static_cast<Index>(is_position.size());
+  const auto inputs = std::ssize(is_position);
   const auto positions =
       static_cast<Index>(std::ranges::count(is_position, true));
   const Index others = inputs - positions;

@@ -197,9 +197,9 @@ OffsetTrack TrackOffset(const OffsetModel& model,
   std::ranges::stable_sort(order, {}, [&](Index i) {
     return probe_moments[static_cast<std::size_t>(i)].time;
   });
-  OffsetTrack track{.offset = VectorXd(static_cast<Index>(moments.size())),
-                    .variance = VectorXd(static_cast<Index>(moments.size())),
-                    .widening = VectorXd(static_cast<Index>(moments.size())),
+  OffsetTrack track{.offset = VectorXd(std::ssize(moments)),
+                    .variance = VectorXd(std::ssize(moments)),
+                    .widening = VectorXd(std::ssize(moments)),
                     .contradicted = {},
                     .used = {}};
   for (std::size_t row = 0; row < moments.size(); ++row) {

@@ -19,7 +19,7 @@ stats::ErrorMetrics AverageMetrics(
   const double count = static_cast<double>(folds.size());
   Metrics average;
   for (const Metrics& fold : folds) average.n += fold.n;
-  average.n /= static_cast<Index>(folds.size());
+  average.n /= std::ssize(folds);
   for (double Metrics::*const figure : {&Metrics::mean,
                                         &Metrics::sd,
                                         &Metrics::rmse,

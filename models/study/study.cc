@@ -358,8 +358,7 @@ std::string ModelResult::why() const {
 bool IsOfSessions(const Holdout& holdout, const Dataset& dataset) {
   const bool groups_are_coarser =
       holdout.whole_groups &&
-      static_cast<Index>(dataset.groups().labels.size()) <
-          dataset.num_sessions();
+      std::ssize(dataset.groups().labels) < dataset.num_sessions();
   return holdout.whole_sessions && !groups_are_coarser;
 }
 

@@ -10,7 +10,7 @@ namespace errmap::models {
 std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset) {
   constexpr Eigen::Index kFolds = 5;
   std::vector<std::string> specs{"every:3"};
-  const auto groups = static_cast<Eigen::Index>(dataset.groups().labels.size());
+  const auto groups = std::ssize(dataset.groups().labels);
   const Eigen::Index sessions = dataset.num_sessions();
   if (groups >= 2) {
     std::string spec = fmt::format("groups:{}", std::min(groups, kFolds));

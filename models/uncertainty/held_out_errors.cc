@@ -98,8 +98,7 @@ std::optional<HeldOutErrors> HeldOutErrorsOf(
   }
   const auto places = PlacesOfUnits(codes, units.labels.size(), elapsed);
   KeptRows kept_of;
-  for (const Index u :
-       stats::SpreadSample(static_cast<Index>(places.size()), kMostUnits)) {
+  for (const Index u : stats::SpreadSample(std::ssize(places), kMostUnits)) {
     const std::vector<Index>& all = places[static_cast<std::size_t>(u)];
     const std::vector<Index>& kept =
         kept_of.emplace_back(stats::SpreadSample(all, kMostRows));

@@ -176,7 +176,7 @@ void AdjustTogether(const std::vector<PairComparison*>& pairs,
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     pairs[i]->p_holm = std::max(adjusted[i], gates.p);
     pairs[i]->p_memory_holm = std::max(memory_adjusted[i], gates.p_memory);
-    pairs[i]->num_adjusted = static_cast<Index>(pairs.size());
+    pairs[i]->num_adjusted = std::ssize(pairs);
   }
 }
 

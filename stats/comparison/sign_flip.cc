@@ -141,7 +141,7 @@ std::vector<SignFlipTest> TestBySignFlips(const MatrixXd& differences,
     }
     const std::vector<double> magnitudes =
         NonzeroMagnitudes(differences.col(pair));
-    if (static_cast<Index>(magnitudes.size()) > kMostForExactFlips) {
+    if (std::ssize(magnitudes) > kMostForExactFlips) {
       many.push_back(pair);
     } else {
       test = TestExactly(differences.col(pair), magnitudes);

@@ -92,7 +92,7 @@ SignedRankTest TestSignedRanks(
     return std::abs(a) < std::abs(b);
   });
   const Ranking ranking = Rank(sorted);
-  const Index n = static_cast<Index>(sorted.size());
+  const Index n = std::ssize(sorted);
   constexpr Index kFewestForNormal = 50;
   result.exact =
       n == differences.size() && ranking.ties == 0.0 && n < kFewestForNormal;

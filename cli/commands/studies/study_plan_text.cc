@@ -27,10 +27,10 @@ std::string InUnit(double value, const data::Unit& unit) {
 std::string HoldoutList(const std::vector<models::Holdout>& holdouts) {
   std::vector<std::string> parts;
   for (const models::Holdout& holdout : holdouts) {
-    parts.push_back(fmt::format(
-        "{} ({})",
-        Shown(holdout.name),
-        report::Count(static_cast<long long>(holdout.folds.size()), "fold")));
+    parts.push_back(
+        fmt::format("{} ({})",
+                    Shown(holdout.name),
+                    report::Count(std::ssize(holdout.folds), "fold")));
   }
   return data::JoinWords(parts, ", ");
 }

@@ -231,9 +231,8 @@ class FleetRunner {
     if (map.empty()) {
       Remove(name, kMapFile);
     } else {
-      summary->map =
-          SummaryMapRecord{.sha256 = data::Sha256(map),
-                           .bytes = static_cast<std::int64_t>(map.size())};
+      summary->map = SummaryMapRecord{.sha256 = data::Sha256(map),
+                                      .bytes = std::ssize(map)};
       Write(name, kMapFile, data::Gzip(map));
     }
     const auto relations =

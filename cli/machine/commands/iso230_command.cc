@@ -212,8 +212,7 @@ Approached ReadAll(const Iso230Arguments& arguments) {
 std::vector<PositioningPoint> PointsOf(const Approached& all,
                                        const std::vector<double>& deviations) {
   const auto vector = [](const std::vector<double>& values) {
-    return Eigen::Map<const VectorXd>(values.data(),
-                                      static_cast<Index>(values.size()));
+    return Eigen::Map<const VectorXd>(values.data(), std::ssize(values));
   };
   return models::PositioningPointsOf(
       {.positions = Targets(vector(all.positions)),

@@ -125,8 +125,7 @@ std::string WithFirstRows(Table table, std::size_t most) {
   more.marked = more.marked != std::string::npos && more.marked >= most
                     ? more.marked - most
                     : std::string::npos;
-  const std::string title =
-      Count(static_cast<long long>(more.rows.size()), "more model");
+  const std::string title = Count(std::ssize(more.rows), "more model");
   return HtmlTable(table) + Collapsed(title, HtmlTable(more));
 }
 
@@ -383,7 +382,7 @@ std::string Data(const ReportView& view) {
   for (const std::string& input : inputs) {
     names += (names.empty() ? "" : ", ") + HtmlName(input);
   }
-  return "<p>" + Count(static_cast<long long>(inputs.size()), "input") +
+  return "<p>" + Count(std::ssize(inputs), "input") +
          (names.empty() ? "" : ": " + names) + ".</p>\n" +
          HtmlTable(DroppedTable(view)) + HtmlTable(HoldoutTable(view));
 }

@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t kFewestForShape = 8;
 
 Eigen::VectorXd Sorted(const std::vector<double>& values) {
-  Eigen::VectorXd sorted = Eigen::Map<const Eigen::VectorXd>(
-      values.data(), static_cast<Eigen::Index>(values.size()));
+  Eigen::VectorXd sorted =
+      Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
   std::sort(sorted.begin(), sorted.end());
   return sorted;
 }

@@ -43,7 +43,7 @@ HeldOutRows HeldOutRowsOf(const ReportView& view,
   rows.inputs.resize(figures.inputs.size());
   rows.labels = table->labels;
   if (table->session_labels) rows.session_labels = *table->session_labels;
-  rows.thinned = table->rows_total > static_cast<std::int64_t>(target.size());
+  rows.thinned = table->rows_total > std::ssize(target);
   for (std::size_t i = 0; i < target.size(); ++i) {
     if (!std::isfinite(predicted[i]) || !std::isfinite(target[i])) continue;
     rows.row.push_back(static_cast<double>(i < table->rows.size()

@@ -258,8 +258,7 @@ void AddJudgement(const FittedModel& fitted,
   form->has_relations = sensors > 1;  // one alone has no others to go with
   if (!form->has_relations) return;
   // Readings that are no sensors, such as positions, have no doubt.
-  MatrixXd told =
-      MatrixXd::Zero(static_cast<Index>(program->readings.size()), directions);
+  MatrixXd told = MatrixXd::Zero(std::ssize(program->readings), directions);
   for (Index i = 0; i < sensors; ++i) {
     told.row(reading_of(i)) = -per_limit[i] * trained.directions.row(i);
   }

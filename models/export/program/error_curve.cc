@@ -17,7 +17,7 @@ constexpr int kFineSteps = 4096;
 
 Eigen::VectorXd HeldReadings(const std::vector<TrainedInput>& inputs,
                              const std::vector<HeldReading>& held) {
-  Eigen::VectorXd readings(static_cast<Index>(inputs.size()));
+  Eigen::VectorXd readings(std::ssize(inputs));
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const auto found =
         std::ranges::find(held, inputs[i].column.name, &HeldReading::first);

@@ -57,8 +57,7 @@ Eigen::MatrixXd FormInputs(const FittedModel& fitted,
   for (const TrainedInput& input : fitted.inputs) {
     columns.push_back(input.column);
   }
-  Eigen::MatrixXd inputs(static_cast<Index>(rows.size()),
-                         fitted.model->num_inputs());
+  Eigen::MatrixXd inputs(std::ssize(rows), fitted.model->num_inputs());
   if (fitted.history == nullptr) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       inputs.row(static_cast<Index>(i)) = rows[i].readings.transpose();

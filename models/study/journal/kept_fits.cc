@@ -230,7 +230,7 @@ void KeptFits::Record(const std::string& key, const FitOutcome& outcome) {
   // What failed may be mended in another program's code before the next run.
   if (!outcome.fitted && IsCache()) return;
   const std::string record = FitToBytes(key, outcome);
-  const auto size = static_cast<std::int64_t>(record.size());
+  const auto size = std::ssize(record);
   constexpr std::int64_t kShareOfOne = 4;
   const std::lock_guard lock(mutex_);
   if (record.size() > kLongestRecord ||
@@ -331,8 +331,7 @@ bool ComponentJournal::IsOf(const StudyTask& task,
     const Holdout& holdout = holdouts_[static_cast<std::size_t>(task.holdout)];
     const stats::Fold& fold = holdout.folds[task.fold];
     return outcome.train_predictions.allFinite() &&
-           outcome.train_predictions.size() ==
-               static_cast<Eigen::Index>(fold.train.size()) &&
+           outcome.train_predictions.size() == std::ssize(fold.train) &&
            predicts(holdout.test_data != nullptr
                         ? *holdout.test_data
                         : dataset_.SelectRows(fold.test));

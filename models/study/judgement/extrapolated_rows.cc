@@ -22,7 +22,7 @@ std::vector<Eigen::Array<bool, Eigen::Dynamic, 1>> ExtrapolatedRows(
     auto& rows = outside.emplace_back();
     rows.setConstant(holdout.test_data != nullptr
                          ? holdout.test_data->num_rows()
-                         : static_cast<Eigen::Index>(fold.test.size()),
+                         : std::ssize(fold.test),
                      false);
     for (const TrainedInput& input : map.inputs) {
       const auto [trained, tested] = ValuesOfFold(

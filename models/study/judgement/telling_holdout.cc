@@ -19,7 +19,7 @@ std::pair<int, bool> RankOf(const Holdout& holdout,
   const auto kind = [&] {
     if (holdout.rows_of_training > 0) return 6;
     if (comparison.units.are_sessions &&
-        static_cast<Index>(comparison.units.labels.size()) >= fewest) {
+        std::ssize(comparison.units.labels) >= fewest) {
       return 0;
     }
     if (holdout.whole_groups && holdout.test_data == nullptr) return 1;

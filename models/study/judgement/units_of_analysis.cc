@@ -64,8 +64,7 @@ std::vector<Index> UnitCodes(const Holdout& holdout,
   std::ranges::sort(ordered);
   const auto repeated = std::ranges::unique(ordered);
   ordered.erase(repeated.begin(), repeated.end());
-  const std::vector<Index> blocks =
-      stats::BlocksInOrder(static_cast<Index>(ordered.size()));
+  const std::vector<Index> blocks = stats::BlocksInOrder(std::ssize(ordered));
   std::vector<Index> block_of(
       static_cast<std::size_t>(ordered.empty() ? 0 : ordered.back() + 1));
   std::vector<std::pair<Index, Index>> ends;  // data rows of each block
@@ -74,7 +73,7 @@ std::vector<Index> UnitCodes(const Holdout& holdout,
     const Index block = blocks[at++];
     block_of[static_cast<std::size_t>(row)] = block;
     const Index data_row = held.source->rows()[static_cast<std::size_t>(row)];
-    if (block == static_cast<Index>(ends.size())) {
+    if (block == std::ssize(ends)) {
       ends.emplace_back(data_row, data_row);
     }
     ends.back().second = data_row;
@@ -128,10 +127,9 @@ HeldOutRows GatherHeldOut(const data::Dataset& dataset,
   held.source =
       holdout.test_data != nullptr ? holdout.test_data.get() : &dataset;
   for (std::size_t fold = 0; fold < holdout.folds.size(); ++fold) {
-    const Index size =
-        holdout.test_data != nullptr
-            ? held.source->num_rows()
-            : static_cast<Index>(holdout.folds[fold].test.size());
+    const Index size = holdout.test_data != nullptr
+                           ? held.source->num_rows()
+                           : std::ssize(holdout.folds[fold].test);
     for (Index i = 0; i < size; ++i) {
       held.rows.push_back(
           holdout.test_data != nullptr
@@ -145,7 +143,7 @@ HeldOutRows GatherHeldOut(const data::Dataset& dataset,
 
 Eigen::VectorXd ResidualsOf(const HeldOutRows& held,
                             const HoldoutResult& result) {
-  Eigen::VectorXd residuals(static_cast<Index>(held.rows.size()));
+  Eigen::VectorXd residuals(std::ssize(held.rows));
   Index at = 0;
   for (const FoldResult& fold : result.folds) {
     for (const double predicted : fold.test_predictions) {

@@ -169,7 +169,7 @@ class ZeroPlanner {
 
   ZeroPlan Plan() {
     plan_.zero_of.assign(held_.rows.size(), -1);
-    plan_.noise.setZero(static_cast<Index>(held_.rows.size()));
+    plan_.noise.setZero(std::ssize(held_.rows));
     const std::vector<Index> sessions = source_.session_codes();
     std::map<std::pair<std::size_t, Index>, std::vector<Index>> runs;
     for (std::size_t i = 0; i < held_.rows.size(); ++i) {
@@ -252,7 +252,7 @@ ZeroPlan PlanZeros(const HeldOutRows& held,
 }
 
 Eigen::VectorXd Rezeroed(const ZeroPlan& plan, const Eigen::VectorXd& errors) {
-  Eigen::VectorXd left(static_cast<Index>(plan.scored.size()));
+  Eigen::VectorXd left(std::ssize(plan.scored));
   for (Index i = 0; i < left.size(); ++i) {
     const Index place = plan.scored[static_cast<std::size_t>(i)];
     const Index zero = plan.zero_of[static_cast<std::size_t>(place)];

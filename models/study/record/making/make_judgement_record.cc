@@ -237,8 +237,8 @@ std::vector<SinceStartRecord> SinceStart(const ComponentStudy& study,
   std::vector<SinceStartRecord> records;
   for (std::size_t part = 0; part < parts.size(); ++part) {
     if (parts[part].empty()) continue;
-    const Eigen::Map<const Eigen::VectorXd> values(
-        parts[part].data(), static_cast<Index>(parts[part].size()));
+    const Eigen::Map<const Eigen::VectorXd> values(parts[part].data(),
+                                                   std::ssize(parts[part]));
     records.push_back({.from = kMinutes[part] * kMinute,
                        .until = part + 1 < kMinutes.size()
                                     ? kMinutes[part + 1] * kMinute

@@ -85,7 +85,7 @@ HoldoutRecord MakeHoldout(const ComponentStudy& study, std::size_t h) {
   const Holdout& holdout = study.holdouts[h];
   const HoldoutComparison& tests = study.judgement.comparisons[h];
   HoldoutRecord record{.name = holdout.name,
-                       .folds = static_cast<std::int64_t>(holdout.folds.size()),
+                       .folds = std::ssize(holdout.folds),
                        .whole_groups = holdout.whole_groups,
                        .whole_sessions = holdout.whole_sessions,
                        .among_neighbours = holdout.among_neighbours,

@@ -50,8 +50,7 @@ class StandIn {
       if (std::ranges::find(columns, i) == columns.end()) others.push_back(i);
     }
     MatrixXd made = values;
-    MatrixXd scaled =
-        MatrixXd::Zero(values.rows(), static_cast<Index>(columns.size()));
+    MatrixXd scaled = MatrixXd::Zero(values.rows(), std::ssize(columns));
     if (!others.empty()) {
       MatrixXd of_others = gram_(others, others);
       of_others.diagonal().array() += kRidge;
@@ -192,7 +191,7 @@ std::size_t StepOfHoldout(const Holdout& holdout,
   for (const stats::Fold& fold : holdout.folds) {
     rows += static_cast<double>(holdout.test_data != nullptr
                                     ? holdout.test_data->num_rows()
-                                    : static_cast<Index>(fold.test.size()));
+                                    : std::ssize(fold.test));
   }
   const PredictionCost cost = CostOf(fitted.model->Describe());
   const double each =
@@ -265,8 +264,7 @@ std::optional<SensorImportance> ImportanceOfSensors(
     // One that is not a number tells nothing.
     if (!std::isfinite(without.rmse)) return std::nullopt;
   }
-  const auto several =
-      plan.begin() + static_cast<std::ptrdiff_t>(sensors.size());
+  const auto several = plan.begin() + std::ssize(sensors);
   std::stable_sort(plan.begin(), several, [](const auto& a, const auto& b) {
     return a.rmse > b.rmse;
   });

@@ -45,7 +45,7 @@ Loss LossOfFold(const Dataset& dataset,
                 const FitContext& context) {
   const std::vector<Index> codes = dataset.session_codes();
   const std::vector<Index> sessions = SessionsOf(fold.train, codes);
-  Loss loss{.sessions = static_cast<Index>(sessions.size())};
+  Loss loss{.sessions = std::ssize(sessions)};
   if (sessions.size() < 2) return loss;
   const Index dropped = sessions[number % sessions.size()];
   std::vector<Index> rows;
@@ -105,7 +105,7 @@ std::optional<SessionWorth> WorthOfASession(const Dataset& dataset,
   const auto all = static_cast<double>(dataset.num_sessions());
   return SessionWorth{
       .sessions = dataset.num_sessions(),
-      .folds = static_cast<Index>(losses.size()),
+      .folds = std::ssize(losses),
       .ratio_of_one_fewer = std::exp(log_ratio / folds),
       .ratio_of_one_more = std::pow(all / (all + 1.0), exponent)};
 }
