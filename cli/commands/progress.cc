@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/desk/plan/rough_time.h"
+#include "cli/desk/plan/study_forecast.h"
 #include "cli/report/wrap_text.h"
 #include "cli/shell/standard_streams.h"
 

@@ -1,5 +1,4 @@
-#include "cli/netcg/weights_file.h"
-
+#include "cli/netcg/netcg_files.h"
 #include "data/csv.h"
 #include "data/formats/fortran_format.h"
 #include "data/formats/record_reader.h"

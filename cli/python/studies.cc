@@ -7,7 +7,6 @@
 
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/studies/compare_arguments.h"
-#include "cli/desk/plan/rough_time.h"
 #include "cli/desk/plan/run_files.h"
 #include "cli/desk/plan/study_forecast.h"
 #include "cli/desk/plan/study_run.h"

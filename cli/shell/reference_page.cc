@@ -1,5 +1,3 @@
-#include "cli/shell/reference_page.h"
-
 #include <algorithm>
 #include <utility>
 #include <vector>

@@ -39,4 +39,14 @@ void AdviseOnly(std::set<std::string, std::less<>> options);
 /// Draws on a terminal, unfiltered; only for text of our own.
 void DrawOnTerminal(std::string_view text);
 
+/// Returns the message without clauses that advise an option unknown to
+/// `has`: the library does not know which command reads its messages. For
+/// a command without --missing, "empty cell; fill it in, or drop such
+/// rows with --missing drop-rows" becomes "empty cell; fill it in". Text
+/// about another command ("errmap fit ... --model X") and quoted text
+/// stay.
+std::string WithOwnRemedies(
+    std::string_view message,
+    const std::function<bool(std::string_view option)>& has);
+
 }  // namespace errmap::cli

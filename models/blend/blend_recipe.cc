@@ -20,7 +20,7 @@
 #include "models/inner_folds.h"
 #include "models/net/net_recipe.h"
 #include "models/option_list.h"
-#include "models/polynomial/penalized_candidates.h"
+#include "models/polynomial/penalized_fit.h"
 #include "models/polynomial/polynomial_model.h"
 #include "stats/indices.h"
 

@@ -8,8 +8,8 @@
 #include "data/argument_name.h"
 #include "data/measurements/row_filters.h"
 #include "models/export/program/map_program.h"
+#include "models/export/program/run_program.h"
 #include "models/export/program/safe_names.h"
-#include "models/export/program/saved_state.h"
 
 namespace errmap::models {
 

@@ -1,5 +1,3 @@
-#include "models/export/hal_component.h"
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>

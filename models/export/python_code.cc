@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "models/export/program/run_program.h"
 #include "models/export/program/safe_names.h"
-#include "models/export/program/saved_state.h"
 #include "models/export/program_text.h"
 #include "models/history/lag.h"
 

@@ -1,5 +1,3 @@
-#include "models/export/thermal_state.h"
-
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
@@ -8,6 +6,7 @@
 
 #include "data/argument_name.h"
 #include "data/text.h"
+#include "models/export/compensation_table.h"
 #include "models/history/map_log.h"
 
 namespace errmap::models {

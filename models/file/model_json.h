@@ -1,17 +1,18 @@
 #pragma once
 
+// Shared by the writer and the reader of model files. Not installed, and not
+// included by public headers.
+
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
 #include "models/error_model.h"
-
-// Shared by the writer and the reader of model files. Not installed, and not
-// included by public headers.
 
 namespace errmap::models {
 
@@ -81,5 +82,17 @@ void WriteForm(const ErrorModel& model,
 void ReadForm(const ModelJsonNode& document,
               Eigen::Index num_inputs,
               FittedModel* fitted);
+
+/// Last key of a model file.
+inline constexpr const char* kChecksumKey = "checksum";
+
+/// Returns `json`, an object with at least one member, with its checksum as a
+/// further member: the SHA-256 of all text before it, without blanks between
+/// tokens. A copy may thus be indented or have other line ends.
+std::string WithChecksum(std::string json);
+
+/// Returns true if `json` ends with `checksum` as written by WithChecksum, and
+/// the text before is unchanged.
+bool HasChecksum(std::string_view json, std::string_view checksum);
 
 }  // namespace errmap::models

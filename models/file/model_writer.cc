@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "models/file/checksum.h"
 #include "models/file/map_members_json.h"
 #include "models/file/model_json.h"
 #include "models/history/history.h"

@@ -7,7 +7,6 @@
 
 #include "fitting/parallel_for.h"
 #include "models/net/feedforward_net.h"
-#include "models/net/training_sample.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::models {

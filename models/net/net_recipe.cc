@@ -15,8 +15,6 @@
 #include "models/net/net_effective_parameters.h"
 #include "models/net/net_fit.h"
 #include "models/net/net_trainer.h"
-#include "models/net/net_tuning.h"
-#include "models/net/training_sample.h"
 #include "models/option_list.h"
 #include "models/shared_work.h"
 #include "stats/indices.h"

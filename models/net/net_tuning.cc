@@ -1,5 +1,3 @@
-#include "models/net/net_tuning.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "models/inner_folds.h"
+#include "models/net/net_fit.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::models {

@@ -1,9 +1,8 @@
-#include "models/net/training_sample.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <stdexcept>
 
+#include "models/net/net_fit.h"
 #include "stats/indices.h"
 #include "stats/random.h"
 

@@ -1,5 +1,3 @@
-#include "models/polynomial/penalized_basis.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -9,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "fitting/matrix_product.h"
+#include "models/polynomial/penalized_fit.h"
 #include "models/polynomial/polynomial_fit.h"
 #include "models/polynomial/polynomial_model.h"
 #include "stats/not_a_number.h"

@@ -1,5 +1,3 @@
-#include "models/polynomial/penalized_candidates.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 
 #include "models/history/view_options.h"
 #include "models/inner_folds.h"
+#include "models/polynomial/penalized_fit.h"
 #include "models/polynomial/term_dictionary.h"
 #include "models/shared_work.h"
 

@@ -1,8 +1,8 @@
-#include "models/polynomial/session_offsets.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "models/polynomial/penalized_fit.h"
 
 namespace errmap::models {
 

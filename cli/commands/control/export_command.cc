@@ -21,8 +21,7 @@
 #include "data/throwing_as.h"
 #include "models/export/compensation_table.h"
 #include "models/export/export_map.h"
-#include "models/export/hal_component.h"
-#include "models/export/program/failing_sensors.h"
+#include "models/export/program/controller.h"
 #include "models/export/program/safe_names.h"
 #include "models/export/program_text.h"
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands/studies/compare_arguments.h"
-#include "cli/desk/plan/rough_time.h"
+#include "cli/desk/plan/study_forecast.h"
 #include "cli/report/number_text.h"
 #include "cli/report/words/answers/data_words.h"
 #include "cli/report/wrap_text.h"

@@ -12,7 +12,7 @@
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/progress.h"
 #include "cli/commands/studies/compare_arguments.h"
-#include "cli/desk/plan/rough_time.h"
+#include "cli/desk/plan/study_forecast.h"
 #include "cli/fleet/commands/launcher.h"
 #include "cli/fleet/run/fleet_run.h"
 #include "cli/fleet/store/merge.h"

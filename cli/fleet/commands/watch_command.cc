@@ -9,7 +9,6 @@
 #include "cli/commands/format_option.h"
 #include "cli/fleet/store/deployments.h"
 #include "cli/fleet/store/store.h"
-#include "cli/fleet/store/watch_report.h"
 #include "cli/fleet/store/watched_maps.h"
 #include "cli/json_blocks.h"
 #include "cli/shell/command_options.h"

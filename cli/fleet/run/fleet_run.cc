@@ -22,7 +22,7 @@
 #include "data/text.h"
 #include "fitting/parallel_for.h"
 #include "models/file_recipe.h"
-#include "models/fleet/sensor_relations.h"
+#include "models/fleet/watch.h"
 #include "models/study/record/record_json.h"
 #include "models/version.h"
 #include "stats/holdout.h"

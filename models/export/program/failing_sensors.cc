@@ -1,8 +1,7 @@
-#include "models/export/program/failing_sensors.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "models/export/program/controller.h"
 #include "models/export/program/run_program.h"
 
 namespace errmap::models {

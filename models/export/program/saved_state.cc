@@ -1,9 +1,8 @@
-#include "models/export/program/saved_state.h"
-
 #include <algorithm>
 #include <bit>
 #include <cstdint>
 
+#include "models/export/program/run_program.h"
 #include "models/version.h"
 
 namespace errmap::models {
