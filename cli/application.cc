@@ -25,7 +25,6 @@
 #include "cli/shell/completion.h"
 #include "cli/shell/help_text.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "cli/slice.h"
 #include "data/argument_name.h"
 #include "data/files/atomic_file.h"

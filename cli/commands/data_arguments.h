@@ -1,9 +1,5 @@
 #pragma once
 
-namespace CLI {
-class App;
-}
-
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -18,6 +14,10 @@ class App;
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/history/map_log.h"
+
+namespace CLI {
+class App;
+}
 
 namespace errmap::cli {
 
@@ -128,5 +128,14 @@ void AddSeedOption(CLI::App* command,
 /// columns, sign, units and the pause that separates sessions. Throws
 /// data::InputError if the file is not a reading.
 void TakeReading(const std::string& path, data::DatasetSelection* selection);
+
+/// Adds --format table|json, for commands without more formats.
+void AddFormatOption(CLI::App* command, std::string* format);
+
+/// Adds --format with table, json and the formats of report/table.h. `words`
+/// explain the option in the help.
+void AddTableFormatOption(CLI::App* command,
+                          const std::string& words,
+                          std::string* format);
 
 }  // namespace errmap::cli

@@ -1,6 +1,6 @@
-#include "cli/shell/host.h"
-
 #include <mutex>
+
+#include "cli/shell/standard_streams.h"
 
 namespace errmap::cli {
 namespace {

@@ -1,8 +1,6 @@
-#include "cli/shell/interrupt.h"
-
 #include <csignal>
 
-#include "cli/shell/host.h"
+#include "cli/shell/standard_streams.h"
 
 namespace errmap::cli {
 namespace {

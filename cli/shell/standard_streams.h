@@ -1,9 +1,13 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "cli/report/screen.h"
 
 namespace errmap::cli {
 
@@ -48,5 +52,44 @@ void DrawOnTerminal(std::string_view text);
 std::string WithOwnRemedies(
     std::string_view message,
     const std::function<bool(std::string_view option)>& has);
+
+/// Replaces the streams and signals of the process if another program runs
+/// commands in itself (RunHosted).
+struct Host {
+  const std::atomic<bool>* stop = nullptr;  // set: a command ends early
+  std::string printed = {};                 // to standard output
+  std::vector<std::string> messages = {};   // without "errmap: "
+};
+
+/// Returns null if the process is errmap's own.
+Host* CurrentHost();
+
+/// Makes `host` the current one for its lifetime; only one at a time.
+class HostedRun {
+ public:
+  explicit HostedRun(Host* host);
+  ~HostedRun();
+  HostedRun(const HostedRun&) = delete;
+  HostedRun& operator=(const HostedRun&) = delete;
+};
+
+/// Turns Ctrl-C (SIGINT), SIGTERM and SIGHUP (a closed terminal) into a flag
+/// that fits check. A second signal ends the program at once. A signal that was
+/// ignored at the program's start stays ignored.
+const std::atomic<bool>& InstallInterruptFlag();
+
+/// Returns what standard output can show; 80 columns if it is not a terminal.
+/// The environment's COLUMNS, LINES and NO_COLOR take precedence.
+report::Terminal OutputTerminal();
+
+/// PrintResult with bold strong lines if standard output has colours.
+void PrintScreen(const report::Screen& screen);
+
+/// Returns a message with a line feed. If standard error is a terminal, breaks
+/// it at blanks to fit.
+std::string MessageLines(std::string_view line);
+
+/// PrintResult of running text, in lines no wider than OutputTerminal().
+void PrintFitted(std::string_view text);
 
 }  // namespace errmap::cli

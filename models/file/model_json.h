@@ -1,8 +1,5 @@
 #pragma once
 
-// Shared by the writer and the reader of model files. Not installed, and not
-// included by public headers.
-
 #include <cmath>
 #include <optional>
 #include <string>
@@ -13,6 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "models/error_model.h"
+
+// Shared by the writer and the reader of model files. Not installed, and not
+// included by public headers.
 
 namespace errmap::models {
 

@@ -1,10 +1,5 @@
 #pragma once
 
-// Whether a map still does what it promised, and its sensors still go together
-// as they did: statistics of sessions, each held against what the sessions that
-// were held out when the map was made show of rows at such times and places,
-// and tried on healthy simulated machines (tests/benchmarks/watch_study.cc).
-
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +10,11 @@
 #include "data/measurements/dataset.h"
 #include "models/map_experience.h"
 #include "stats/not_a_number.h"
+
+// Whether a map still does what it promised, and its sensors still go together
+// as they did: statistics of sessions, each held against what the sessions that
+// were held out when the map was made show of rows at such times and places,
+// and tried on healthy simulated machines (tests/benchmarks/watch_study.cc).
 
 namespace errmap::models {
 

@@ -5,12 +5,11 @@
 
 #include "cli/command.h"
 #include "cli/commands/control/map_for_control.h"
-#include "cli/commands/format_option.h"
+#include "cli/commands/data_arguments.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/json_blocks.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "data/input_error.h"
 #include "data/text.h"
 #include "data/throwing_as.h"

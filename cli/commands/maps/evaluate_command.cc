@@ -5,7 +5,6 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/format_option.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
@@ -16,7 +15,6 @@
 #include "cli/report/words/commands/kept_promise_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "data/measurements/measured_files.h"
 #include "data/text.h"
 #include "models/sensors/sensor_check.h"

@@ -11,7 +11,6 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/format_option.h"
 #include "cli/commands/progress.h"
 #include "cli/desk/data_options.h"
 #include "cli/desk/provenance.h"
@@ -24,9 +23,7 @@
 #include "cli/report/words/answers/next_steps.h"
 #include "cli/report/words/commands/learning_text.h"
 #include "cli/shell/command_options.h"
-#include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "data/csv.h"
 #include "data/files/atomic_file.h"
 #include "data/files/prepare_folder.h"

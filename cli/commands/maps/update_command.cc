@@ -8,7 +8,6 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/format_option.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
@@ -16,9 +15,7 @@
 #include "cli/report/number_text.h"
 #include "cli/report/words/commands/kept_promise_text.h"
 #include "cli/shell/command_options.h"
-#include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "data/files/atomic_file.h"
 #include "data/files/shown_path.h"
 #include "data/measurements/column_checks.h"

@@ -1,9 +1,5 @@
 #pragma once
 
-namespace CLI {
-class App;
-}
-
 #include <memory>
 #include <optional>
 #include <set>
@@ -16,6 +12,10 @@ class App;
 #include "cli/desk/plan/study_run.h"
 #include "cli/desk/study_options.h"
 #include "cli/desk/toml/study_file.h"
+
+namespace CLI {
+class App;
+}
 
 namespace errmap::cli {
 

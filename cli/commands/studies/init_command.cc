@@ -9,7 +9,7 @@
 #include "cli/desk/toml/study_file_text.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/shell/command_options.h"
-#include "cli/shell/terminal.h"
+#include "cli/shell/standard_streams.h"
 #include "cli/slice.h"
 #include "data/files/atomic_file.h"
 #include "data/text.h"

@@ -6,13 +6,11 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/format_option.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/words/commands/fault_text.h"
 #include "cli/report/wrap_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "data/column_header.h"
 #include "data/csv.h"
 #include "data/files/atomic_file.h"

@@ -18,9 +18,7 @@
 #include "cli/fleet/store/merge.h"
 #include "cli/report/number_text.h"
 #include "cli/shell/command_options.h"
-#include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "data/files/prepare_folder.h"
 #include "data/text.h"
 

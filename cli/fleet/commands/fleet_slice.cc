@@ -9,7 +9,6 @@
 #include "cli/report/number_text.h"
 #include "cli/report/report.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "cli/slice.h"
 #include "data/files/atomic_file.h"
 #include "data/measurements/column_checks.h"

@@ -16,7 +16,7 @@
 #include "cli/fleet/run/fleet_run.h"
 #include "cli/report/shell_word.h"
 #include "cli/shell/command_options.h"
-#include "cli/shell/terminal.h"
+#include "cli/shell/standard_streams.h"
 #include "data/files/atomic_file.h"
 #include "data/files/prepare_folder.h"
 #include "data/text.h"

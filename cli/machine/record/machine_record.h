@@ -1,9 +1,5 @@
 #pragma once
 
-// What compensation by a machine's maps is worth: the part of results.json on
-// the error at the tool. Lengths are in the machine's unit; an error counts by
-// its length in the machine's sensitive directions.
-
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -14,6 +10,10 @@
 #include "cli/report/table.h"
 #include "models/kinematics/plane_cells.h"
 #include "models/study/record/study_record.h"
+
+// What compensation by a machine's maps is worth: the part of results.json on
+// the error at the tool. Lengths are in the machine's unit; an error counts by
+// its length in the machine's sensitive directions.
 
 namespace errmap::machine {
 

@@ -1,13 +1,13 @@
 #pragma once
 
+#include <cstddef>
+#include <utility>
+#include <vector>
+
 // A small language of numbers, conditions and loops over the readings. It
 // describes once what a controller does around a map's arithmetic
 // (controller.cc). C, Python and structured text print it; ControllerRun runs
 // it.
-
-#include <cstddef>
-#include <utility>
-#include <vector>
 
 namespace errmap::models {
 

@@ -1,7 +1,5 @@
 #pragma once
 
-// The judgement: the models compared with each other on held-out rows.
-
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,6 +9,8 @@
 #include "models/study/judgement/choice.h"
 #include "models/study/judgement/confidence.h"
 #include "models/study/judgement/holdout_comparison.h"
+
+// The judgement: the models compared with each other on held-out rows.
 
 namespace errmap::models {
 

@@ -1,7 +1,5 @@
 #pragma once
 
-// A model: its fits, and its metrics under each hold-out.
-
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,6 +17,8 @@
 #include "stats/error_metrics.h"
 #include "stats/normality/normality.h"
 #include "stats/randomness.h"
+
+// A model: its fits, and its metrics under each hold-out.
 
 namespace errmap::models {
 
