@@ -12,8 +12,6 @@
 
 namespace errmap::models {
 
-using Eigen::Index;
-
 AveragedModel::AveragedModel(Index num_inputs,
                              std::string rule,
                              std::vector<AveragedMember> members)

@@ -12,8 +12,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
 using Rows = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
 // A value that is NaN stays so.
@@ -24,9 +22,7 @@ double Clipped(double value, const Bounds& bounds) {
 }
 
 // Clips `values` and marks where it did.
-void Clip(const Bounds& bounds,
-          Eigen::Ref<Eigen::VectorXd> values,
-          Rows* clipped) {
+void Clip(const Bounds& bounds, Eigen::Ref<VectorXd> values, Rows* clipped) {
   *clipped =
       *clipped || values.array() < bounds.low || values.array() > bounds.high;
   values = values.unaryExpr(
@@ -53,7 +49,7 @@ MatrixXd ColumnsByName(const data::Dataset& dataset,
 }  // namespace
 
 Guards MakeGuards(const std::vector<TrainedInput>& form_inputs,
-                  const Eigen::VectorXd& targets,
+                  const VectorXd& targets,
                   bool grows) {
   Guards guards;
   if (grows) guards.error_margin = 1.0;
@@ -131,7 +127,7 @@ double FittedModel::PredictFormRow(std::span<const double> form_inputs,
   return error;
 }
 
-Eigen::VectorXd FittedModel::Predict(const data::Dataset& dataset) const {
+VectorXd FittedModel::Predict(const data::Dataset& dataset) const {
   return PredictForm(FormInputs(dataset)).errors;
 }
 

@@ -10,13 +10,6 @@
 #include "stats/summary.h"
 
 namespace errmap::stats {
-namespace {
-
-using Eigen::Index;
-using Eigen::VectorXd;
-
-}  // namespace
-
 BiasByLevel ComputeBias(const Eigen::Ref<const VectorXd>& values,
                         const std::vector<Index>& codes) {
   if (std::ssize(codes) != values.size()) {

@@ -14,8 +14,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-
 [[noreturn]] void Refuse(std::string_view text, const std::string& why) {
   throw std::invalid_argument("hold-out '" + std::string(text) + "': " + why);
 }

@@ -7,8 +7,6 @@
 
 namespace errmap::stats {
 
-using Eigen::Index;
-
 std::vector<Index> AllIndices(Index count) {
   std::vector<Index> all(static_cast<std::size_t>(count));
   std::iota(all.begin(), all.end(), Index{0});

@@ -17,9 +17,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 Index NumValues(const Segments& segments) {
   Index n = 0;
   for (const VectorXd& segment : segments) n += segment.size();

@@ -167,7 +167,7 @@ class MachineFileReader {
       if (!item.is_number() || !std::isfinite(NumberOf(item))) {
         keys.RefuseType(key, item, kWanted);
       }
-      vector[static_cast<Eigen::Index>(i)] = NumberOf(item);
+      vector[static_cast<Index>(i)] = NumberOf(item);
     }
     return vector;
   }

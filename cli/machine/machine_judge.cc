@@ -28,9 +28,7 @@
 namespace errmap::machine {
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixX3d;
-using Eigen::VectorXd;
 using models::ComponentStudy;
 using models::FittedModel;
 using models::Holdout;

@@ -25,9 +25,6 @@ namespace errmap::machine {
 namespace {
 
 using data::QuotedName;
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using models::ErrorSource;
 using models::FittedModel;
 

@@ -6,21 +6,20 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "cli/netcg/netcg_run.h"
 #include "data/formats/pattern_file.h"
 #include "models/scaling.h"
+#include "stats/eigen.h"
 
 namespace errmap::netcg {
 
 /// Weights of a net as subroutines SETWTS and PUTWTS of NISTIR 5367, Appendix
 /// A, read and write them.
 struct NetcgWeights {
-  Eigen::Index inputs = 0;
-  Eigen::Index hidden = 0;
-  Eigen::Index outputs = 0;
-  Eigen::VectorXd w;  // (N) in NetcgObjective's order
+  Index inputs = 0;
+  Index hidden = 0;
+  Index outputs = 0;
+  VectorXd w;  // (N) in NetcgObjective's order
   /// How the training run scaled its targets; the program's own files do not
   /// say.
   std::optional<models::TargetScaling> scaling;

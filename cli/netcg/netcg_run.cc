@@ -16,8 +16,6 @@
 namespace errmap::netcg {
 namespace {
 
-using Eigen::Index;
-
 // The program maps targets to 0.01 .. 0.99.
 constexpr double kTargetRange = 0.98;
 constexpr double kTargetTop = 0.99;
@@ -79,7 +77,7 @@ class Program {
         kTargetTop - static_cast<double>(slope_) * static_cast<double>(tmax_);
   }
 
-  NetcgResult Run(const Eigen::MatrixXd& inputs) {
+  NetcgResult Run(const MatrixXd& inputs) {
     const NetcgObjective<Scalar> objective(inputs.template cast<Scalar>(),
                                            target_,
                                            specification_.hidden,
@@ -161,7 +159,7 @@ class Program {
 
 NetcgFigures Correct(const NetcgData& data,
                      const models::TargetScaling& scaling,
-                     const Eigen::MatrixXd& scaled_outputs) {
+                     const MatrixXd& scaled_outputs) {
   NetcgFigures figures;
   figures.desired = data.scale * data.targets;
   figures.predicted =
@@ -176,7 +174,7 @@ NetcgFigures Correct(const NetcgData& data,
   const double total =
       (figures.desired.array() - figures.desired.mean()).square().sum();
   figures.r2 = 1.0 - figures.errors.squaredNorm() / total;
-  const Eigen::VectorXd first = figures.errors.col(0);
+  const VectorXd first = figures.errors.col(0);
   const stats::SampleSummary of_first = stats::Summarize(first);
   figures.ks_d = stats::KsDistanceFromNormal(first, of_first.mean, of_first.sd);
   constexpr Index kLeastForLilliefors = 4;

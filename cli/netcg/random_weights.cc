@@ -5,8 +5,6 @@
 
 namespace errmap::netcg {
 
-using Eigen::Index;
-
 namespace {
 
 constexpr std::int64_t kLargest = 0x7fffffff;

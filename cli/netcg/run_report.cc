@@ -11,8 +11,6 @@ using data::Edit1PE;
 using data::EditF;
 using data::EditG;
 using data::EditI;
-using Eigen::Index;
-
 std::string Blanks(int n) {
   return std::string(static_cast<std::size_t>(n), ' ');
 }

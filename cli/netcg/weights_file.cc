@@ -9,8 +9,6 @@ namespace {
 
 using data::EditE;
 using data::EditI;
-using Eigen::Index;
-
 constexpr const char* kScalingWord = "scaling";
 
 // The offset of a layer in w, its nodes and what leads to each of them.

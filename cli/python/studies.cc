@@ -178,8 +178,8 @@ py::list Forecast(const Words& words,
 
 // (train, test) of each fold.
 py::list Folds(const std::string& holdout,
-               Eigen::Index rows,
-               const std::vector<Eigen::Index>& codes,
+               Index rows,
+               const std::vector<Index>& codes,
                std::uint64_t seed) {
   py::list folds;
   for (const stats::Fold& fold :

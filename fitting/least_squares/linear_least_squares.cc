@@ -16,9 +16,6 @@
 namespace errmap::fitting {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using stats::DoubleDouble;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();

@@ -13,10 +13,6 @@
 namespace errmap::fitting {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 std::vector<double> FallingGrid(double largest, int decades, int per_decade) {
   std::vector<double> grid;
   for (int i = 0; i <= decades * per_decade; ++i) {

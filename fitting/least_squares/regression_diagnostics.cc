@@ -14,10 +14,6 @@
 namespace errmap::fitting {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
 constexpr double kConfidence = 0.95;
 // A leverage this near to 1 is 1.

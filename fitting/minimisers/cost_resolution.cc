@@ -5,9 +5,6 @@
 namespace errmap::fitting {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // Largest difference of the cost over moves of a few units in the last place,

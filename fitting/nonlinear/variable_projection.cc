@@ -8,10 +8,6 @@
 
 namespace errmap::fitting {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 ProjectedObjective::ProjectedObjective(const RegressionFunction& function)
     : function_(function), linear_(function.linear_parameters()) {
   for (Index j = 0; j < function.num_parameters(); ++j) {

@@ -14,10 +14,6 @@
 namespace errmap::fitting {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Reordering pays if a branch still has many leaves.
 constexpr Index kFreeColumnsWorthSorting = 6;

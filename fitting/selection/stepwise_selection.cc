@@ -15,10 +15,6 @@
 namespace errmap::fitting {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 // A leverage this near to 1 is 1: the row has a coefficient to itself.
 constexpr double kLeastSlack = 1e-9;

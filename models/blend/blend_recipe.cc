@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include "models/averaged_model.h"
@@ -22,15 +21,13 @@
 #include "models/option_list.h"
 #include "models/polynomial/penalized_fit.h"
 #include "models/polynomial/polynomial_model.h"
+#include "stats/eigen.h"
 #include "stats/indices.h"
 
 namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-using Eigen::VectorXd;
-
 // Which candidates an average is of.
 enum class Among { kAll, kStraight };
 

@@ -6,9 +6,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // Outputs z (P x 1) of the net, by the formulas as they stand (Eq. 14-18).
 VectorXd Predict(const NetExampleShape& example, const VectorXd& w) {
   const NetShape& shape = example.shape;

@@ -13,10 +13,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // v'r(x) of residuals r: its gradient J'v has a share of every entry of J, and
 // does not vanish where J'r does.
 class ResidualCombination final : public fitting::Objective {

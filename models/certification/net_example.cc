@@ -4,9 +4,6 @@
 
 namespace errmap::models {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-
 const std::vector<NetExampleShape>& NetExampleShapes() {
   static const std::vector<NetExampleShape> kShapes{
       {.name = "net 1-1-1",

@@ -5,12 +5,11 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/formats/strd_problem.h"
 #include "fitting/minimisers/optimizer.h"
 #include "fitting/nonlinear/nonlinear_regression.h"
 #include "models/net/net_objective.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -46,7 +45,7 @@ const std::vector<CertifiedSolver>& CertifiedSolvers();
 struct NetExampleShape {
   std::string name;  // "net 3-5-1, sigmoid output"
   NetShape shape;
-  Eigen::Index patterns = 0;
+  Index patterns = 0;
   double wfactor = 0.0;
 };
 
@@ -59,8 +58,8 @@ NetExampleShape DampedNetExample();
 
 /// Return inputs (P x I) on a low-discrepancy grid in [-1, 1], and targets (P x
 /// J) in 0.2 to 0.8, a smooth function of them.
-Eigen::MatrixXd ExampleInputs(const NetExampleShape& example);
-Eigen::MatrixXd ExampleTargets(const NetExampleShape& example);
+MatrixXd ExampleInputs(const NetExampleShape& example);
+MatrixXd ExampleTargets(const NetExampleShape& example);
 
 /// Returns E(w) of a net on these patterns.
 NetObjective MakeNetExample(const NetExampleShape& example);
@@ -76,11 +75,11 @@ fitting::ExtendedVector StrdColumn(const data::StrdProblem& problem,
                                    std::size_t column);
 
 /// Return the certified parameters (p), and their standard deviations (p).
-Eigen::VectorXd CertifiedParameters(const data::StrdProblem& problem);
-Eigen::VectorXd CertifiedDeviations(const data::StrdProblem& problem);
+VectorXd CertifiedParameters(const data::StrdProblem& problem);
+VectorXd CertifiedDeviations(const data::StrdProblem& problem);
 
 /// Returns start 1 or 2 (p) of a nonlinear problem. Throws
 /// std::invalid_argument for any other number.
-Eigen::VectorXd StrdStart(const data::StrdProblem& problem, int start);
+VectorXd StrdStart(const data::StrdProblem& problem, int start);
 
 }  // namespace errmap::models

@@ -9,7 +9,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
 using fitting::ExtendedMatrix;
 using fitting::ExtendedVector;
 using stats::DoubleDouble;
@@ -230,8 +229,8 @@ const std::map<std::string, FunctionMaker>& Makers() {
 }
 
 template <typename Text>
-Eigen::VectorXd ParameterNumbers(const data::StrdProblem& problem, Text text) {
-  Eigen::VectorXd numbers(std::ssize(problem.parameters));
+VectorXd ParameterNumbers(const data::StrdProblem& problem, Text text) {
+  VectorXd numbers(std::ssize(problem.parameters));
   for (std::size_t j = 0; j < problem.parameters.size(); ++j) {
     numbers[static_cast<Index>(j)] =
         stats::ParseDoubleDouble(problem.parameters[j].*text).hi;
@@ -276,15 +275,15 @@ std::unique_ptr<fitting::RegressionFunction> MakeStrdFunction(
   return function;
 }
 
-Eigen::VectorXd CertifiedParameters(const data::StrdProblem& problem) {
+VectorXd CertifiedParameters(const data::StrdProblem& problem) {
   return ParameterNumbers(problem, &data::StrdParameter::certified);
 }
 
-Eigen::VectorXd CertifiedDeviations(const data::StrdProblem& problem) {
+VectorXd CertifiedDeviations(const data::StrdProblem& problem) {
   return ParameterNumbers(problem, &data::StrdParameter::standard_deviation);
 }
 
-Eigen::VectorXd StrdStart(const data::StrdProblem& problem, int start) {
+VectorXd StrdStart(const data::StrdProblem& problem, int start) {
   if (start != 1 && start != 2) {
     throw std::invalid_argument("StrdStart: start must be 1 or 2, found " +
                                 std::to_string(start));

@@ -12,8 +12,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-
 // The readings other than the position, if there is one.
 std::vector<std::string> NamesBeside(const MapProgram& program, int position) {
   std::vector<std::string> names;
@@ -67,7 +65,7 @@ ErrorCurve CurveAfterLog(const FittedModel& fitted,
                          const MapProgram& program,
                          const data::CsvTable& log,
                          int row) {
-  const Eigen::MatrixXd readings = InputsOf(fitted, log);
+  const MatrixXd readings = InputsOf(fitted, log);
   const MapLog map = MakeMapLog(fitted, log, {});
   ProgramRun run(program, Precision::kDouble);
   const auto session = [&](Index at) {

@@ -11,7 +11,6 @@
 
 namespace errmap::models {
 
-using Eigen::Index;
 using Node = ModelJsonNode;
 
 namespace {
@@ -28,14 +27,14 @@ std::string EitherOf(const std::vector<std::string>& words) {
 
 }  // namespace
 
-ModelJson NumbersToJson(const Eigen::VectorXd& vector) {
+ModelJson NumbersToJson(const VectorXd& vector) {
   return std::vector<double>(vector.begin(), vector.end());
 }
 
-ModelJson NumbersToJson(const Eigen::MatrixXd& matrix) {
+ModelJson NumbersToJson(const MatrixXd& matrix) {
   ModelJson rows = ModelJson::array();
   for (Index i = 0; i < matrix.rows(); ++i) {
-    rows.push_back(NumbersToJson(Eigen::VectorXd(matrix.row(i).transpose())));
+    rows.push_back(NumbersToJson(VectorXd(matrix.row(i).transpose())));
   }
   return rows;
 }
@@ -109,21 +108,21 @@ Index Node::Count() const {
   return value_.get<Index>();
 }
 
-Eigen::VectorXd Node::Vector() const {
+VectorXd Node::Vector() const {
   const std::vector<Node> elements = Elements();
-  Eigen::VectorXd vector(std::ssize(elements));
+  VectorXd vector(std::ssize(elements));
   for (std::size_t i = 0; i < elements.size(); ++i) {
     vector[static_cast<Index>(i)] = elements[i].Number();
   }
   return vector;
 }
 
-Eigen::MatrixXd Node::Matrix() const {
+MatrixXd Node::Matrix() const {
   const std::vector<Node> rows = Elements();
   if (rows.empty()) return {};
-  Eigen::MatrixXd matrix;
+  MatrixXd matrix;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Eigen::VectorXd row = rows[i].Vector();
+    const VectorXd row = rows[i].Vector();
     if (i == 0) matrix.resize(std::ssize(rows), row.size());
     if (row.size() != matrix.cols()) {
       rows[i].Refuse(fmt::format(

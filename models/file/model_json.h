@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
 #include "models/error_model.h"
+#include "stats/eigen.h"
 
 // Shared by the writer and the reader of model files. Not installed, and not
 // included by public headers.
@@ -29,9 +29,9 @@ inline std::string CoverageKey(double coverage) {
   return std::to_string(std::lround(coverage * kPercent));
 }
 
-ModelJson NumbersToJson(const Eigen::VectorXd& vector);
+ModelJson NumbersToJson(const VectorXd& vector);
 /// By rows.
-ModelJson NumbersToJson(const Eigen::MatrixXd& matrix);
+ModelJson NumbersToJson(const MatrixXd& matrix);
 
 /// A value of a model file and its place, for messages. Refers to the document
 /// and the file's name, which must outlive it. Every reader throws
@@ -59,10 +59,10 @@ class ModelJsonNode {
   double Number() const;
   bool Truth() const;
   /// Reads a number of at least 0.
-  Eigen::Index Count() const;
-  Eigen::VectorXd Vector() const;
+  Index Count() const;
+  VectorXd Vector() const;
   /// Reads rows of equal length.
-  Eigen::MatrixXd Matrix() const;
+  MatrixXd Matrix() const;
 
  private:
   const ModelJson& value_;
@@ -80,7 +80,7 @@ void WriteForm(const ErrorModel& model,
 /// Reads the model and its equation from the whole document, given the kind
 /// already read; `num_inputs` is that of the form, including derived inputs.
 void ReadForm(const ModelJsonNode& document,
-              Eigen::Index num_inputs,
+              Index num_inputs,
               FittedModel* fitted);
 
 /// Last key of a model file.

@@ -31,7 +31,6 @@ data::ColumnInfo ReadColumn(const ModelJsonNode& node) {
 
 namespace {
 
-using Eigen::Index;
 using Json = ModelJson;
 using Node = ModelJsonNode;
 
@@ -146,26 +145,24 @@ Guards ReadGuards(const Node& node, Index num_inputs) {
   return guards;
 }
 
-void RequireSize(const Node& node, const Eigen::VectorXd& values, Index size) {
+void RequireSize(const Node& node, const VectorXd& values, Index size) {
   if (values.size() != size) {
     node.Refuse(fmt::format("needs {} numbers, has {}", size, values.size()));
   }
 }
 
-void RequirePositive(const Node& node,
-                     const Eigen::VectorXd& values,
-                     Index size) {
+void RequirePositive(const Node& node, const VectorXd& values, Index size) {
   RequireSize(node, values, size);
   if (!(values.array() > 0.0).all()) node.Refuse("must be above 0");
 }
 
 // But for what rounding to the six digits of a file may take from its least
 // eigenvalue, of as many columns.
-bool IsPositiveDefinite(Eigen::MatrixXd matrix) {
+bool IsPositiveDefinite(MatrixXd matrix) {
   constexpr double kHalfDigit = 5e-6;
   const auto size = static_cast<double>(matrix.rows());
   matrix.diagonal().array() += size * kHalfDigit * matrix.cwiseAbs().maxCoeff();
-  return Eigen::LLT<Eigen::MatrixXd>(matrix).info() == Eigen::Success;
+  return Eigen::LLT<MatrixXd>(matrix).info() == Eigen::Success;
 }
 
 std::vector<Index> ReadColumnsOf(const Node& node,

@@ -16,7 +16,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
 using Json = ModelJson;
 
 Json ToJson(const History& history) {

@@ -29,10 +29,6 @@ struct RelationsRecord {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr Index kFewestLeftOut = 3;
 
 // Makes mean, weights and variance, by the inverse covariance P: value less

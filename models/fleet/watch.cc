@@ -11,9 +11,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 // What the spread common to all sensors counts in that of one, in sessions.
 constexpr double kPriorSessions = 1.0;
 // Odd days are more frequent than t has them: by so much wider, of 252 healthy

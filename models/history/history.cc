@@ -21,9 +21,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-
 // Inputs of the form in every row of a table, and their columns.
 struct Derived {
   std::vector<data::ColumnInfo> columns;
@@ -86,7 +83,7 @@ Derived DeriveLog(const data::SessionLog& log,
     to = static_cast<Index>(i);
   }
   MatrixXd derived(std::ssize(log_rows), std::ssize(state.form_columns()));
-  Eigen::VectorXd reading(std::ssize(columns));
+  VectorXd reading(std::ssize(columns));
   const std::vector<std::vector<Index>> sessions = RowsOfSessions(log);
   for (std::size_t s = 0; s < sessions.size(); ++s) {
     Index before = -1;

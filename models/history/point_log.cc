@@ -10,8 +10,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-
 // A row of the log or of the points.
 struct Row {
   Index session = 0;  // into the labels

@@ -12,10 +12,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr double kDay = 86400.0;
 constexpr std::size_t kFewestSessions = 4;
 // Shares of sound sessions within the limits. In 48 simulated whole days no

@@ -14,7 +14,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixX3d;
 using Eigen::Vector3d;
 
@@ -125,7 +124,7 @@ PositioningFigures PositioningFiguresOf(
   return figures;
 }
 
-std::vector<bool> ApproachedUpwards(const Eigen::VectorXd& positions) {
+std::vector<bool> ApproachedUpwards(const VectorXd& positions) {
   const Index n = positions.size();
   std::vector<bool> upwards(static_cast<std::size_t>(n), true);
   if (n < 2) return upwards;

@@ -7,13 +7,10 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
-using Eigen::VectorXd;
-
 [[noreturn]] void Refuse(const std::string& what) {
   throw std::invalid_argument("KinematicChain: " + what);
 }

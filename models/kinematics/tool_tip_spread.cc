@@ -10,10 +10,7 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixX3d;
-using Eigen::VectorXd;
-
 void CheckSpread(const std::vector<HeldOutToolTip>& sessions, double coverage) {
   if (sessions.size() < 2 || !(coverage > 0.0 && coverage < 1.0)) {
     throw std::invalid_argument(

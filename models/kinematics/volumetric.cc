@@ -13,13 +13,9 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
 using Eigen::Matrix3Xd;
 using Eigen::MatrixX3d;
-using Eigen::MatrixXd;
 using Eigen::Vector3d;
-using Eigen::VectorXd;
-
 [[noreturn]] void RefuseVolumetric(const std::string& what) {
   throw std::invalid_argument("CombineErrors: " + what);
 }

@@ -17,9 +17,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 constexpr Index kMostFolds = 5;
 constexpr std::size_t kMostSizes = 7;
 

@@ -10,10 +10,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // Whitened inputs of measured rows and candidates, by the measured ones.
 struct Whitened {
   MatrixXd measured;

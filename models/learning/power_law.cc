@@ -10,10 +10,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // The grid: exponents, the error at the last size, and how much of its square
 // is floor.
 constexpr int kExponents = 20;

@@ -23,10 +23,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // Shares of the mean diagonal of the normal equations.
 constexpr std::array<double, 5> kPenalties = {1e-7, 1e-5, 1e-3, 1e-2, 1e-1};
 

@@ -7,8 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/measurements/dataset.h"
 #include "fitting/minimisers/discrepancy_principle.h"
 #include "fitting/minimisers/optimizer.h"
@@ -17,6 +15,7 @@
 #include "models/net/net_design.h"
 #include "models/net/net_trainer.h"
 #include "models/scaling.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -30,11 +29,11 @@ struct NetRows {
   NetTraining From(std::uint64_t seed, double wfactor) const;
   /// Returns the RMS residual of these rows for the weights w (N), in the
   /// target's unit, weighted like the cost.
-  double TrainingRms(const Eigen::VectorXd& w) const;
+  double TrainingRms(const VectorXd& w) const;
   /// Returns the net with these weights in the units of the rows.
-  NetForm FormOf(const Eigen::VectorXd& w) const;
+  NetForm FormOf(const VectorXd& w) const;
   /// Returns the weights (N) of a net made by FormOf, up to rounding.
-  Eigen::VectorXd WeightsOf(const NetForm& form) const;
+  VectorXd WeightsOf(const NetForm& form) const;
 };
 
 /// Throws std::invalid_argument if the targets do not vary.
@@ -58,7 +57,7 @@ struct NetTrial {
 };
 
 /// Most rows used to compare nets, and in all but the last fit along a path.
-inline constexpr Eigen::Index kMostTuningRows = 5'000;
+inline constexpr Index kMostTuningRows = 5'000;
 
 /// Trains at each of `wfactors` in turn: first from the start of `seed`, then
 /// from the previous weights. With more than kMostTuningRows rows and at least
@@ -128,11 +127,10 @@ std::vector<fitting::Minimum> TrainFromStarts(
 /// stretch of rows, since regular steps might hit the same positions
 /// repeatedly. The draw depends only on `training` and `most`. Throws
 /// std::invalid_argument if most < 1.
-std::vector<Eigen::Index> StratifiedRows(const data::Dataset& training,
-                                         Eigen::Index most);
+std::vector<Index> StratifiedRows(const data::Dataset& training, Index most);
 
 /// Returns the same for `count` rows without groups.
-std::vector<Eigen::Index> StratifiedRows(Eigen::Index count, Eigen::Index most);
+std::vector<Index> StratifiedRows(Index count, Index most);
 
 /// Options of a net that inner hold-outs choose, and those that are fixed.
 struct NetTuning {
@@ -176,7 +174,7 @@ struct TunedNet {
 /// Returns the numbers of hidden nodes that hidden=cv tries for a fit of so
 /// many rows: 5, 10, 20, 40 and 60, those above 5 only with at least 4 rows per
 /// node. (P - 1 nodes can reproduce any P targets.)
-std::vector<std::int64_t> HiddenToTry(Eigen::Index rows);
+std::vector<std::int64_t> HiddenToTry(Index rows);
 
 /// Returns the fewest nodes whose error is at most 5 % above the least, and
 /// that error, from errors by number of nodes (NaN: not judged). Throws

@@ -4,8 +4,6 @@
 
 namespace errmap::models {
 
-using Eigen::Index;
-
 namespace {
 
 // A matrix whose columns begin `stride` apart, or with the next number.

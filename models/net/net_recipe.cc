@@ -23,8 +23,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-
 // The first of the lowest; one that is not a number loses.
 std::size_t IndexOfLowest(const std::vector<double>& values) {
   std::size_t best = 0;

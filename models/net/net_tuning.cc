@@ -13,8 +13,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-
 // Values tried and their held-out errors, simplest first: by rising number of
 // nodes, or by falling wfactor.
 template <typename Value>
@@ -289,16 +287,16 @@ fitting::DiscrepancyChoice ChooseWfactorByDiscrepancy(
   const fitting::RunControl run{.stop = context.stop,
                                 .keep_trace = context.keep_trace};
   NetTraining training = rows.From(context.seed, 0.0);
-  const Eigen::VectorXd start = training.initial_weights;
+  const VectorXd start = training.initial_weights;
   return fitting::ChooseByDiscrepancy(
       {.delta = delta},
       start,
-      [&](double wfactor, const Eigen::VectorXd& from) {
+      [&](double wfactor, const VectorXd& from) {
         training.wfactor = wfactor;
         training.initial_weights = from;
         return TrainUntilSettled(trainer, run, &training);
       },
-      [&](const Eigen::VectorXd& w) { return rows.TrainingRms(w); });
+      [&](const VectorXd& w) { return rows.TrainingRms(w); });
 }
 
 }  // namespace errmap::models

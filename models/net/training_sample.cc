@@ -9,8 +9,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-
 constexpr std::uint64_t kSeed = 1;
 
 // One of 0..count-1 out of each of `draws` stretches of equal length.

@@ -14,8 +14,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-
 // The terms as written: products of the inputs as they are, centred only if
 // that leaves the set of maps the same.
 class FormulaRecipe final : public PolynomialRecipe {

@@ -16,9 +16,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using fitting::CrossProducts;
 using fitting::Penalty;
 

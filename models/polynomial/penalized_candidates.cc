@@ -15,7 +15,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
 using fitting::Penalty;
 
 using FitsByPenalty = std::map<Penalty, std::shared_ptr<const PenalizedFit>>;

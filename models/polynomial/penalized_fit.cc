@@ -17,9 +17,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using fitting::Penalty;
 
 // Results of the inner hold-outs for each strength tried.

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "fitting/least_squares/cross_products.h"
 #include "fitting/least_squares/penalized_path.h"
 #include "models/error_model.h"
@@ -18,13 +16,14 @@
 #include "models/polynomial/polynomial_design.h"
 #include "models/polynomial/polynomial_options.h"
 #include "models/polynomial/term_set.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
 /// Rows of a design.
 struct TermRows {
-  Eigen::MatrixXd terms;    // (rows x k)
-  Eigen::VectorXd targets;  // (rows)
+  MatrixXd terms;    // (rows x k)
+  VectorXd targets;  // (rows)
 };
 
 /// Least squares in which the rows of a session share an offset: squares of
@@ -37,23 +36,21 @@ class SessionOffsets {
   SessionOffsets() = default;
   /// `sessions` has a code for each row. Every row must be included once before
   /// any is fitted.
-  SessionOffsets(std::vector<Eigen::Index> sessions,
-                 Eigen::Index num_terms,
-                 double between);
+  SessionOffsets(std::vector<Index> sessions, Index num_terms, double between);
 
   /// `rows` are indices into all rows; `weights` (rows), or (0): all 1.
-  void Include(const std::vector<Eigen::Index>& rows,
+  void Include(const std::vector<Index>& rows,
                const TermRows& design,
-               const Eigen::VectorXd& weights);
-  void TakeFrom(const std::vector<Eigen::Index>& rows, TermRows* design) const;
+               const VectorXd& weights);
+  void TakeFrom(const std::vector<Index>& rows, TermRows* design) const;
   /// Returns the share of a constant that remains in the rows.
   double kept() const { return kept_; }
 
  private:
   double kept_ = 1.0;
-  std::vector<Eigen::Index> sessions_;
-  TermRows sums_;            // (sessions) weighted
-  Eigen::VectorXd weights_;  // (sessions)
+  std::vector<Index> sessions_;
+  TermRows sums_;     // (sessions) weighted
+  VectorXd weights_;  // (sessions)
 };
 
 /// Share of its trained range by which an input may exceed it before a shrunk
@@ -79,13 +76,13 @@ struct PenalizedBasis {
 
 /// Ranges of a set of rows: of their scaled inputs and their target.
 struct RowRanges {
-  explicit RowRanges(Eigen::Index inputs);
+  explicit RowRanges(Index inputs);
 
-  void Include(const Eigen::MatrixXd& inputs, const Eigen::VectorXd& targets);
+  void Include(const MatrixXd& inputs, const VectorXd& targets);
   void Include(const RowRanges& other);
 
-  Eigen::VectorXd input_min;  // (inputs) all four are NaN without rows
-  Eigen::VectorXd input_max;
+  VectorXd input_min;  // (inputs) all four are NaN without rows
+  VectorXd input_max;
   double error_min;
   double error_max;
 };
@@ -94,7 +91,7 @@ struct RowRanges {
 /// its penalties need nothing else of the rows.
 class SummedBasis {
  public:
-  using Rows = std::vector<Eigen::Index>;
+  using Rows = std::vector<Index>;
 
   /// `folds` are needed if they choose the penalty; null if it is given. Throws
   /// std::invalid_argument for too many terms or missing folds, and with
@@ -110,7 +107,7 @@ class SummedBasis {
 
   /// Returns the path for all rows, or for those that predict a fold.
   fitting::PenalizedPath PathOf(fitting::Penalty penalty,
-                                std::optional<Eigen::Index> fold) const;
+                                std::optional<Index> fold) const;
   /// Returns a path's solutions for `strengths`, descending. Rows are fitted
   /// less a share of their offsets; the intercepts are those of the errors.
   fitting::PenalizedPath::Solutions Solve(
@@ -123,25 +120,23 @@ class SummedBasis {
   /// Calls `take` with rows of a fold and their predictions (rows x solutions),
   /// block by block, clipped if guarded.
   void PredictFold(
-      Eigen::Index fold,
+      Index fold,
       const fitting::PenalizedPath::Solutions& solutions,
-      const std::function<void(const Rows&, const Eigen::MatrixXd&)>& take)
-      const;
+      const std::function<void(const Rows&, const MatrixXd&)>& take) const;
 
-  Eigen::VectorXd Targets(const Rows& rows) const;
-  Eigen::VectorXd Weights(const Rows& rows) const;  // (0): all 1
+  VectorXd Targets(const Rows& rows) const;
+  VectorXd Weights(const Rows& rows) const;  // (0): all 1
 
  private:
   // True if the rows of fold `of` are among those that predict `fold`.
-  bool Predicts(Eigen::Index of, Eigen::Index fold) const;
+  bool Predicts(Index of, Index fold) const;
   // Sums over the rows that predict a fold.
-  fitting::CrossProducts TrainingOf(Eigen::Index fold) const;
-  Eigen::MatrixXd Inputs(const Rows& rows) const;  // scaled
-  Eigen::MatrixXd Terms(const Eigen::MatrixXd& inputs) const;
+  fitting::CrossProducts TrainingOf(Index fold) const;
+  MatrixXd Inputs(const Rows& rows) const;  // scaled
+  MatrixXd Terms(const MatrixXd& inputs) const;
   // Terms with powers see inputs clipped near the range of the fold's training
   // rows, as in MapOfCandidate.
-  Eigen::MatrixXd GuardedTerms(const Eigen::MatrixXd& inputs,
-                               const RowRanges& trained) const;
+  MatrixXd GuardedTerms(const MatrixXd& inputs, const RowRanges& trained) const;
   TermRows RowsAsMeasured(const Rows& rows) const;
   TermRows RowsAsFitted(const Rows& rows) const;
   void ForBlocks(const Rows& rows,
@@ -174,13 +169,13 @@ struct PenalizedCandidate {
   /// hold-outs.
   double held_out_rmse = 0.0;
   double intercept = 0.0;
-  Eigen::VectorXd coefficients;  // (terms) for the scaled inputs of the design
+  VectorXd coefficients;  // (terms) for the scaled inputs of the design
 };
 
 /// A candidate and the basis of its coefficients, without the rows: those of
 /// all folds would be too many.
 struct PenalizedFit {
-  std::vector<Eigen::Index> inputs;  // those of the viewed rows
+  std::vector<Index> inputs;  // those of the viewed rows
   ColumnScaling scaling;
   std::vector<TermPowers> terms;
   PenalizedCandidate candidate;
@@ -221,7 +216,7 @@ struct BasisCandidate {
   std::shared_ptr<const PenalizedFit> fit;
   TermSet terms = TermSet::kLinear;
   int degree = 1;
-  Eigen::Index num_excluded = 0;
+  Index num_excluded = 0;
   bool guarded = false;
   std::string label;  // "ridge, history+zero, squares"
 };

@@ -17,7 +17,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
 using fitting::Penalty;
 
 // Over rows as they were measured there is only to choose how far to shrink,

@@ -15,10 +15,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // Moving input i keeps the span of the terms if with each term the same term
 // with one power of i less is there (the intercept always is).
 bool IsClosedUnder(const std::set<TermPowers>& terms, std::size_t input) {

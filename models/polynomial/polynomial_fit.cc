@@ -19,10 +19,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr Index kRowsAtATime = 4096;
 
 // The terms that the solution left out, with a word on why for the first.

@@ -10,8 +10,6 @@
 
 namespace errmap::models {
 
-using Eigen::Index;
-
 bool Bends(const std::vector<BendRange>& within,
            const std::vector<int>& powers) {
   int degree = 0;
@@ -122,8 +120,8 @@ double PolynomialModel::DoPredictRow(const double* inputs) const {
 PredictionCost CostOf(const PolynomialForm& form) {
   PredictionCost cost;
   for (const PolynomialTerm& term : form.terms) {
-    cost.multiplications += std::accumulate(
-        term.powers.begin(), term.powers.end(), Eigen::Index{0});
+    cost.multiplications +=
+        std::accumulate(term.powers.begin(), term.powers.end(), Index{0});
   }
   return cost;
 }

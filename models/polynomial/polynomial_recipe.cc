@@ -14,8 +14,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-
 // `zero` (no compensation at all) and `mean`.
 class ConstantRecipe final : public PolynomialRecipe {
  public:

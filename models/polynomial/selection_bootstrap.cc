@@ -12,9 +12,6 @@ namespace errmap::models {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 // The share of repetitions in which each candidate (m) is chosen.
 VectorXd BootstrapInclusion(const DesignRows& rows,
                             const std::vector<Index>& units,

@@ -6,10 +6,6 @@
 
 namespace errmap::models {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 SessionOffsets::SessionOffsets(std::vector<Index> sessions,
                                Index num_terms,
                                double between)

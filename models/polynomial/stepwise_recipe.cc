@@ -20,7 +20,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
 using fitting::Criterion;
 
 constexpr std::int64_t kDefaultBootstrap = 200;

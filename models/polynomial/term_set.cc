@@ -6,8 +6,6 @@
 
 namespace errmap::models {
 
-using Eigen::Index;
-
 const std::vector<std::string>& TermSetWords() {
   static const std::vector<std::string> words = {
       "linear", "squares", "axis", "full"};

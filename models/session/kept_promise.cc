@@ -11,9 +11,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 double ShareWithin(const FittedModel& fitted,
                    std::size_t level,
                    const VectorXd& residuals,

@@ -11,9 +11,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 // Three standard deviations, squared: no probe of an offset as the model's.
 constexpr double kSurprise = 9.0;

@@ -10,9 +10,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-using Eigen::VectorXd;
-
 stats::ErrorMetrics AverageMetrics(
     const std::vector<stats::ErrorMetrics>& folds) {
   using Metrics = stats::ErrorMetrics;

@@ -13,8 +13,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-
 // Lines of one hold-out, by fold.
 struct RawHoldout {
   std::string name;

@@ -23,8 +23,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-using Eigen::VectorXd;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kNotBegun = "interrupted before it began";

@@ -11,9 +11,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 // A day at every tenth minute; twice as many units as the 95 % interval needs.
 constexpr Index kMostRows = 48;
 constexpr Index kMostUnits = 40;
@@ -48,8 +45,7 @@ void AddTemperature(const HeldOutRows& held,
     const Index column = held.source->FindInput(input.column.name);
     if (column >= 0) columns.push_back(column);
   }
-  const Eigen::MatrixXd temperatures =
-      held.source->input_values()(held.rows, columns);
+  const MatrixXd temperatures = held.source->input_values()(held.rows, columns);
   const Index telling = TellingTemperature(temperatures, residuals, kept);
   if (telling < 0) return;
   const Index column = columns[static_cast<std::size_t>(telling)];

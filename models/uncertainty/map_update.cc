@@ -10,10 +10,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 MatrixXd Stacked(const MatrixXd& above, const MatrixXd& below) {
   MatrixXd all(above.rows() + below.rows(), above.cols());
   all << above, below;

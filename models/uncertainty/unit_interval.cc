@@ -14,9 +14,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 // What adds up to a share but for rounding does.
 constexpr double kRounding = 1e-9;
 

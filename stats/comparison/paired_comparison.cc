@@ -12,10 +12,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // The place of pair a < b of `models` in (0,1), (0,2), ..., (1,2), ...
 Index PairIndex(Index a, Index b, Index models) {
   return a * (2 * models - a - 1) / 2 + (b - a - 1);

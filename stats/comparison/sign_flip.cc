@@ -10,10 +10,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // Sums that are equal in exact arithmetic must count as equal: a share of the
 // sum of all magnitudes, far above rounding and far below any real difference.
 constexpr double kRounding = 1e-11;

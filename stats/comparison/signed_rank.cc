@@ -9,8 +9,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-
 struct Ranking {
   double positive = 0.0;  // sum of ranks of positive differences
   double ties = 0.0;      // sum of t^3 - t over groups of t equal magnitudes
@@ -73,8 +71,7 @@ double NormalP(const Ranking& ranking, Index num) {
 
 }  // namespace
 
-SignedRankTest TestSignedRanks(
-    const Eigen::Ref<const Eigen::VectorXd>& differences) {
+SignedRankTest TestSignedRanks(const Eigen::Ref<const VectorXd>& differences) {
   SignedRankTest result;
   if (differences.size() == 0) {
     result.test = NotApplicable("no units");

@@ -12,10 +12,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr Index kFewestForBootstrap = 2;
 
 // Number of times each unit is drawn per resample (resamples x units). Avoids

@@ -9,10 +9,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 [[noreturn]] void Refuse(const std::string& why) {
   throw std::invalid_argument("UnitLosses: " + why);
 }

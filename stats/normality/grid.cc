@@ -4,8 +4,7 @@
 
 namespace errmap::stats {
 
-std::optional<double> FindStep(
-    const Eigen::Ref<const Eigen::VectorXd>& ascending) {
+std::optional<double> FindStep(const Eigen::Ref<const VectorXd>& ascending) {
   using Eigen::Index;
   const double least =
       kFinestStep / std::sqrt(static_cast<double>(ascending.size()));

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::stats {
 
@@ -13,7 +13,6 @@ inline constexpr double kFinestStep = 0.1;
 /// Returns the rounding step of `ascending` (n >= 2, finite, standard deviation
 /// 1): the greatest common divisor of their differences. Returns nothing if it
 /// is below kFinestStep / sqrt(n).
-std::optional<double> FindStep(
-    const Eigen::Ref<const Eigen::VectorXd>& ascending);
+std::optional<double> FindStep(const Eigen::Ref<const VectorXd>& ascending);
 
 }  // namespace errmap::stats

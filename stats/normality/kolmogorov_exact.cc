@@ -10,9 +10,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 // P(D+ >= d) = d sum_j C(n, j) (d + j/n)^(j-1) (1 - d - j/n)^(n-j), the sum
 // over j = 0 .. floor(n (1 - d)) (Smirnov 1944; Birnbaum & Tingey 1951).
 double OneSidedTail(double d, Index n) {

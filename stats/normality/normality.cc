@@ -17,8 +17,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-
 // A test whose p can be simulated, and which of its ends is extreme.
 struct SimulatedTest {
   TestResult Normality::*test;
@@ -86,7 +84,7 @@ class NormalSamples {
   // One that varies, as the observed one does.
   OrderedSample Draw() {
     for (;;) {
-      Eigen::VectorXd sample = NormalSample(n_, &random_);
+      VectorXd sample = NormalSample(n_, &random_);
       if (step_ > 0.0) {
         sample = origin_ +
                  step_ * ((sd_ * sample.array() - origin_) / step_).round();

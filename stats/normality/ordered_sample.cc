@@ -5,7 +5,7 @@
 
 namespace errmap::stats {
 
-OrderedSample::OrderedSample(const Eigen::Ref<const Eigen::VectorXd>& sample)
+OrderedSample::OrderedSample(const Eigen::Ref<const VectorXd>& sample)
     : z_(sample), summary_(Summarize(sample)) {
   if (size() == 0) {
     why_not_ = "there are no values";
@@ -35,7 +35,7 @@ OrderedSample::OrderedSample(const Eigen::Ref<const Eigen::VectorXd>& sample)
   if (!z_.allFinite()) why_not_ = "the values do not vary beyond rounding";
 }
 
-std::string OrderedSample::WhyNotWith(Eigen::Index least) const {
+std::string OrderedSample::WhyNotWith(Index least) const {
   if (!why_not_.empty() || size() >= least) return why_not_;
   return "needs at least " + std::to_string(least) + " values, found " +
          std::to_string(size());

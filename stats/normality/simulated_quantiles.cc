@@ -11,8 +11,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-
 // Returns a value that varies slowly with n and smoothly with p.
 double Scaled(SimulatedStatistic statistic, double value, double n) {
   switch (statistic) {

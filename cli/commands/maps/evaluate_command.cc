@@ -40,9 +40,9 @@ struct EvaluateArguments {
 
 // Rows outside of the trained range, and the inputs that are so.
 Json OutsideJson(const std::vector<models::TrainedInput>& trained,
-                 const Eigen::MatrixXd& values) {
-  Eigen::Index rows = 0;
-  for (Eigen::Index row = 0; row < values.rows(); ++row) {
+                 const MatrixXd& values) {
+  Index rows = 0;
+  for (Index row = 0; row < values.rows(); ++row) {
     rows += models::IsInside(trained, values, row) ? 0 : 1;
   }
   Json inputs = Json::array();
@@ -65,7 +65,7 @@ Json OutsideJson(const std::vector<models::TrainedInput>& trained,
 
 // Rows unlike training, by what they are unlike in, and the worst.
 Json UnlikeJson(const std::vector<models::RowFlag>& flags,
-                const std::vector<Eigen::Index>& rows) {
+                const std::vector<Index>& rows) {
   Json json = {{"rows", 0},
                {"range", 0},
                {"relation", 0},
@@ -107,11 +107,11 @@ struct Evaluation {
   const models::FittedModel& fitted;
   const models::MapRows& rows;
   const RowsJudged& judged;
-  Eigen::Index clipped;  // rows
+  Index clipped;  // rows
   std::optional<models::SensorFaultFound> sensor;
   models::KeptPromise kept;
   RowsLearnt learnt;
-  Eigen::VectorXd residuals;
+  VectorXd residuals;
   stats::ErrorMetrics metrics;
 };
 
@@ -184,7 +184,7 @@ int RunEvaluate(const EvaluateArguments& arguments,
   const data::Dataset& dataset = rows.dataset;
   const RowsJudged judged = JudgeMapRows(fitted, rows, arguments.quiet);
   const models::Prediction prediction = fitted.PredictForm(judged.form_inputs);
-  const Eigen::VectorXd& predicted = prediction.errors;
+  const VectorXd& predicted = prediction.errors;
   const std::string files = data::NamesOfFiles(arguments.files);
   if (SayNotFinite(predicted, dataset.rows(), files)) {
     return kEveryFitFailed;

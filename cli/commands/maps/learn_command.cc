@@ -42,8 +42,6 @@
 namespace errmap::cli {
 namespace {
 
-using Eigen::Index;
-
 struct LearnArguments {
   DataArguments data;
   std::string by;
@@ -135,14 +133,14 @@ models::StudyResult RunLearning(
 }
 
 // Rows of the candidates with the inputs of `dataset`, in its units.
-Eigen::MatrixXd ReadCandidates(const std::string& file,
-                               const data::Dataset& dataset,
-                               bool quiet) {
+MatrixXd ReadCandidates(const std::string& file,
+                        const data::Dataset& dataset,
+                        bool quiet) {
   const data::TableForMap read =
       data::InMapUnits(data::ReadCsv(file), dataset.inputs());
   SayUnless(quiet, read.remarks);
-  Eigen::MatrixXd values(static_cast<Index>(read.table.num_rows),
-                         dataset.num_inputs());
+  MatrixXd values(static_cast<Index>(read.table.num_rows),
+                  dataset.num_inputs());
   for (Index i = 0; i < values.cols(); ++i) {
     values.col(i) =
         data::NumericColumn(read.table,
@@ -242,7 +240,7 @@ void LearnBySensors(const LearnArguments& arguments,
 void LearnNext(const LearnArguments& arguments,
                const data::Dataset& dataset,
                Learned* learned) {
-  const Eigen::MatrixXd candidates =
+  const MatrixXd candidates =
       ReadCandidates(arguments.candidates, dataset, arguments.data.quiet);
   learned->record.next =
       models::ChooseNext(dataset, candidates, arguments.next);

@@ -151,7 +151,7 @@ Json UpdateJson(const UpdateArguments& arguments,
                 const models::FittedModel& old_map,
                 const models::UpdateTrial& trial,
                 bool better,
-                Eigen::Index learnt,
+                Index learnt,
                 const KnownFiles& known,
                 const Json& provenance) {
   return {{"schema", "errmap-update-1"},
@@ -188,7 +188,7 @@ models::FittedModel FitSuccessor(const models::FittedModel& old_map,
 
 // What of the new rows the old map was fitted to: it looks better there than it
 // is.
-std::string KnownRowsText(Eigen::Index learnt, Eigen::Index rows) {
+std::string KnownRowsText(Index learnt, Index rows) {
   return learnt == 0 ? ""
                      : fmt::format(
                            "{} of {} are ones that the old map was fitted to, "
@@ -214,7 +214,7 @@ int RunUpdate(const UpdateArguments& arguments,
                                    .stop = &stop,
                                    .threads = JobsOf(0),
                                    .indifference = indifference};
-  const Eigen::Index learnt = models::CountLearntRows(
+  const Index learnt = models::CountLearntRows(
       old_map, fresh.input_values(), &fresh.target_values());
   models::UpdateTrial trial;
   std::optional<data::Dataset> all;

@@ -43,7 +43,7 @@ SinceProbe ReadSinceProbe(const models::FittedModel& fitted,
                                                   models::MapColumns::kInputs,
                                                   arguments.log)
                                    .table;
-  const std::vector<Eigen::Index> rows = data::AllRows(table.num_rows);
+  const std::vector<Index> rows = data::AllRows(table.num_rows);
   if (rows.empty()) {
     throw data::InputError(fmt::format(
         "{}: holds no rows; give the readings from the last probe to now",

@@ -140,7 +140,7 @@ TimedFit FitTimed(const models::ModelRecipe& recipe,
 
 // Why there is no map to write; nothing where there is one.
 std::optional<std::string> WhyFailed(const models::FittedModel& fitted,
-                                     const Eigen::VectorXd& predicted) {
+                                     const VectorXd& predicted) {
   if (!predicted.allFinite()) return "a prediction is not finite";
   if (fitted.summary.termination != fitting::Termination::kFailed) return {};
   return fitted.summary.message;
@@ -205,7 +205,7 @@ int FitOne(const FitArguments& arguments, const std::string& command_line) {
     return kEveryFitFailed;
   }
   models::FittedModel& fitted = fit.map;
-  const Eigen::VectorXd predicted = fitted.Predict(dataset);
+  const VectorXd predicted = fitted.Predict(dataset);
   if (const auto why = WhyFailed(fitted, predicted)) {
     Say(fmt::format("{} failed: {}; nothing written", arguments.model, *why));
     return kEveryFitFailed;

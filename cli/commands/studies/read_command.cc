@@ -66,7 +66,7 @@ std::string CleanCsv(const data::CsvTable& table, const data::ReadTable& read) {
                     found.sessions.codes[i])]);
     }
     if (add_time) {
-      line += "," + data::CsvNumber(found.time[static_cast<Eigen::Index>(i)]);
+      line += "," + data::CsvNumber(found.time[static_cast<Index>(i)]);
     }
     text += line + "\n";
   }

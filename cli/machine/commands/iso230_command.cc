@@ -30,8 +30,6 @@
 namespace errmap::cli {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
 using models::PositioningFigures;
 using models::PositioningPoint;
 

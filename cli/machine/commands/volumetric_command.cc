@@ -32,9 +32,7 @@
 namespace errmap::cli {
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixX3d;
-using Eigen::VectorXd;
 using models::Machine;
 using models::VolumetricErrors;
 

@@ -45,7 +45,7 @@ Json FiguresJson(const netcg::NetcgFigures& figures) {
           {"ks_p", figures.ks_p}};
 }
 
-Json MatrixJson(const Eigen::MatrixXd& values) {
+Json MatrixJson(const MatrixXd& values) {
   Json rows = Json::array();
   for (const auto& row : values.rowwise()) {
     rows.push_back(std::vector<double>(row.begin(), row.end()));

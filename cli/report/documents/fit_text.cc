@@ -167,7 +167,7 @@ std::string FitText(const models::FittedModel& fitted,
   const auto say = [&](const std::string& words) {
     if (!words.empty()) text += WrapText(words, width) + "\n";
   };
-  const Eigen::Index learnt_from = fitted.RowsLearntFrom(dataset);
+  const Index learnt_from = fitted.RowsLearntFrom(dataset);
   say(fmt::format("{}: {} fitted to {}{}, RMSE {} on {} rows (not held out)",
                   fitted.name,
                   Count(fitted.model->num_parameters(), "parameter"),
@@ -177,7 +177,7 @@ std::string FitText(const models::FittedModel& fitted,
                   Count(train.n, "row"),
                   error.WithUnit(train.rmse),
                   learnt_from < dataset.num_rows() ? "all" : "these"));
-  constexpr Eigen::Index kMostTerms = 12;
+  constexpr Index kMostTerms = 12;
   const bool is_short =
       options.details || fitted.model->num_parameters() <= kMostTerms + 1;
   if (is_short) {

@@ -69,8 +69,8 @@ void AddBanded(const std::string& label,
       .label = label, .mark = Mark::kLine, .colour = colour, .size = 2.4};
   for (auto& [place, values] : at) {
     std::ranges::sort(values);
-    const Eigen::Map<const Eigen::VectorXd> ascending(values.data(),
-                                                      std::ssize(values));
+    const Eigen::Map<const VectorXd> ascending(values.data(),
+                                               std::ssize(values));
     band.Add({place,
               stats::Quantile(ascending, kTail),
               stats::Quantile(ascending, 1.0 - kTail)});

@@ -13,14 +13,14 @@ namespace {
 
 constexpr std::size_t kFewestForShape = 8;
 
-Eigen::VectorXd Sorted(const std::vector<double>& values) {
-  Eigen::VectorXd sorted =
-      Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+VectorXd Sorted(const std::vector<double>& values) {
+  VectorXd sorted =
+      Eigen::Map<const VectorXd>(values.data(), std::ssize(values));
   std::sort(sorted.begin(), sorted.end());
   return sorted;
 }
 
-std::vector<double> ListOf(const Eigen::VectorXd& values) {
+std::vector<double> ListOf(const VectorXd& values) {
   return {values.begin(), values.end()};
 }
 
@@ -43,7 +43,7 @@ Figure HistogramFigure(const ResidualContext& context) {
     figure.missing = "Too few residuals for a histogram.";
   }
   if (!figure.missing.empty()) return figure;
-  const Eigen::VectorXd sorted = Sorted(rows.residual);
+  const VectorXd sorted = Sorted(rows.residual);
   const stats::Histogram histogram = stats::MakeHistogram(sorted, 0);
   Series bars{.mark = Mark::kBars, .colour = kBlue};
   for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
@@ -84,8 +84,8 @@ Figure NormalPlotFigure(const ResidualContext& context) {
   Figure figure = BeginFigure(context, "normal", "normal probability plot");
   figure.missing = WhyNoShape(context.rows);
   if (!figure.missing.empty()) return figure;
-  const Eigen::VectorXd sorted = Sorted(context.rows.residual);
-  const Eigen::VectorXd medians = stats::NormalMedians(sorted.size());
+  const VectorXd sorted = Sorted(context.rows.residual);
+  const VectorXd medians = stats::NormalMedians(sorted.size());
   const double mean = sorted.mean();
   const double sd = stats::Summarize(sorted).sd;
   const std::vector<double> x = ListOf(medians);

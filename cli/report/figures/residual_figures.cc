@@ -158,7 +158,7 @@ Figure MapFigure(const ResidualContext& context, std::size_t position) {
 double AbsoluteCorrelation(const std::vector<double>& x,
                            const std::vector<double>& y) {
   const auto vector = [](const std::vector<double>& values) {
-    return Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+    return Eigen::Map<const VectorXd>(values.data(), std::ssize(values));
   };
   return std::abs(stats::Correlation(vector(x), vector(y)));
 }

@@ -15,10 +15,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // What sensors read that are not connected or not ready: an open input, a
 // DS18B20 that is gone or has just woken, an open resistance thermometer.
 constexpr double kDeadValues[] = {0.0, -127.0, 85.0, 850.0};  // degC

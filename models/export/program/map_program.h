@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "models/error_model.h"
 #include "models/export/program/routine.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -136,7 +135,7 @@ struct MapForm {
   Instructions measure = {};
   /// Trained thermal states (k x coordinates), and the limits of the squared
   /// distance to the nearest of them and to their mean.
-  Eigen::MatrixXd states = {};
+  MatrixXd states = {};
   double reach = 0.0;
   double most_spread = 0.0;
   bool has_relations = false;  // `judge` writes kDoubt
@@ -162,7 +161,7 @@ struct MapProgram {
   double longest_bridged = std::numeric_limits<double>::infinity();
   double settles_after = 0.0;
   /// Tables of kAffine (outputs x (inputs + 1)); the last column is the bias.
-  std::vector<Eigen::MatrixXd> tables;
+  std::vector<MatrixXd> tables;
   /// Starts a session with these readings.
   Instructions begin;
   /// Advances by dt seconds to these readings.
@@ -199,7 +198,7 @@ struct MapProgram {
 std::vector<double> TableValues(const MapProgram& program, Cell cell);
 
 /// Returns the trained means of all readings.
-Eigen::VectorXd MeanReadings(const MapProgram& program);
+VectorXd MeanReadings(const MapProgram& program);
 
 /// Makes the arithmetic of a map, without limits (controller.h adds them).
 /// Throws std::invalid_argument if a filter of its history uses another unit of
@@ -221,8 +220,8 @@ MapProgram JoinedPrograms(const MapProgram& increasing,
 
 /// Converts readings of the map `form` to those of the program; readings that
 /// only the other map uses are at their means.
-Eigen::VectorXd ReadingsOfProgram(const MapProgram& program,
-                                  std::size_t form,
-                                  const Eigen::VectorXd& of_map);
+VectorXd ReadingsOfProgram(const MapProgram& program,
+                           std::size_t form,
+                           const VectorXd& of_map);
 
 }  // namespace errmap::models

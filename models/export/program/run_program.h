@@ -4,10 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "models/export/program/controller.h"
 #include "models/export/program/map_program.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -22,16 +21,16 @@ class ProgramRun {
 
   /// Starts a session. Returns kMapInvalid, and starts nothing, if a reading is
   /// not finite.
-  int Begin(const Eigen::VectorXd& readings);
+  int Begin(const VectorXd& readings);
   /// Advances by `dt` seconds (at least 0; ignored if the map has no memory).
   /// Leaves `error` unchanged if the returned status is kMapInvalid; the other
   /// possible bit is kMapClipped.
-  int Step(double dt, const Eigen::VectorXd& readings, double* error);
+  int Step(double dt, const VectorXd& readings, double* error);
   /// Takes the zero at these readings.
-  int Zero(const Eigen::VectorXd& readings);
+  int Zero(const VectorXd& readings);
 
   // The steps of the machine, one by one.
-  void Load(const Eigen::VectorXd& readings);
+  void Load(const VectorXd& readings);
   void Execute(const Instructions& instructions);
   double& At(Operand operand);
   bool clipped() const { return clipped_; }
@@ -69,7 +68,7 @@ class ControllerRun {
   }
   /// Reads and moves, `dt` seconds after the previous call. Sets the error
   /// given and returns the status.
-  int Step(double dt, const Eigen::VectorXd& readings, double* error);
+  int Step(double dt, const VectorXd& readings, double* error);
 
  private:
   double& Value(Cell cell, int index = 0) {

@@ -50,7 +50,7 @@ double Fingerprint(const MapProgram& program) {
       hash.Add(it.d);
     }
   }
-  for (const Eigen::MatrixXd& table : program.tables) {
+  for (const MatrixXd& table : program.tables) {
     for (const double number : table.reshaped()) hash.Add(number);
   }
   return hash.Number();

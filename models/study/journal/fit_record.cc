@@ -25,8 +25,6 @@ namespace errmap::models {
 
 namespace {
 
-using Eigen::Index;
-
 template <typename T>
 concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 

@@ -318,10 +318,10 @@ bool ComponentJournal::IsOf(const StudyTask& task,
            outcome.test_predictions.size() == 0;
   }
   const bool is_of_all_rows = task.holdout < 0;
-  const Eigen::VectorXd& recorded =
+  const VectorXd& recorded =
       is_of_all_rows ? outcome.train_predictions : outcome.test_predictions;
   const auto predicts = [&](const data::Dataset& rows) {
-    const Eigen::VectorXd predicted = outcome.fitted->Predict(rows);
+    const VectorXd predicted = outcome.fitted->Predict(rows);
     return predicted.allFinite() && predicted.size() == recorded.size() &&
            predicted == recorded;
   };

@@ -7,16 +7,13 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-
 stats::FoldLosses GatherFolds(const Holdout& holdout,
                               const HeldOutRows& held,
                               const MatrixXd& residuals) {
   const auto folds = std::ssize(holdout.folds);
   stats::FoldLosses losses;
   losses.mean_squares = MatrixXd::Zero(folds, residuals.cols());
-  losses.test_rows = Eigen::VectorXd::Zero(folds);
+  losses.test_rows = VectorXd::Zero(folds);
   losses.train_rows.resize(folds);
   for (std::size_t i = 0; i < held.fold_of.size(); ++i) {
     const auto fold = static_cast<Index>(held.fold_of[i]);

@@ -10,8 +10,6 @@ namespace errmap::models {
 
 namespace {
 
-using Eigen::Index;
-
 // Share of the held-out rows with an input outside what its fold trained on.
 double ExtrapolatedShare(const data::Dataset& dataset,
                          const Holdout& holdout,

@@ -6,8 +6,6 @@ namespace errmap::models {
 
 namespace {
 
-using Eigen::Index;
-
 // Ranks how much a hold-out tells of another day, from 0: whole sessions,
 // whole groups, another file, whole blocks, few sessions, rows, a file that
 // holds training rows. Within a kind, one that judges all sessions comes

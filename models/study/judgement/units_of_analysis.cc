@@ -13,8 +13,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-
 // Takes the units that `codes`, one per row of the source, number. One unit
 // alone is none: its rows are all that there is to resample.
 bool TakeUnits(const HeldOutRows& held,
@@ -141,9 +139,8 @@ HeldOutRows GatherHeldOut(const data::Dataset& dataset,
   return held;
 }
 
-Eigen::VectorXd ResidualsOf(const HeldOutRows& held,
-                            const HoldoutResult& result) {
-  Eigen::VectorXd residuals(std::ssize(held.rows));
+VectorXd ResidualsOf(const HeldOutRows& held, const HoldoutResult& result) {
+  VectorXd residuals(std::ssize(held.rows));
   Index at = 0;
   for (const FoldResult& fold : result.folds) {
     for (const double predicted : fold.test_predictions) {

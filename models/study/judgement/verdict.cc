@@ -8,8 +8,6 @@ namespace errmap::models {
 
 namespace {
 
-using Eigen::Index;
-
 std::vector<std::size_t> FirstTier(const HoldoutComparison& comparison) {
   std::vector<std::size_t> models;
   for (const Index place : comparison.tests.tiers.front()) {

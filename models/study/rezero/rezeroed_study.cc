@@ -17,9 +17,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 // What is kept of a result to promise by.
 HoldoutResult PredictionsAlone(const HoldoutResult& result) {
   HoldoutResult kept;
@@ -158,8 +155,6 @@ RezeroWorth WorthOfRezero(const data::Dataset& dataset,
 
 namespace {
 
-using Eigen::Index;
-
 class ZeroPlanner {
  public:
   ZeroPlanner(const HeldOutRows& held,
@@ -251,8 +246,8 @@ ZeroPlan PlanZeros(const HeldOutRows& held,
   return ZeroPlanner(held, rule, seed).Plan();
 }
 
-Eigen::VectorXd Rezeroed(const ZeroPlan& plan, const Eigen::VectorXd& errors) {
-  Eigen::VectorXd left(std::ssize(plan.scored));
+VectorXd Rezeroed(const ZeroPlan& plan, const VectorXd& errors) {
+  VectorXd left(std::ssize(plan.scored));
   for (Index i = 0; i < left.size(); ++i) {
     const Index place = plan.scored[static_cast<std::size_t>(i)];
     const Index zero = plan.zero_of[static_cast<std::size_t>(place)];

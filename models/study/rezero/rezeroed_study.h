@@ -3,11 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "models/study/judgement/units_of_analysis.h"
 #include "models/study/rezero/rezero_rule.h"
 #include "models/study/study.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -43,8 +42,8 @@ struct RezeroWorth {
     double rmse = 0.0;   // re-zeroed by the rule
     double never = 0.0;  // on the same rows, never re-zeroed
   };
-  Eigen::Index probes = 0;
-  Eigen::Index scored_rows = 0;
+  Index probes = 0;
+  Index scored_rows = 0;
   double no_map = 0.0;  // re-zeroed by the rule
   std::vector<Model> models;
 };
@@ -61,10 +60,10 @@ RezeroWorth WorthOfRezero(const data::Dataset& dataset,
 struct ZeroPlan {
   /// (rows) Index of the probe; -1: not scored. Not scored are a session's
   /// first row and, with an interval, every row whose last probe is longer ago.
-  std::vector<Eigen::Index> zero_of;
-  Eigen::VectorXd noise;  // (rows) error of a probe there, target's unit
-  Eigen::Index probes = 0;
-  std::vector<Eigen::Index> scored;  // indices of rows, ascending
+  std::vector<Index> zero_of;
+  VectorXd noise;  // (rows) error of a probe there, target's unit
+  Index probes = 0;
+  std::vector<Index> scored;  // indices of rows, ascending
 };
 
 /// Takes probes from the held-out rows only, in time order. A row at which the
@@ -76,6 +75,6 @@ ZeroPlan PlanZeros(const HeldOutRows& held,
                    std::uint64_t seed);
 
 /// Returns errors (rows, target's unit) minus those of their probes (scored).
-Eigen::VectorXd Rezeroed(const ZeroPlan& plan, const Eigen::VectorXd& errors);
+VectorXd Rezeroed(const ZeroPlan& plan, const VectorXd& errors);
 
 }  // namespace errmap::models

@@ -22,8 +22,8 @@ CostSpreadRecord SpreadOf(const std::vector<StartResult>& starts) {
   spread.median = costs.size() % 2 == 1 ? costs[half]
                                         : 0.5 * (costs[half - 1] + costs[half]);
   if (costs.size() > 1) {
-    spread.sd = stats::Summarize(Eigen::Map<const Eigen::VectorXd>(
-                                     costs.data(), std::ssize(costs)))
+    spread.sd = stats::Summarize(
+                    Eigen::Map<const VectorXd>(costs.data(), std::ssize(costs)))
                     .sd;
   }
   return spread;

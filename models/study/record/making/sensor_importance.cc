@@ -18,10 +18,6 @@ namespace {
 constexpr double kAlike = 0.9;
 
 using data::Dataset;
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 std::vector<Index> ColumnsOf(const Dataset& dataset,
                              const std::vector<std::string>& names) {
   std::vector<Index> columns;

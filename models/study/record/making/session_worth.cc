@@ -12,8 +12,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-
 constexpr Index kFewestSessions = 4;
 // One more than these takes at most 2 % off an error that falls as fast as
 // their number grows, and its loss drowns in what the fits differ by.
@@ -56,7 +54,7 @@ Loss LossOfFold(const Dataset& dataset,
     const fitting::InterruptionScope interruptible(context.stop);
     const FittedModel fitted = recipe.Fit(dataset.SelectRows(rows), context);
     const Dataset test = dataset.SelectRows(fold.test);
-    const Eigen::VectorXd errors = test.target_values() - fitted.Predict(test);
+    const VectorXd errors = test.target_values() - fitted.Predict(test);
     loss.log_ratio = std::log(
         std::sqrt(errors.squaredNorm() / static_cast<double>(errors.size())) /
         rmse);
