@@ -11,7 +11,7 @@
 #include "cli/desk/plan/study_forecast.h"
 #include "cli/desk/plan/study_run.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/output/output_folder.h"
+#include "cli/output/report_files.h"
 #include "cli/python/foreign.h"
 #include "cli/python/hosting.h"
 #include "cli/python/tables.h"

@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
 
+#include "data/files/atomic_file.h"
 #include "data/formats/nesting.h"
 #include "data/input_error.h"
 #include "data/text.h"
@@ -476,6 +477,10 @@ FittedModel ModelFromJson(const std::string& text, const std::string& source) {
   FittedModel fitted = ReadModel(root);
   if (remark) fitted.remarks.push_back(*remark);
   return fitted;
+}
+
+FittedModel LoadModel(const std::string& path) {
+  return ModelFromJson(data::ReadFile(path, data::kMostTextOfPrograms), path);
 }
 
 }  // namespace errmap::models

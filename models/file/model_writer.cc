@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "data/files/atomic_file.h"
 #include "models/file/map_members_json.h"
 #include "models/file/model_json.h"
 #include "models/history/history.h"
@@ -125,6 +126,12 @@ std::string ModelToJson(const FittedModel& fitted,
   }
   constexpr int kIndent = 1;
   return WithChecksum(document.dump(kIndent));
+}
+
+void SaveModel(const FittedModel& fitted,
+               const Provenance& provenance,
+               const std::string& path) {
+  data::WriteFileAtomically(path, ModelToJson(fitted, provenance));
 }
 
 }  // namespace errmap::models

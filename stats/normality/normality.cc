@@ -6,9 +6,9 @@
 
 #include "stats/kolmogorov_smirnov.h"
 #include "stats/normality/bimodality.h"
-#include "stats/normality/grid.h"
 #include "stats/normality/kolmogorov_exact.h"
 #include "stats/normality/lilliefors.h"
+#include "stats/normality/ordered_sample.h"
 #include "stats/normality/simulated_quantiles.h"
 #include "stats/not_a_number.h"
 #include "stats/random.h"

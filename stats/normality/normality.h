@@ -30,7 +30,7 @@ struct Normality {
   ShapeMoments shape;      // NaN if the values do not vary
   TukeyPpcc curve;         // empty if tukey_ppcc does not apply
   /// Rounding step of the readings, in their unit, if not small beside their
-  /// scatter (grid.h); else 0. Ties make distances from a continuous
+  /// scatter (FindStep); else 0. Ties make distances from a continuous
   /// distribution too large. Each p is then that among kGridDraws normal
   /// samples rounded alike; `ks` and `ks_exact` have no p.
   double step = 0.0;

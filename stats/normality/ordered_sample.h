@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "stats/eigen.h"
@@ -32,5 +33,14 @@ class OrderedSample {
   SampleSummary summary_;
   std::string why_not_;
 };
+
+/// Smallest rounding step that is looked for, in standard deviations over
+/// sqrt(n). Finer steps move the shape tests by less than their own scatter.
+inline constexpr double kFinestStep = 0.1;
+
+/// Returns the rounding step of `ascending` (n >= 2, finite, standard deviation
+/// 1): the greatest common divisor of their differences. Returns nothing if it
+/// is below kFinestStep / sqrt(n).
+std::optional<double> FindStep(const Eigen::Ref<const VectorXd>& ascending);
 
 }  // namespace errmap::stats

@@ -12,7 +12,7 @@
 #include "cli/desk/plan/study_forecast.h"
 #include "cli/desk/plan/study_run.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/output/output_folder.h"
+#include "cli/output/report_files.h"
 #include "cli/report/documents/study_table.h"
 #include "cli/report/report.h"
 #include "cli/shell/command_options.h"
