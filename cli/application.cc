@@ -8,11 +8,8 @@
 #include <memory>
 #include <new>
 #include <set>
-#include <string>
 #include <string_view>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <CLI/Version.hpp>
@@ -27,10 +24,7 @@
 #include "cli/shell/command_reference.h"
 #include "cli/shell/completion.h"
 #include "cli/shell/help_text.h"
-#include "cli/shell/reference_page.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
-#include "cli/shell/topics.h"
 #include "cli/slice.h"
 #include "data/argument_name.h"
 #include "data/files/atomic_file.h"

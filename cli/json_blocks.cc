@@ -1,7 +1,5 @@
 #include "cli/json_blocks.h"
 
-#include <nlohmann/json.hpp>
-
 #include "models/study/record/record_json.h"
 
 namespace errmap::cli {

@@ -4,8 +4,6 @@
 
 namespace errmap::fitting {
 
-using Eigen::Index;
-
 Index FoldCodes::count() const {
   return codes.empty() ? 0 : *std::max_element(codes.begin(), codes.end()) + 1;
 }
@@ -24,7 +22,7 @@ FoldCodes::Rows FoldCodes::Split(Index fold) const {
 
 std::vector<FoldCodes::Rows> FoldCodes::Splits() const {
   std::vector<Rows> splits;
-  for (Eigen::Index fold = first_judged(); fold < count(); ++fold) {
+  for (Index fold = first_judged(); fold < count(); ++fold) {
     splits.push_back(Split(fold));
   }
   return splits;

@@ -74,7 +74,7 @@ void Call(Gemm gemm,
 
 void CallSyrk(CBLAS_TRANSPOSE transpose,
               const MatrixView<double>& a,
-              Eigen::Index inner,
+              Index inner,
               MutableMatrixView<double>* c,
               bool accumulate) {
   assert(c->cols() == c->rows());
@@ -163,7 +163,7 @@ bool FactorizeCholesky(MutableMatrixView<double> a) {
   return info == 0;
 }
 
-void SolveCholesky(const MatrixView<double>& factor, Eigen::VectorXd* b) {
+void SolveCholesky(const MatrixView<double>& factor, VectorXd* b) {
   assert(factor.rows() == factor.cols());
   assert(factor.rows() == b->size());
   UseOneThreadPerCall();
@@ -180,7 +180,7 @@ void SolveCholesky(const MatrixView<double>& factor, Eigen::VectorXd* b) {
   }
 }
 
-Eigen::VectorXd DiagonalOfInverse(MutableMatrixView<double> factor) {
+VectorXd DiagonalOfInverse(MutableMatrixView<double> factor) {
   assert(factor.rows() == factor.cols());
   UseOneThreadPerCall();
   const char lower = 'L';
@@ -189,8 +189,8 @@ Eigen::VectorXd DiagonalOfInverse(MutableMatrixView<double> factor) {
   const int leading = static_cast<int>(factor.outerStride());
   int info = 0;
   dtrtri_(&lower, &not_unit, &size, factor.data(), &leading, &info, 1, 1);
-  Eigen::VectorXd diagonal(factor.cols());
-  for (Eigen::Index j = 0; j < diagonal.size(); ++j) {
+  VectorXd diagonal(factor.cols());
+  for (Index j = 0; j < diagonal.size(); ++j) {
     diagonal[j] = factor.col(j).tail(diagonal.size() - j).squaredNorm();
   }
   return diagonal;
@@ -215,13 +215,13 @@ void DivideByUpperTriangle(const MatrixView<double>& r,
               static_cast<int>(b.outerStride()));
 }
 
-Eigen::VectorXd SingularValues(Eigen::MatrixXd a) {
+VectorXd SingularValues(MatrixXd a) {
   UseOneThreadPerCall();
   const char none = 'N';  // no vectors
   const int rows = static_cast<int>(a.rows());
   const int cols = static_cast<int>(a.cols());
   const int one = 1;
-  Eigen::VectorXd values(std::min(rows, cols));
+  VectorXd values(std::min(rows, cols));
   std::vector<int> integers(8 * static_cast<std::size_t>(values.size()));
   double best_size = 0.0;
   double unused = 0.0;

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::fitting {
 
@@ -66,11 +66,11 @@ bool FactorizeCholesky(MutableMatrixView<double> a);
 
 /// Solves L L'x = b, with L (m x m) from FactorizeCholesky; overwrites b (m)
 /// with x.
-void SolveCholesky(const MatrixView<double>& factor, Eigen::VectorXd* b);
+void SolveCholesky(const MatrixView<double>& factor, VectorXd* b);
 
 /// Returns the diagonal (m) of (L L')^-1, with L from FactorizeCholesky;
 /// destroys the content of `factor`.
-Eigen::VectorXd DiagonalOfInverse(MutableMatrixView<double> factor);
+VectorXd DiagonalOfInverse(MutableMatrixView<double> factor);
 
 /// Computes b = b r^-1 for r (k x k) upper triangular without zeros on its
 /// diagonal, and b (m x k).
@@ -79,6 +79,6 @@ void DivideByUpperTriangle(const MatrixView<double>& r,
 
 /// Returns the min(m, n) singular values of a (m x n, neither empty), largest
 /// first; all NaN if they were not found.
-Eigen::VectorXd SingularValues(Eigen::MatrixXd a);
+VectorXd SingularValues(MatrixXd a);
 
 }  // namespace errmap::fitting

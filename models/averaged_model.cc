@@ -12,8 +12,6 @@
 
 namespace errmap::models {
 
-using Eigen::Index;
-
 AveragedModel::AveragedModel(Index num_inputs,
                              std::string rule,
                              std::vector<AveragedMember> members)
@@ -29,8 +27,7 @@ AveragedModel::AveragedModel(Index num_inputs,
     if (!(member.weight > 0.0 && std::isfinite(member.weight))) {
       refuse("weights must be above 0 and finite");
     }
-    if (static_cast<Index>(member.inputs.size()) !=
-        member.model->num_inputs()) {
+    if (std::ssize(member.inputs) != member.model->num_inputs()) {
       refuse(member.name + " reads " +
              std::to_string(member.model->num_inputs()) + " inputs, " +
              std::to_string(member.inputs.size()) + " are named");

@@ -4,17 +4,16 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "models/error_model.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
 /// One of the maps that are averaged.
 struct AveragedMember {
   std::string name;
-  double weight = 0.0;               // above 0
-  std::vector<Eigen::Index> inputs;  // indices of average inputs it reads
+  double weight = 0.0;        // above 0
+  std::vector<Index> inputs;  // indices of average inputs it reads
   /// Its predictions are clipped to these bounds (target's unit), so that one
   /// map that goes astray cannot carry the others with it.
   double lowest = 0.0;
@@ -28,19 +27,19 @@ class AveragedModel final : public ErrorModel {
   /// Throws std::invalid_argument if there are no members, if a weight is not
   /// finite and above 0, or if inputs do not match a member. Scales the weights
   /// to sum 1.
-  AveragedModel(Eigen::Index num_inputs,
+  AveragedModel(Index num_inputs,
                 std::string rule,
                 std::vector<AveragedMember> members);
 
-  Eigen::Index num_inputs() const override { return num_inputs_; }
-  Eigen::Index num_parameters() const override;
+  Index num_inputs() const override { return num_inputs_; }
+  Index num_parameters() const override;
   /// Returns a BlendForm.
   ModelDescription Describe() const override;
 
  private:
   double DoPredictRow(const double* inputs) const override;
 
-  Eigen::Index num_inputs_;
+  Index num_inputs_;
   std::string rule_;
   std::vector<AveragedMember> members_;
 };

@@ -37,7 +37,7 @@ void RequireFormula(const ModelDescription& form, std::string_view what) {
       " needs a map's formula, and a model of a program's own has none");
 }
 
-Eigen::VectorXd ErrorModel::Predict(const Eigen::MatrixXd& inputs) const {
+VectorXd ErrorModel::Predict(const MatrixXd& inputs) const {
   if (inputs.cols() != num_inputs()) {
     throw std::invalid_argument(
         "Predict: the model reads " + std::to_string(num_inputs()) +
@@ -46,10 +46,10 @@ Eigen::VectorXd ErrorModel::Predict(const Eigen::MatrixXd& inputs) const {
   return DoPredict(inputs);
 }
 
-Eigen::VectorXd ErrorModel::DoPredict(const Eigen::MatrixXd& inputs) const {
-  Eigen::VectorXd errors(inputs.rows());
-  Eigen::VectorXd row(inputs.cols());
-  for (Eigen::Index i = 0; i < inputs.rows(); ++i) {
+VectorXd ErrorModel::DoPredict(const MatrixXd& inputs) const {
+  VectorXd errors(inputs.rows());
+  VectorXd row(inputs.cols());
+  for (Index i = 0; i < inputs.rows(); ++i) {
     row = inputs.row(i);
     errors[i] = DoPredictRow(row.data());
   }
@@ -57,7 +57,7 @@ Eigen::VectorXd ErrorModel::DoPredict(const Eigen::MatrixXd& inputs) const {
 }
 
 double ErrorModel::PredictRow(std::span<const double> inputs) const {
-  if (static_cast<Eigen::Index>(inputs.size()) != num_inputs()) {
+  if (std::ssize(inputs) != num_inputs()) {
     throw std::invalid_argument(
         "PredictRow: the model reads " + std::to_string(num_inputs()) +
         " inputs, found " + std::to_string(inputs.size()));
@@ -69,17 +69,16 @@ ModelDescription ErrorModel::Describe() const {
   return OpaqueForm{num_inputs(), {}};
 }
 
-Eigen::Index FindPosition(const data::Dataset& dataset,
-                          const std::string& wanted) {
+Index FindPosition(const data::Dataset& dataset, const std::string& wanted) {
   if (!wanted.empty()) {
-    const Eigen::Index index = dataset.FindInput(wanted);
+    const Index index = dataset.FindInput(wanted);
     if (index < 0) {
       throw std::invalid_argument("position='" + wanted +
                                   "' is not among the inputs");
     }
     return index;
   }
-  for (Eigen::Index i = 0; i < dataset.num_inputs(); ++i) {
+  for (Index i = 0; i < dataset.num_inputs(); ++i) {
     if (data::IsPosition(dataset.inputs()[static_cast<std::size_t>(i)])) {
       return i;
     }
@@ -87,10 +86,10 @@ Eigen::Index FindPosition(const data::Dataset& dataset,
   return -1;
 }
 
-std::vector<TrainedInput> DescribeInputs(
-    const data::Dataset& training, const std::vector<Eigen::Index>& columns) {
+std::vector<TrainedInput> DescribeInputs(const data::Dataset& training,
+                                         const std::vector<Index>& columns) {
   std::vector<TrainedInput> inputs;
-  for (const Eigen::Index column : columns) {
+  for (const Index column : columns) {
     const stats::SampleSummary summary =
         stats::Summarize(training.input_values().col(column));
     inputs.push_back({training.inputs()[static_cast<std::size_t>(column)],

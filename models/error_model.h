@@ -11,11 +11,10 @@
 #include <variant>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/measurements/dataset.h"
 #include "fitting/minimisers/fit_summary.h"
 #include "models/prediction_interval.h"
+#include "stats/eigen.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::models {
@@ -28,16 +27,16 @@ struct PolynomialTerm {
 
 /// An input in which a polynomial is curved only within a range.
 struct BendRange {
-  Eigen::Index input = 0;
+  Index input = 0;
   double min = 0.0;  // unit of the input
   double max = 0.0;
 };
 
 /// error = intercept + sum of terms in scaled inputs (x - offset) * scale.
 struct PolynomialForm {
-  Eigen::VectorXd input_offset;  // (p) unit of the input
-  Eigen::VectorXd input_scale;   // (p) per unit of the input
-  double intercept = 0.0;        // unit of the target
+  VectorXd input_offset;   // (p) unit of the input
+  VectorXd input_scale;    // (p) per unit of the input
+  double intercept = 0.0;  // unit of the target
   std::vector<PolynomialTerm> terms;
   /// Inputs that a curved term sees clipped to their range. A term is curved if
   /// its powers of these inputs sum to more than 1. The map goes on straight
@@ -52,26 +51,26 @@ std::string_view ToString(OutputFunction output);
 /// outputs z. A prediction is (z - target_offset) / target_slope.
 struct NetForm {
   OutputFunction output = OutputFunction::kSigmoid;
-  Eigen::VectorXd input_offset;   // (I)
-  Eigen::VectorXd input_scale;    // (I)
-  Eigen::VectorXd target_slope;   // (J)
-  Eigen::VectorXd target_offset;  // (J)
-  Eigen::MatrixXd w1;             // (H x (I+1)) last column = bias, Eq. 16
-  Eigen::MatrixXd w2;             // (J x (H+1)) last column = bias, Eq. 17
+  VectorXd input_offset;   // (I)
+  VectorXd input_scale;    // (I)
+  VectorXd target_slope;   // (J)
+  VectorXd target_offset;  // (J)
+  MatrixXd w1;             // (H x (I+1)) last column = bias, Eq. 16
+  MatrixXd w2;             // (J x (H+1)) last column = bias, Eq. 17
 };
 
 /// Weighted mean of maps, each clipped to its own bounds.
 struct BlendForm {
   struct Member {
     std::string name;
-    double weight = 0.0;               // the members' weights sum to 1
-    std::vector<Eigen::Index> inputs;  // indices of the blend's inputs it reads
+    double weight = 0.0;        // the members' weights sum to 1
+    std::vector<Index> inputs;  // indices of the blend's inputs it reads
     double lowest = -std::numeric_limits<double>::infinity();  // target's unit
     double highest = std::numeric_limits<double>::infinity();
-    Eigen::Index parameters = 0;
+    Index parameters = 0;
     std::variant<PolynomialForm, NetForm> form;
   };
-  Eigen::Index num_inputs = 0;
+  Index num_inputs = 0;
   std::string rule;  // how the weights are chosen
   std::vector<Member> members;
 };
@@ -79,14 +78,14 @@ struct BlendForm {
 /// Operations of one prediction: counted, not timed, so the same on any
 /// machine.
 struct PredictionCost {
-  Eigen::Index multiplications = 0;
-  Eigen::Index exponentials = 0;
+  Index multiplications = 0;
+  Index exponentials = 0;
 };
 
 /// A model without a formula. It takes part in studies and reports, but no file
 /// can hold it and no controller can run it.
 struct OpaqueForm {
-  Eigen::Index num_inputs = 0;
+  Index num_inputs = 0;
   PredictionCost cost;  // 0 if unknown
 };
 
@@ -110,12 +109,12 @@ PredictionCost CostOf(const ModelDescription& form);
 class ErrorModel {
  public:
   virtual ~ErrorModel() = default;
-  virtual Eigen::Index num_inputs() const = 0;
-  virtual Eigen::Index num_parameters() const = 0;
+  virtual Index num_inputs() const = 0;
+  virtual Index num_parameters() const = 0;
   /// Returns the error (m) of each row of `inputs` (m x p), in the training
   /// target's unit. A row's prediction is the same to the last bit whatever the
   /// other rows. Throws std::invalid_argument unless inputs.cols() == p.
-  Eigen::VectorXd Predict(const Eigen::MatrixXd& inputs) const;
+  VectorXd Predict(const MatrixXd& inputs) const;
   /// Predicts one row (p). The models of this library allocate no memory here,
   /// except very large ones.
   double PredictRow(std::span<const double> inputs) const;
@@ -127,7 +126,7 @@ class ErrorModel {
   virtual double DoPredictRow(const double* inputs) const = 0;
   // `inputs` has num_inputs() columns. Predicts row by row, unless a derived
   // model overrides it with something faster.
-  virtual Eigen::VectorXd DoPredict(const Eigen::MatrixXd& inputs) const;
+  virtual VectorXd DoPredict(const MatrixXd& inputs) const;
 };
 
 /// kFile: a map, or predictions, made by another program.
@@ -186,12 +185,12 @@ struct Guards {
   double input_margin = 2.0;
   /// Predictions are clipped to the target's range, Widened by this.
   double error_margin = 0.3;
-  Eigen::VectorXd input_min;  // (inputs of the form) in training
-  Eigen::VectorXd input_max;
+  VectorXd input_min;  // (inputs of the form) in training
+  VectorXd input_max;
   double error_min = 0.0;  // range of the target in training, in its unit
   double error_max = 0.0;
 
-  Bounds InputBounds(Eigen::Index input) const {
+  Bounds InputBounds(Index input) const {
     return Widened(input_min[input], input_max[input], input_margin);
   }
   Bounds ErrorBounds() const {
@@ -203,11 +202,11 @@ struct Guards {
 /// inputs and of `targets` (at least one). If the map goes on in an input that
 /// only grows, the error may leave its range by the width of that range.
 Guards MakeGuards(const std::vector<TrainedInput>& form_inputs,
-                  const Eigen::VectorXd& targets,
+                  const VectorXd& targets,
                   bool grows = false);
 
 struct Prediction {
-  Eigen::VectorXd errors;  // (m) target's unit
+  VectorXd errors;  // (m) target's unit
   /// (m) true if an input of the form, or the error, was clipped.
   Eigen::Array<bool, Eigen::Dynamic, 1> clipped;
 };
@@ -251,21 +250,21 @@ struct FittedModel {
   std::shared_ptr<const data::Reading> reading;
 
   /// Number of training rows used: a net draws a sample of very many rows.
-  Eigen::Index RowsLearntFrom(const data::Dataset& training) const;
+  Index RowsLearntFrom(const data::Dataset& training) const;
   /// Returns the form's inputs of every row (m x inputs of the form); finds
   /// `inputs` by name. Throws std::invalid_argument if an input is missing, or
   /// if the history needs sessions and times that are unknown.
-  Eigen::MatrixXd FormInputs(const data::Dataset& dataset) const;
+  MatrixXd FormInputs(const data::Dataset& dataset) const;
   /// Clips the inputs, predicts, clips the errors. Throws std::invalid_argument
   /// if the number of columns is not that of the form's inputs.
-  Prediction PredictForm(const Eigen::MatrixXd& form_inputs) const;
+  Prediction PredictForm(const MatrixXd& form_inputs) const;
   /// Predicts one row without allocating memory; `clipped` may be
   /// null.
   double PredictFormRow(std::span<const double> form_inputs,
                         bool* clipped) const;
   /// Returns the predicted error (m) of every row, in the unit of `target`.
   /// Throws as FormInputs.
-  Eigen::VectorXd Predict(const data::Dataset& dataset) const;
+  VectorXd Predict(const data::Dataset& dataset) const;
 };
 
 /// How rows are held out for choices inside a fit. It mirrors the outer
@@ -286,7 +285,7 @@ enum class InnerHoldout {
 std::string_view ToString(InnerHoldout inner);
 
 /// Two or three days hardly show which map does well on another day.
-inline constexpr Eigen::Index kFewestSessionsToDecide = 4;
+inline constexpr Index kFewestSessionsToDecide = 4;
 
 class SharedWork;
 
@@ -328,7 +327,7 @@ class ModelRecipe {
     return std::nullopt;
   }
   /// Number of coefficients for these data, if known before the fit.
-  virtual std::optional<Eigen::Index> NumCoefficients(
+  virtual std::optional<Index> NumCoefficients(
       const data::Dataset& /*dataset*/) const {
     return std::nullopt;
   }
@@ -348,11 +347,10 @@ FittedModel MapOfModel(const ModelRecipe& recipe,
 /// Returns the index of the position input: `wanted`, or if that is empty the
 /// first input that is a position; -1 if there is none. Throws
 /// std::invalid_argument if `wanted` is not an input.
-Eigen::Index FindPosition(const data::Dataset& dataset,
-                          const std::string& wanted);
+Index FindPosition(const data::Dataset& dataset, const std::string& wanted);
 
 /// Returns the inputs `columns` of `training` with their trained range.
-std::vector<TrainedInput> DescribeInputs(
-    const data::Dataset& training, const std::vector<Eigen::Index>& columns);
+std::vector<TrainedInput> DescribeInputs(const data::Dataset& training,
+                                         const std::vector<Index>& columns);
 
 }  // namespace errmap::models

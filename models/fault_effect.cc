@@ -3,7 +3,6 @@
 #include <cmath>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "models/error_model.h"
 #include "models/inner_folds.h"
@@ -13,14 +12,12 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-
 // RMSE on `judged` of a plane fitted to `training`.
 double RmseOfPlane(const data::Dataset& training, const data::Dataset& judged) {
   try {
     const auto recipe =
         MakeRecipe(training.num_inputs() > 0 ? "poly:full:degree=1" : "mean");
-    const Eigen::VectorXd residuals =
+    const VectorXd residuals =
         judged.target_values() - recipe->Fit(training, {}).Predict(judged);
     return std::sqrt(residuals.squaredNorm() /
                      static_cast<double>(residuals.size()));
@@ -67,7 +64,7 @@ FaultEffect EffectOfInput(const data::Dataset& all_rows, Index input) {
   const data::Dataset dataset = Thinned(all_rows);
   std::vector<data::ColumnInfo> inputs = dataset.inputs();
   inputs.erase(inputs.begin() + input);
-  Eigen::MatrixXd values(dataset.num_rows(), dataset.num_inputs() - 1);
+  MatrixXd values(dataset.num_rows(), dataset.num_inputs() - 1);
   const Index after = values.cols() - input;
   values.leftCols(input) = dataset.input_values().leftCols(input);
   values.rightCols(after) = dataset.input_values().rightCols(after);

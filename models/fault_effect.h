@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "data/measurements/dataset.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -16,11 +17,11 @@ struct FaultEffect {
 
 /// Effect of these data rows of the file, judged on the sound rows.
 FaultEffect EffectOfRows(const data::Dataset& dataset,
-                         const std::vector<Eigen::Index>& rows);
+                         const std::vector<Index>& rows);
 
 /// Effect of a whole input, judged on rows held out by sessions, else groups,
 /// else blocks: an in-sample error never speaks against an input. Uses at most
 /// 2000 rows, spread evenly.
-FaultEffect EffectOfInput(const data::Dataset& all_rows, Eigen::Index input);
+FaultEffect EffectOfInput(const data::Dataset& all_rows, Index input);
 
 }  // namespace errmap::models

@@ -59,7 +59,7 @@ class FileRecipe final : public ModelRecipe {
     return std::nullopt;
   }
 
-  std::optional<Eigen::Index> NumCoefficients(
+  std::optional<Index> NumCoefficients(
       const data::Dataset& /*dataset*/) const override {
     return map_.model->num_parameters();
   }

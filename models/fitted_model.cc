@@ -12,8 +12,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
 using Rows = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
 // A value that is NaN stays so.
@@ -24,9 +22,7 @@ double Clipped(double value, const Bounds& bounds) {
 }
 
 // Clips `values` and marks where it did.
-void Clip(const Bounds& bounds,
-          Eigen::Ref<Eigen::VectorXd> values,
-          Rows* clipped) {
+void Clip(const Bounds& bounds, Eigen::Ref<VectorXd> values, Rows* clipped) {
   *clipped =
       *clipped || values.array() < bounds.low || values.array() > bounds.high;
   values = values.unaryExpr(
@@ -36,7 +32,7 @@ void Clip(const Bounds& bounds,
 MatrixXd ColumnsByName(const data::Dataset& dataset,
                        const std::string& model,
                        const std::vector<TrainedInput>& inputs) {
-  MatrixXd values(dataset.num_rows(), static_cast<Index>(inputs.size()));
+  MatrixXd values(dataset.num_rows(), std::ssize(inputs));
   Index column = 0;
   for (const TrainedInput& input : inputs) {
     const Index index = dataset.FindInput(input.column.name);
@@ -53,11 +49,11 @@ MatrixXd ColumnsByName(const data::Dataset& dataset,
 }  // namespace
 
 Guards MakeGuards(const std::vector<TrainedInput>& form_inputs,
-                  const Eigen::VectorXd& targets,
+                  const VectorXd& targets,
                   bool grows) {
   Guards guards;
   if (grows) guards.error_margin = 1.0;
-  const auto size = static_cast<Index>(form_inputs.size());
+  const auto size = std::ssize(form_inputs);
   guards.input_min.resize(size);
   guards.input_max.resize(size);
   for (Index i = 0; i < size; ++i) {
@@ -113,7 +109,7 @@ double FittedModel::PredictFormRow(std::span<const double> form_inputs,
   if (!guards) {
     error = model->PredictRow(form_inputs);
   } else {
-    if (static_cast<Index>(form_inputs.size()) != guards->input_min.size()) {
+    if (std::ssize(form_inputs) != guards->input_min.size()) {
       throw std::invalid_argument("PredictFormRow: the guards know " +
                                   std::to_string(guards->input_min.size()) +
                                   " inputs, found " +
@@ -131,7 +127,7 @@ double FittedModel::PredictFormRow(std::span<const double> form_inputs,
   return error;
 }
 
-Eigen::VectorXd FittedModel::Predict(const data::Dataset& dataset) const {
+VectorXd FittedModel::Predict(const data::Dataset& dataset) const {
   return PredictForm(FormInputs(dataset)).errors;
 }
 

@@ -15,9 +15,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 Index NumGroups(const data::Dataset& dataset) {
   const std::vector<Index>& codes = dataset.groups().codes;
   return static_cast<Index>(std::set<Index>(codes.begin(), codes.end()).size());

@@ -3,11 +3,10 @@
 #include <cstddef>
 #include <string>
 
-#include <Eigen/Core>
-
 #include "data/measurements/dataset.h"
 #include "fitting/fold_codes.h"
 #include "models/error_model.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -26,7 +25,7 @@ struct InnerFolds {
   bool whole_sessions = false;
   bool in_turn = false;  // GroupDeal::kInTurn was used
   /// Number of sessions or groups held out whole; else number of folds.
-  Eigen::Index units = 0;
+  Index units = 0;
 };
 
 /// The error that a choice on inner hold-outs minimises.
@@ -40,15 +39,15 @@ struct InnerError {
 /// extreme day would decide alone, and favour a map that uses nothing. Errors
 /// far below `indifference` count the same.
 InnerError TypicalError(const InnerFolds& folds,
-                        const Eigen::VectorXd& mean_squares,
-                        const Eigen::VectorXd& weights,
+                        const VectorXd& mean_squares,
+                        const VectorXd& weights,
                         double indifference);
 
 /// Returns the root of TypicalError of folds with these sums of squared errors
 /// (NaN: no fit) and numbers of rows.
 double TypicalRmse(const InnerFolds& folds,
-                   const Eigen::VectorXd& squares,
-                   const Eigen::VectorXd& rows,
+                   const VectorXd& squares,
+                   const VectorXd& rows,
                    double indifference);
 
 /// Limits for giving up a view or a basis on inner hold-outs. It is given up

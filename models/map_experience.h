@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/measurements/dataset.h"
+#include "stats/eigen.h"
 
 // Plain data that model files hold besides the map itself. models/uncertainty/
 // documents how it is made and used.
@@ -19,14 +18,14 @@ namespace errmap::models {
 struct StandingStill {
   /// Mean movement of the other columns (in shares of their ranges) that is
   /// allowed while a column holds its value. 0: the column is not watched.
-  Eigen::VectorXd others_move = {};
-  Eigen::VectorXd resolution = {};  // in shares of its range
+  VectorXd others_move = {};
+  VectorXd resolution = {};  // in shares of its range
   /// Longest time without noise (s); 0: the column shows no noise.
-  Eigen::VectorXd quiet = {};
+  VectorXd quiet = {};
   /// Largest sudden change (in shares of the column's range; 0: unknown), and
   /// how much more is allowed for each second.
-  Eigen::VectorXd jump = {};
-  Eigen::VectorXd pace = {};
+  VectorXd jump = {};
+  VectorXd pace = {};
   /// Longest time that all may hold their values at once (s); 0: unknown.
   double silence = 0.0;
 };
@@ -37,11 +36,11 @@ struct SessionReadings {
   /// (s x s) Inverse covariance of x', without a factor model. It is scaled to
   /// held-out sessions: on average over columns, the residual of a column given
   /// the others has the variance stated here.
-  Eigen::MatrixXd precision;
+  MatrixXd precision;
   /// (s) That variance of a column over the mean of all, 1 at least: a tank has
   /// little to do with the other sensors.
-  Eigen::VectorXd scatter;
-  Eigen::Index units = 0;  // sessions, or what was held out in their place
+  VectorXd scatter;
+  Index units = 0;  // sessions, or what was held out in their place
 };
 
 /// Where a map was trained, beyond the range of each column. It holds the
@@ -61,22 +60,22 @@ struct Applicability {
   /// The form's derived inputs, in its order.
   std::vector<Derived> derived;
 
-  std::vector<Eigen::Index> columns;  // (s) index into the map's inputs
-  Eigen::Index rows = 0;              // of training
-  Eigen::VectorXd mean;               // (s) input's unit
-  Eigen::VectorXd scale;              // (s) input's unit, above 0; one per unit
-  Eigen::MatrixXd directions;         // (s x q) W
-  Eigen::VectorXd rest;               // (s) variances of x', above 0
-  Eigen::MatrixXd states;             // (k x q) trained states, spread evenly
+  std::vector<Index> columns;  // (s) index into the map's inputs
+  Index rows = 0;              // of training
+  VectorXd mean;               // (s) input's unit
+  VectorXd scale;              // (s) input's unit, above 0; one per unit
+  MatrixXd directions;         // (s x q) W
+  VectorXd rest;               // (s) variances of x', above 0
+  MatrixXd states;             // (k x q) trained states, spread evenly
 
   // Limits: 1.5 times the values that rows of held-out units reached.
-  double distance_limit = 0.0;     // to the nearest of `states`
-  double leverage_limit = 0.0;     // 1 / rows + |z|^2 / (rows - 1)
-  Eigen::VectorXd relation_limit;  // (s) StateMeasures::relation
+  double distance_limit = 0.0;  // to the nearest of `states`
+  double leverage_limit = 0.0;  // 1 / rows + |z|^2 / (rows - 1)
+  VectorXd relation_limit;      // (s) StateMeasures::relation
 
   /// (s) Share of readings within sessions that repeat the previous one to the
   /// last digit; (0): unknown.
-  Eigen::VectorXd repeats = {};
+  VectorXd repeats = {};
 
   StandingStill standing = {};  // empty in older files
 
@@ -95,11 +94,11 @@ struct HeldOutErrors {
   struct Unit {
     std::string label;
     double rmse = 0.0;          // target's unit
-    Eigen::VectorXd elapsed;    // (n) since the session's start, in time_unit
-    Eigen::VectorXd position;   // (n) of the first position input, or (0)
-    Eigen::VectorXd residuals;  // (n) target less prediction, target's unit
-    Eigen::VectorXd temperature = {};  // (n) of that input, or (0)
-    Eigen::VectorXd predicted = {};    // (n) target's unit, or (0)
+    VectorXd elapsed;           // (n) since the session's start, in time_unit
+    VectorXd position;          // (n) of the first position input, or (0)
+    VectorXd residuals;         // (n) target less prediction, target's unit
+    VectorXd temperature = {};  // (n) of that input, or (0)
+    VectorXd predicted = {};    // (n) target's unit, or (0)
   };
   /// "s", "rows", or "" if times are unknown (then elapsed is 0).
   std::string time_unit;
@@ -118,7 +117,7 @@ struct LearntRows {
     double alike = 0.0;  // share of rows also found in another session
     std::string bits;    // four in each hexadecimal digit
   };
-  Eigen::Index every = 1;          // one row in `every` is kept, by its hash
+  Index every = 1;                 // one row in `every` is kept, by its hash
   std::optional<Filter> measured;  // readings with their error
   std::optional<Filter> readings;  // readings alone, also those of one sensor
 };

@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include "stats/eigen.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::models {
@@ -31,7 +30,7 @@ struct PredictionInterval {
 
   std::string holdout;        // "sessions:5"
   std::string unit;           // "day", "cycle", "block of rows"
-  Eigen::Index units = 0;     // at least 2
+  Index units = 0;            // at least 2
   std::vector<Level> levels;  // as kCoverages
   /// True if whole sessions were held out, whatever their name: groups that cut
   /// the rows as sessions do are sessions.
@@ -39,7 +38,7 @@ struct PredictionInterval {
   /// Number of future sessions for which it holds, as mean errors of
   /// neighbouring sessions may be correlated; 0 if they are not. lag1 is their
   /// correlation (NaN if not computed).
-  Eigen::Index good_for = 0;
+  Index good_for = 0;
   double lag1 = stats::kNaN;
 };
 

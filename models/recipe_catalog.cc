@@ -1,7 +1,6 @@
 #include "models/recipe_catalog.h"
 
 #include <algorithm>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -115,9 +114,9 @@ std::vector<ModelOption> OptionsOfModel(std::string_view type) {
 }
 
 DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
-                                  Eigen::Index fewest_training_rows) {
+                                  Index fewest_training_rows) {
   constexpr int kHighestFullDegree = 6;
-  constexpr Eigen::Index kRowsPerCoefficient = 5;
+  constexpr Index kRowsPerCoefficient = 5;
   constexpr double kMostProducts = 5e10;  // some seconds
   DefaultRecipes defaults;
   std::vector<LackingTypes> lacking;
@@ -134,7 +133,7 @@ DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
       const int lowest = FindPosition(dataset, "") < 0 ? 1 : 2;
       for (int degree = lowest; degree <= kHighestFullDegree; ++degree) {
         auto recipe = MakeRecipe(FullOptions{.degree = degree});
-        const Eigen::Index coefficients = *recipe->NumCoefficients(dataset);
+        const Index coefficients = *recipe->NumCoefficients(dataset);
         const auto wide = static_cast<double>(coefficients);
         const auto tall = static_cast<double>(fewest_training_rows);
         if (dataset.num_inputs() > 0 &&

@@ -48,7 +48,7 @@ struct DefaultRecipes {
 /// at most a fifth as many coefficients as `fewest_training_rows`, the smallest
 /// training side of the study's folds. It must also fit in some seconds.
 DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
-                                  Eigen::Index fewest_training_rows);
+                                  Index fewest_training_rows);
 
 /// Returns the model types that any other must beat to be worth its sensors:
 /// "zero" (no compensation), "mean", "poly:position" and "poly:temperature".

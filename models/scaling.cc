@@ -14,10 +14,9 @@ namespace {
 double InverseOf(double spread) { return spread > 0.0 ? 1.0 / spread : 1.0; }
 
 template <typename Spread>
-ColumnScaling ScaleColumns(const Eigen::MatrixXd& values, Spread&& spread) {
-  ColumnScaling scaling{Eigen::VectorXd(values.cols()),
-                        Eigen::VectorXd(values.cols())};
-  for (Eigen::Index j = 0; j < values.cols(); ++j) {
+ColumnScaling ScaleColumns(const MatrixXd& values, Spread&& spread) {
+  ColumnScaling scaling{VectorXd(values.cols()), VectorXd(values.cols())};
+  for (Index j = 0; j < values.cols(); ++j) {
     const auto [offset, width] = spread(stats::Summarize(values.col(j)));
     scaling.offset[j] = offset;
     scaling.scale[j] = InverseOf(width);
@@ -27,60 +26,57 @@ ColumnScaling ScaleColumns(const Eigen::MatrixXd& values, Spread&& spread) {
 
 }  // namespace
 
-Eigen::MatrixXd ColumnScaling::Apply(const Eigen::MatrixXd& values) const {
+MatrixXd ColumnScaling::Apply(const MatrixXd& values) const {
   return (values.rowwise() - offset.transpose()) * scale.asDiagonal();
 }
 
-ColumnScaling IdentityScaling(Eigen::Index num_columns) {
-  return {Eigen::VectorXd::Zero(num_columns),
-          Eigen::VectorXd::Ones(num_columns)};
+ColumnScaling IdentityScaling(Index num_columns) {
+  return {VectorXd::Zero(num_columns), VectorXd::Ones(num_columns)};
 }
 
-ColumnScaling UnitRangeScaling(const Eigen::MatrixXd& values) {
+ColumnScaling UnitRangeScaling(const MatrixXd& values) {
   return ScaleColumns(values, [](const stats::SampleSummary& column) {
     return std::pair(column.min, column.range);
   });
 }
 
-ColumnScaling StandardScaling(const Eigen::MatrixXd& values) {
+ColumnScaling StandardScaling(const MatrixXd& values) {
   return ScaleColumns(values, [](const stats::SampleSummary& column) {
     return std::pair(column.mean, column.n > 1 ? column.sd : 0.0);
   });
 }
 
-ColumnScaling RootMeanSquareScaling(const Eigen::MatrixXd& values) {
+ColumnScaling RootMeanSquareScaling(const MatrixXd& values) {
   ColumnScaling scaling = IdentityScaling(values.cols());
-  for (Eigen::Index j = 0; j < values.cols(); ++j) {
+  for (Index j = 0; j < values.cols(); ++j) {
     scaling.scale[j] = InverseOf(values.col(j).norm() /
                                  std::sqrt(static_cast<double>(values.rows())));
   }
   return scaling;
 }
 
-Eigen::VectorXd SpreadsOfUnits(const Eigen::MatrixXd& values,
-                               const std::vector<std::string>& units) {
-  const Eigen::VectorXd variance =
-      (values.rowwise() - values.colwise().mean().eval())
-          .colwise()
-          .squaredNorm()
-          .transpose() /
-      static_cast<double>(values.rows());
+VectorXd SpreadsOfUnits(const MatrixXd& values,
+                        const std::vector<std::string>& units) {
+  const VectorXd variance = (values.rowwise() - values.colwise().mean().eval())
+                                .colwise()
+                                .squaredNorm()
+                                .transpose() /
+                            static_cast<double>(values.rows());
   std::map<std::string, std::pair<double, double>> of_unit;  // sum, count
-  for (Eigen::Index i = 0; i < variance.size(); ++i) {
+  for (Index i = 0; i < variance.size(); ++i) {
     auto& [sum, count] = of_unit[units[static_cast<std::size_t>(i)]];
     sum += variance[i];
     count += 1.0;
   }
-  Eigen::VectorXd spreads(variance.size());
-  for (Eigen::Index i = 0; i < spreads.size(); ++i) {
+  VectorXd spreads(variance.size());
+  for (Index i = 0; i < spreads.size(); ++i) {
     const auto& [sum, count] = of_unit[units[static_cast<std::size_t>(i)]];
     spreads[i] = sum > 0.0 ? std::sqrt(sum / count) : 1.0;
   }
   return spreads;
 }
 
-TargetScaling SigmoidTargetScaling(
-    const Eigen::Ref<const Eigen::MatrixXd>& targets) {
+TargetScaling SigmoidTargetScaling(const Eigen::Ref<const MatrixXd>& targets) {
   constexpr double kLowest = 0.01;
   constexpr double kHighest = 0.99;
   const double highest = targets.maxCoeff();

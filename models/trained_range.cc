@@ -11,8 +11,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-
 bool IsWithin(const TrainedInput& input, double value) {
   return value >= input.min && value <= input.max;
 }
@@ -55,7 +53,7 @@ struct Readings {
   std::vector<double> values;
 };
 
-Readings WithoutEmpty(const Eigen::VectorXd& column) {
+Readings WithoutEmpty(const VectorXd& column) {
   Readings readings;
   for (Index row = 0; row < column.size(); ++row) {
     if (std::isnan(column[row])) continue;
@@ -93,7 +91,7 @@ std::vector<Index> RowsOfSpikes(const Readings& readings, double far) {
 }
 
 std::vector<Index> RowsOfSpikes(const TrainedInput& input,
-                                const Eigen::VectorXd& column) {
+                                const VectorXd& column) {
   constexpr double kFar = 3.0;        // trained ranges
   constexpr double kLeastFar = 10.0;  // degC
   constexpr std::size_t kFewest = 3;
@@ -112,7 +110,7 @@ std::vector<Index> RowsOfSpikes(const TrainedInput& input,
 }  // namespace
 
 std::vector<Spike> FindSpikes(const std::vector<TrainedInput>& inputs,
-                              const Eigen::MatrixXd& readings) {
+                              const MatrixXd& readings) {
   std::vector<Spike> spikes;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (inputs[i].column.unit.quantity != data::Quantity::kTemperature)
@@ -127,7 +125,7 @@ std::vector<Spike> FindSpikes(const std::vector<TrainedInput>& inputs,
 }
 
 std::vector<InputOutside> InputsOutside(const std::vector<TrainedInput>& inputs,
-                                        const Eigen::MatrixXd& values) {
+                                        const MatrixXd& values) {
   std::vector<InputOutside> outside;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const auto column = values.col(static_cast<Index>(i));
@@ -152,7 +150,7 @@ std::vector<InputOutside> InputsOutside(const std::vector<TrainedInput>& inputs,
 }
 
 bool IsInside(const std::vector<TrainedInput>& inputs,
-              const Eigen::MatrixXd& values,
+              const MatrixXd& values,
               Index row) {
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (!IsWithin(inputs[i], values(row, static_cast<Index>(i)))) return false;

@@ -9,9 +9,9 @@ namespace errmap::models {
 
 /// An input of a map with values outside its trained range.
 struct InputOutside {
-  Eigen::Index input = 0;     // index into the map's inputs
-  Eigen::Index num_rows = 0;  // number of given rows that lie outside
-  double min = 0.0;           // of the given values, input's unit
+  Index input = 0;     // index into the map's inputs
+  Index num_rows = 0;  // number of given rows that lie outside
+  double min = 0.0;    // of the given values, input's unit
   double max = 0.0;
   /// If most readings lie outside: the unit in which the values fit the range,
   /// such as "K" for 293 in a column of degC; "" if none does.
@@ -22,13 +22,13 @@ struct InputOutside {
 /// x p; NaN where a cell is empty, which counts as no reading), in the map's
 /// order.
 std::vector<InputOutside> InputsOutside(const std::vector<TrainedInput>& inputs,
-                                        const Eigen::MatrixXd& values);
+                                        const MatrixXd& values);
 
 /// A reading that no state of the machine gives: a loose contact, or what a bus
 /// returns for no answer (-127, 85).
 struct Spike {
-  Eigen::Index input = 0;  // index into the map's inputs
-  Eigen::Index row = 0;
+  Index input = 0;  // index into the map's inputs
+  Index row = 0;
   double value = 0.0;  // input's unit
 };
 
@@ -38,11 +38,11 @@ struct Spike {
 /// less than three readings has none, nor one of which more than a fifth are
 /// so, of less than ten more than one.
 std::vector<Spike> FindSpikes(const std::vector<TrainedInput>& inputs,
-                              const Eigen::MatrixXd& readings);
+                              const MatrixXd& readings);
 
 /// True if all inputs of a row lie within their trained range.
 bool IsInside(const std::vector<TrainedInput>& inputs,
-              const Eigen::MatrixXd& values,
-              Eigen::Index row);
+              const MatrixXd& values,
+              Index row);
 
 }  // namespace errmap::models

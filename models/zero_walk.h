@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -14,11 +14,11 @@ inline constexpr double kTimeRounding = 1e-9;
 /// judged by the zero before it: visit(row, zero); then it is one itself where
 /// is_due(row, zero). Returns the zeros, ascending.
 template <typename IsDue, typename Visit>
-std::vector<Eigen::Index> ForZeros(Eigen::Index count,
-                                   const IsDue& is_due,
-                                   const Visit& visit) {
-  std::vector<Eigen::Index> zeros;
-  for (Eigen::Index row = 0; row < count; ++row) {
+std::vector<Index> ForZeros(Index count,
+                            const IsDue& is_due,
+                            const Visit& visit) {
+  std::vector<Index> zeros;
+  for (Index row = 0; row < count; ++row) {
     if (!zeros.empty()) visit(row, zeros.back());
     if (zeros.empty() || is_due(row, zeros.back())) zeros.push_back(row);
   }

@@ -10,16 +10,9 @@
 #include "stats/summary.h"
 
 namespace errmap::stats {
-namespace {
-
-using Eigen::Index;
-using Eigen::VectorXd;
-
-}  // namespace
-
 BiasByLevel ComputeBias(const Eigen::Ref<const VectorXd>& values,
                         const std::vector<Index>& codes) {
-  if (static_cast<Index>(codes.size()) != values.size()) {
+  if (std::ssize(codes) != values.size()) {
     throw std::invalid_argument("ComputeBias: " + std::to_string(codes.size()) +
                                 " codes for " + std::to_string(values.size()) +
                                 " values");
@@ -46,8 +39,8 @@ BiasByLevel ComputeBias(const Eigen::Ref<const VectorXd>& values,
       bias.levels.push_back({.n = 0, .mean = kNaN, .standard_error = kNaN});
       continue;
     }
-    const SampleSummary summary = Summarize(Eigen::Map<const VectorXd>(
-        level.data(), static_cast<Index>(level.size())));
+    const SampleSummary summary =
+        Summarize(Eigen::Map<const VectorXd>(level.data(), std::ssize(level)));
     bias.levels.push_back(
         {.n = summary.n,
          .mean = summary.mean,

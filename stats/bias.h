@@ -2,15 +2,14 @@
 
 #include <vector>
 
-#include <Eigen/Core>
-
+#include "stats/eigen.h"
 #include "stats/test_result.h"
 
 namespace errmap::stats {
 
 /// Mean of the residuals at one position or in one group.
 struct LevelBias {
-  Eigen::Index n = 0;
+  Index n = 0;
   double mean = 0.0;
   double standard_error = 0.0;  // own sd / sqrt(n); NaN for n < 2
 };
@@ -28,20 +27,20 @@ struct BiasByLevel {
 
 /// Returns the biases of `values` (n) by level. `codes` (n) are >= 0. Throws
 /// std::invalid_argument unless there are n codes, none negative.
-BiasByLevel ComputeBias(const Eigen::Ref<const Eigen::VectorXd>& values,
-                        const std::vector<Eigen::Index>& codes);
+BiasByLevel ComputeBias(const Eigen::Ref<const VectorXd>& values,
+                        const std::vector<Index>& codes);
 
 /// Returns a code 0, 1 ... for each value of `at` (n), numbered by ascending
 /// distinct value. `distinct` (may be null) receives the distinct values.
-std::vector<Eigen::Index> CodesOfValues(
-    const Eigen::Ref<const Eigen::VectorXd>& at, std::vector<double>* distinct);
+std::vector<Index> CodesOfValues(const Eigen::Ref<const VectorXd>& at,
+                                 std::vector<double>* distinct);
 
 /// Tests whether the variance of `residuals` (n) changes with `fitted` (n).
 /// Breusch & Pagan (1979) in Koenker's (1981) studentised form: n R^2 of the
 /// regression of e^2 on the fitted value. p is from chi-squared with 1 degree
 /// of freedom. Assumes independent residuals, not normal ones. Needs n >= 4.
 /// Throws std::invalid_argument if the sizes differ.
-TestResult BreuschPagan(const Eigen::Ref<const Eigen::VectorXd>& residuals,
-                        const Eigen::Ref<const Eigen::VectorXd>& fitted);
+TestResult BreuschPagan(const Eigen::Ref<const VectorXd>& residuals,
+                        const Eigen::Ref<const VectorXd>& fitted);
 
 }  // namespace errmap::stats

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string_view>
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::stats {
 

@@ -13,31 +13,29 @@ namespace errmap::stats {
 namespace {
 
 // `sum` of the squares.
-double RootMeanSquare(const Eigen::Ref<const Eigen::VectorXd>& residuals,
-                      double sum) {
+double RootMeanSquare(const Eigen::Ref<const VectorXd>& residuals, double sum) {
   const auto n = static_cast<double>(residuals.size());
   if (std::isnormal(sum)) return std::sqrt(sum / n);
   const double scale = PowerOfTwoOf(residuals);
   if (!std::isfinite(scale)) return std::sqrt(sum / n);
-  const Eigen::VectorXd scaled = residuals / scale;
+  const VectorXd scaled = residuals / scale;
   return scale * std::sqrt(CompensatedSum(scaled.cwiseAbs2()) / n);
 }
 
 }  // namespace
 
-double RootMeanSquare(const Eigen::Ref<const Eigen::VectorXd>& residuals) {
+double RootMeanSquare(const Eigen::Ref<const VectorXd>& residuals) {
   return RootMeanSquare(residuals, CompensatedSum(residuals.cwiseAbs2()));
 }
 
-double GeometricMean(const Eigen::Ref<const Eigen::VectorXd>& sizes) {
+double GeometricMean(const Eigen::Ref<const VectorXd>& sizes) {
   constexpr double kLeast = std::numeric_limits<double>::min();
   return std::exp(sizes.array().max(kLeast).log().mean());
 }
 
-ErrorMetrics ComputeErrorMetrics(
-    const Eigen::Ref<const Eigen::VectorXd>& targets,
-    const Eigen::Ref<const Eigen::VectorXd>& residuals,
-    const Eigen::Ref<const Eigen::VectorXd>& baseline) {
+ErrorMetrics ComputeErrorMetrics(const Eigen::Ref<const VectorXd>& targets,
+                                 const Eigen::Ref<const VectorXd>& residuals,
+                                 const Eigen::Ref<const VectorXd>& baseline) {
   if (targets.size() != residuals.size() || targets.size() != baseline.size()) {
     throw std::invalid_argument(
         "ComputeErrorMetrics: targets, residuals and baseline must have one "
@@ -53,8 +51,8 @@ ErrorMetrics ComputeErrorMetrics(
                        .min = summary.min,
                        .max = summary.max,
                        .range = summary.range};
-  const Eigen::VectorXd magnitudes = residuals.cwiseAbs();
-  const Eigen::VectorXd spread = (targets - baseline).cwiseAbs2();
+  const VectorXd magnitudes = residuals.cwiseAbs();
+  const VectorXd spread = (targets - baseline).cwiseAbs2();
   const double n = static_cast<double>(residuals.size());
   const double squared_error = CompensatedSum(residuals.cwiseAbs2());
   metrics.rmse = RootMeanSquare(residuals, squared_error);

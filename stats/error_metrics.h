@@ -1,7 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
-
+#include "stats/eigen.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::stats {
@@ -9,7 +8,7 @@ namespace errmap::stats {
 /// Errors of predictions against measured targets, in their unit: of residual =
 /// target - predicted (Eq. 136).
 struct ErrorMetrics {
-  Eigen::Index n = 0;
+  Index n = 0;
   double mean = kNaN;
   double sd = kNaN;    // divisor n - 1
   double rmse = kNaN;  // sqrt(mean of squared residuals), divisor n
@@ -26,17 +25,16 @@ struct ErrorMetrics {
 /// the mean of the rows that each prediction was trained on, so that R2 makes
 /// no use of held-out rows. All in the target's unit; NaN throughout if n = 0.
 /// Throws std::invalid_argument unless the sizes agree.
-ErrorMetrics ComputeErrorMetrics(
-    const Eigen::Ref<const Eigen::VectorXd>& targets,
-    const Eigen::Ref<const Eigen::VectorXd>& residuals,
-    const Eigen::Ref<const Eigen::VectorXd>& baseline);
+ErrorMetrics ComputeErrorMetrics(const Eigen::Ref<const VectorXd>& targets,
+                                 const Eigen::Ref<const VectorXd>& residuals,
+                                 const Eigen::Ref<const VectorXd>& baseline);
 
 /// Returns sqrt(mean of squared `residuals`), divisor n.
-double RootMeanSquare(const Eigen::Ref<const Eigen::VectorXd>& residuals);
+double RootMeanSquare(const Eigen::Ref<const VectorXd>& residuals);
 
 /// Returns the geometric mean of `sizes` (n, at least 0), such as the RMSE of n
 /// sessions. A size of 0 counts as the smallest normal number: two that are 0
 /// throughout are equal.
-double GeometricMean(const Eigen::Ref<const Eigen::VectorXd>& sizes);
+double GeometricMean(const Eigen::Ref<const VectorXd>& sizes);
 
 }  // namespace errmap::stats

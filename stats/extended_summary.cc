@@ -9,7 +9,7 @@
 namespace errmap::stats {
 namespace {
 
-void RequireTwo(const char* function, Eigen::Index n) {
+void RequireTwo(const char* function, Index n) {
   Require(n >= 2, std::string(function) + ": needs at least 2 values", n);
 }
 
@@ -18,7 +18,7 @@ void RequireTwo(const char* function, Eigen::Index n) {
 ExtendedSummary SummarizeExtended(
     const Eigen::Ref<const Eigen::Matrix<DoubleDouble, Eigen::Dynamic, 1>>&
         sample) {
-  const Eigen::Index n = sample.size();
+  const Index n = sample.size();
   RequireTwo("SummarizeExtended", n);
   ExtendedSummary summary;
   DoubleDouble sum;
@@ -26,7 +26,7 @@ ExtendedSummary SummarizeExtended(
   summary.mean = sum / DoubleDouble(static_cast<double>(n));
   DoubleDouble squares;
   DoubleDouble products;
-  for (Eigen::Index i = 0; i < n; ++i) {
+  for (Index i = 0; i < n; ++i) {
     const DoubleDouble deviation = sample[i] - summary.mean;
     squares += deviation * deviation;
     if (i + 1 < n) products += deviation * (sample[i + 1] - summary.mean);
@@ -37,12 +37,12 @@ ExtendedSummary SummarizeExtended(
   return summary;
 }
 
-double LagOneAutocorrelation(const Eigen::Ref<const Eigen::VectorXd>& sample) {
-  const Eigen::Index n = sample.size();
+double LagOneAutocorrelation(const Eigen::Ref<const VectorXd>& sample) {
+  const Index n = sample.size();
   RequireTwo("LagOneAutocorrelation", n);
   // The rounded mean, and then what it leaves: differences of near numbers are
   // exact, so that the deviations are as good as the data.
-  Eigen::VectorXd deviations = sample.array() - Summarize(sample).mean;
+  VectorXd deviations = sample.array() - Summarize(sample).mean;
   deviations.array() -= CompensatedSum(deviations) / static_cast<double>(n);
   return CompensatedSum(
              deviations.head(n - 1).cwiseProduct(deviations.tail(n - 1))) /

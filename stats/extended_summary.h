@@ -1,8 +1,7 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include "stats/double_double.h"
+#include "stats/eigen.h"
 
 namespace errmap::stats {
 
@@ -26,6 +25,6 @@ ExtendedSummary SummarizeExtended(
 
 /// Returns the autocorrelation at lag 1 of double data, with compensated sums.
 /// NaN if all values are equal. Throws std::invalid_argument if n < 2.
-double LagOneAutocorrelation(const Eigen::Ref<const Eigen::VectorXd>& sample);
+double LagOneAutocorrelation(const Eigen::Ref<const VectorXd>& sample);
 
 }  // namespace errmap::stats

@@ -1,7 +1,6 @@
 #include "stats/f_test.h"
 
 #include <cmath>
-#include <string>
 
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>

@@ -14,8 +14,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-
 [[noreturn]] void Refuse(std::string_view text, const std::string& why) {
   throw std::invalid_argument("hold-out '" + std::string(text) + "': " + why);
 }
@@ -55,7 +53,7 @@ double ParseShare(std::string_view spec, std::string_view value) {
 // Cuts `items` into `parts` runs as equal as can be, longer runs first.
 std::vector<std::vector<Index>> CutIntoRuns(const std::vector<Index>& items,
                                             Index parts) {
-  const Index size = static_cast<Index>(items.size());
+  const Index size = std::ssize(items);
   std::vector<std::vector<Index>> runs;
   auto begin = items.begin();
   for (Index part = 0; part < parts; ++part) {
@@ -89,7 +87,7 @@ class Units {
       code = std::lower_bound(present.begin(), present.end(), code) -
              present.begin();
     }
-    count_ = static_cast<Index>(present.size());
+    count_ = std::ssize(present);
   }
 
   Index count() const { return count_; }
@@ -129,7 +127,7 @@ std::vector<Fold> ForwardFolds(const HoldoutSpec& spec, const Units& units) {
   for (std::size_t block = 1; block < blocks.size(); ++block) {
     earlier.insert(
         earlier.end(), blocks[block - 1].begin(), blocks[block - 1].end());
-    const Index kept = static_cast<Index>(earlier.size()) - spec.gap;
+    const Index kept = std::ssize(earlier) - spec.gap;
     if (kept < 1) {
       Refuse(spec.text,
              "fold " + std::to_string(block) + " has " +
@@ -437,8 +435,7 @@ std::vector<Fold> MakeFolds(const HoldoutSpec& spec,
                             Index num_rows,
                             const std::vector<Index>& group_codes,
                             std::uint64_t seed) {
-  if (!group_codes.empty() &&
-      static_cast<Index>(group_codes.size()) != num_rows) {
+  if (!group_codes.empty() && std::ssize(group_codes) != num_rows) {
     throw std::invalid_argument(
         "MakeFolds: " + std::to_string(group_codes.size()) +
         " group codes for " + std::to_string(num_rows) + " rows");

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::stats {
 
@@ -38,13 +38,13 @@ std::string_view HoldoutMeaning(std::string_view name);
 /// A hold-out as specified by the user.
 struct HoldoutSpec {
   HoldoutKind kind = HoldoutKind::kEvery;
-  std::string text;          // as given; the name in every output
-  Eigen::Index k = 0;        // every, groups, sessions, blocks, kfold,
-                             // forward; at least 2 (forward: at least 1)
-  Eigen::Index repeats = 0;  // groups, sessions: 0 = one cut, in order
-  Eigen::Index gap = 0;      // forward: groups left out before the test block
-  double share = 0.0;        // random: 0 < share < 1
-  std::string file;          // file
+  std::string text;    // as given; the name in every output
+  Index k = 0;         // every, groups, sessions, blocks, kfold,
+                       // forward; at least 2 (forward: at least 1)
+  Index repeats = 0;   // groups, sessions: 0 = one cut, in order
+  Index gap = 0;       // forward: groups left out before the test block
+  double share = 0.0;  // random: 0 < share < 1
+  std::string file;    // file
 };
 
 /// Parses "every:3", "groups:5:repeats=20", ... Throws std::invalid_argument
@@ -53,8 +53,8 @@ HoldoutSpec ParseHoldout(std::string_view text);
 
 /// Indices of the training rows and of the test rows, both ascending.
 struct Fold {
-  std::vector<Eigen::Index> train;
-  std::vector<Eigen::Index> test;
+  std::vector<Index> train;
+  std::vector<Index> test;
 };
 
 /// Returns the folds of `spec` over rows 0 .. num_rows-1.
@@ -68,12 +68,12 @@ struct Fold {
 /// message says what is possible instead. Causes: no or too few groups or
 /// sessions, more folds than rows, an empty training or test side.
 std::vector<Fold> MakeFolds(const HoldoutSpec& spec,
-                            Eigen::Index num_rows,
-                            const std::vector<Eigen::Index>& group_codes,
+                            Index num_rows,
+                            const std::vector<Index>& group_codes,
                             std::uint64_t seed);
 
 /// Returns true if no code (one per row) is on both sides of a fold.
 bool KeepsWhole(const std::vector<Fold>& folds,
-                const std::vector<Eigen::Index>& codes);
+                const std::vector<Index>& codes);
 
 }  // namespace errmap::stats

@@ -7,8 +7,6 @@
 
 namespace errmap::stats {
 
-using Eigen::Index;
-
 std::vector<Index> AllIndices(Index count) {
   std::vector<Index> all(static_cast<std::size_t>(count));
   std::iota(all.begin(), all.end(), Index{0});
@@ -32,7 +30,7 @@ std::vector<Index> SpreadSample(Index count, Index most) {
 
 std::vector<Index> SpreadSample(const std::vector<Index>& all, Index most) {
   std::vector<Index> chosen;
-  for (const Index i : SpreadSample(static_cast<Index>(all.size()), most)) {
+  for (const Index i : SpreadSample(std::ssize(all), most)) {
     chosen.push_back(all[static_cast<std::size_t>(i)]);
   }
   return chosen;

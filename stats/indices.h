@@ -2,12 +2,12 @@
 
 #include <vector>
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::stats {
 
 /// Returns the indices 0 .. count-1.
-std::vector<Eigen::Index> AllIndices(Eigen::Index count);
+std::vector<Index> AllIndices(Index count);
 
 /// Returns `most` of the indices 0 .. count-1, ascending, or all if there are
 /// no more. One is drawn from each of `most` equal stretches, the same at every
@@ -15,10 +15,9 @@ std::vector<Eigen::Index> AllIndices(Eigen::Index count);
 /// coincide with patterns in the rows. If machine positions repeat every 20
 /// rows, every 20th row has the same position, and a hold-out of every fifth
 /// row never tests it.
-std::vector<Eigen::Index> SpreadSample(Eigen::Index count, Eigen::Index most);
+std::vector<Index> SpreadSample(Index count, Index most);
 
 /// Returns the elements of `all` at these indices.
-std::vector<Eigen::Index> SpreadSample(const std::vector<Eigen::Index>& all,
-                                       Eigen::Index most);
+std::vector<Index> SpreadSample(const std::vector<Index>& all, Index most);
 
 }  // namespace errmap::stats

@@ -9,12 +9,12 @@
 
 namespace errmap::stats {
 
-double KsDistanceFromNormal(const Eigen::Ref<const Eigen::VectorXd>& sample,
+double KsDistanceFromNormal(const Eigen::Ref<const VectorXd>& sample,
                             double mean,
                             double sd) {
-  const Eigen::Index n = sample.size();
+  const Index n = sample.size();
   if (n == 0 || !(sd > 0.0)) return kNaN;
-  Eigen::VectorXd sorted = (sample.array() - mean) / sd;
+  VectorXd sorted = (sample.array() - mean) / sd;
   // A NaN has no place in an order.
   if (sorted.hasNaN()) return kNaN;
   std::sort(sorted.begin(), sorted.end());
@@ -22,10 +22,10 @@ double KsDistanceFromNormal(const Eigen::Ref<const Eigen::VectorXd>& sample,
 }
 
 double KsDistanceFromStandardNormal(
-    const Eigen::Ref<const Eigen::VectorXd>& ascending) {
-  const Eigen::Index n = ascending.size();
+    const Eigen::Ref<const VectorXd>& ascending) {
+  const Index n = ascending.size();
   double distance = 0.0;
-  for (Eigen::Index i = 0; i < n; ++i) {
+  for (Index i = 0; i < n; ++i) {
     const double cdf = NormalCdf(ascending[i]);
     const double below = static_cast<double>(i) / static_cast<double>(n);
     const double above = static_cast<double>(i + 1) / static_cast<double>(n);
@@ -34,7 +34,7 @@ double KsDistanceFromStandardNormal(
   return distance;
 }
 
-double KsProbabilityMeanSdGiven(double d, Eigen::Index n) {
+double KsProbabilityMeanSdGiven(double d, Index n) {
   return KolmogorovComplement(std::sqrt(static_cast<double>(n)) * d);
 }
 

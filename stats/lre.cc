@@ -21,10 +21,9 @@ double LogRelativeError(double value, double certified, double cap) {
   return std::clamp(digits, 0.0, cap);
 }
 
-double SmallestLogRelativeError(
-    const Eigen::Ref<const Eigen::VectorXd>& values,
-    const Eigen::Ref<const Eigen::VectorXd>& certified,
-    double cap) {
+double SmallestLogRelativeError(const Eigen::Ref<const VectorXd>& values,
+                                const Eigen::Ref<const VectorXd>& certified,
+                                double cap) {
   if (values.size() != certified.size() || values.size() < 1) {
     throw std::invalid_argument(
         "SmallestLogRelativeError: " + std::to_string(values.size()) +
@@ -32,7 +31,7 @@ double SmallestLogRelativeError(
         " certified; the same number, at least 1, is needed");
   }
   double smallest = cap;
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
+  for (Index i = 0; i < values.size(); ++i) {
     smallest =
         std::min(smallest, LogRelativeError(values[i], certified[i], cap));
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::stats {
 
@@ -18,9 +18,8 @@ double LogRelativeError(double value, double certified, double cap);
 
 /// Returns the smallest LogRelativeError over the elements of two vectors.
 /// Throws std::invalid_argument unless both have the same n >= 1.
-double SmallestLogRelativeError(
-    const Eigen::Ref<const Eigen::VectorXd>& values,
-    const Eigen::Ref<const Eigen::VectorXd>& certified,
-    double cap);
+double SmallestLogRelativeError(const Eigen::Ref<const VectorXd>& values,
+                                const Eigen::Ref<const VectorXd>& certified,
+                                double cap);
 
 }  // namespace errmap::stats

@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include <Eigen/Core>
-
+#include "stats/eigen.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::stats {
@@ -11,7 +10,7 @@ namespace errmap::stats {
 /// Returns a power of two: dividing `values` (n) by it is exact and brings the
 /// largest into [1, 2). Else squares of very large or small values are lost.
 /// NaN if all are 0 or one is not finite.
-inline double PowerOfTwoOf(const Eigen::Ref<const Eigen::VectorXd>& values) {
+inline double PowerOfTwoOf(const Eigen::Ref<const VectorXd>& values) {
   const double size = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0;
   return size > 0.0 && std::isfinite(size) ? std::scalbn(1.0, std::ilogb(size))
                                            : kNaN;

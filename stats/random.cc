@@ -13,8 +13,8 @@ double Random::Normal() {
   return NormalQuantile(std::min(Uniform() + kHalfStep, kLast));
 }
 
-Eigen::VectorXd NormalSample(Eigen::Index n, Random* random) {
-  Eigen::VectorXd sample(n);
+VectorXd NormalSample(Index n, Random* random) {
+  VectorXd sample(n);
   for (double& value : sample) value = random->Normal();
   return sample;
 }

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::stats {
 
@@ -47,6 +47,6 @@ class Random {
 };
 
 /// Returns n independent standard normal values.
-Eigen::VectorXd NormalSample(Eigen::Index n, Random* random);
+VectorXd NormalSample(Index n, Random* random);
 
 }  // namespace errmap::stats

@@ -17,9 +17,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 Index NumValues(const Segments& segments) {
   Index n = 0;
   for (const VectorXd& segment : segments) n += segment.size();
@@ -221,7 +218,7 @@ SerialTests NotTested(const std::string& why) {
 
 Segments SegmentsByGroup(const Eigen::Ref<const VectorXd>& values,
                          const std::vector<Index>& group_codes) {
-  if (static_cast<Index>(group_codes.size()) != values.size()) {
+  if (std::ssize(group_codes) != values.size()) {
     throw std::invalid_argument(
         "SegmentsByGroup: " + std::to_string(group_codes.size()) +
         " group codes for " + std::to_string(values.size()) + " values");
@@ -232,8 +229,8 @@ Segments SegmentsByGroup(const Eigen::Ref<const VectorXd>& values,
   }
   Segments segments;
   for (const auto& [code, members] : groups) {
-    segments.emplace_back(Eigen::Map<const VectorXd>(
-        members.data(), static_cast<Index>(members.size())));
+    segments.emplace_back(
+        Eigen::Map<const VectorXd>(members.data(), std::ssize(members)));
   }
   return segments;
 }

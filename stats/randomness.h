@@ -3,20 +3,19 @@
 #include <cstdint>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include "stats/eigen.h"
 #include "stats/test_result.h"
 
 namespace errmap::stats {
 
 /// Values in measured order, cut between neighbours that must not be compared.
 /// One segment is the whole order, or each group has one.
-using Segments = std::vector<Eigen::VectorXd>;
+using Segments = std::vector<VectorXd>;
 
 /// Returns one segment per group code, each in the order of `values` (n).
 /// Throws std::invalid_argument unless there are n codes.
-Segments SegmentsByGroup(const Eigen::Ref<const Eigen::VectorXd>& values,
-                         const std::vector<Eigen::Index>& group_codes);
+Segments SegmentsByGroup(const Eigen::Ref<const VectorXd>& values,
+                         const std::vector<Index>& group_codes);
 
 /// Tests for memory in the order of the values. All p are two-sided. The null
 /// hypothesis is independent values of one distribution within a segment; the
@@ -27,7 +26,7 @@ struct SerialTests {
   /// given the counts. p is exact if one segment has at most 10 values on one
   /// side, else normal. Few runs indicate slow drifts.
   TestResult runs;
-  Eigen::Index num_runs = 0;
+  Index num_runs = 0;
   double expected_runs = 0.0;
   /// Autocorrelation at lag 1, sum d_i d_(i+1) / sum d_i^2 about each segment's
   /// own mean. p is that of its normal score, with the exact mean and variance
@@ -43,7 +42,7 @@ struct SerialTests {
   /// median length of several segments); p from chi-squared. For several
   /// segments: the sum of the squared scores of each lag's autocorrelation.
   TestResult ljung_box;
-  Eigen::Index num_lags = 0;
+  Index num_lags = 0;
 };
 
 /// Runs the serial tests on `segments`. A test that does not apply says why:
@@ -55,7 +54,7 @@ SerialTests TestSerially(const Segments& segments);
 /// % Ljung-Box rejects 6.3 %, 5.9 % and 5.0 % of normal samples for n = 30, 100
 /// and 397.
 struct SerialShuffles {
-  Eigen::Index draws = 0;  // 0: not shuffled
+  Index draws = 0;  // 0: not shuffled
   double runs = 0.0;
   double lag1 = 0.0;
   double durbin_watson = 0.0;
@@ -67,13 +66,13 @@ struct SerialShuffles {
 /// the test. NaN if a test does not apply. Throws std::invalid_argument if
 /// draws < 1.
 SerialShuffles ShuffleSerially(const Segments& segments,
-                               Eigen::Index draws,
+                               Index draws,
                                std::uint64_t seed);
 
 /// Tests whether both halves of the order are from one distribution, by the
 /// two-sample K-S distance (two_sample_ks.h). p is exact up to
 /// kMostPairsForExactKs pairs, else asymptotic; it assumes independent values.
 /// Needs n >= 4.
-TestResult CompareHalves(const Eigen::Ref<const Eigen::VectorXd>& values);
+TestResult CompareHalves(const Eigen::Ref<const VectorXd>& values);
 
 }  // namespace errmap::stats

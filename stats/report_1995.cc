@@ -46,7 +46,7 @@ Scalar KsDistance(VectorOf<Scalar> sample) {
   const auto n = static_cast<Scalar>(sample.size());
   Scalar distance = 0;
   Scalar below = 0;
-  for (Eigen::Index j = 0; j < sample.size(); ++j) {
+  for (Index j = 0; j < sample.size(); ++j) {
     const Scalar above = static_cast<Scalar>(j + 1) / n;
     const Scalar cdf = NormalCdf(sample[j]);
     distance =
@@ -88,7 +88,7 @@ Scalar DivisorOf(const MatrixOf<Scalar>& values) {
 template <typename Scalar>
 Scalar MeanAsPrinted(const MatrixOf<Scalar>& values) {
   Scalar sum = 0;
-  for (Eigen::Index p = 0; p < values.rows(); ++p) {
+  for (Index p = 0; p < values.rows(); ++p) {
     for (const Scalar value : values.row(p)) sum += value;
   }
   return sum / DivisorOf(values);
@@ -97,7 +97,7 @@ Scalar MeanAsPrinted(const MatrixOf<Scalar>& values) {
 template <typename Scalar>
 Scalar SquaresAbout(Scalar centre, const MatrixOf<Scalar>& values) {
   Scalar sum = 0;
-  for (Eigen::Index p = 0; p < values.rows(); ++p) {
+  for (Index p = 0; p < values.rows(); ++p) {
     for (const Scalar value : values.row(p)) {
       sum += (value - centre) * (value - centre);
     }

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::stats {
 
 /// Residual statistics as the report's 1995 program printed them.
 struct Report1995Statistics {
-  Eigen::Index n = 0;
+  Index n = 0;
   double mean = 0.0;  // sum / (2 (n + 1)): about half the true mean
   double sd = 0.0;    // about 1/sqrt(2) of the true one
   double min = 0.0;   // 1e20 if above: start of the search
@@ -41,12 +41,12 @@ double RSquaredOf1995(const MatrixOf<Scalar>& targets,
 
 /// Return both for one output (n >= 1 values) in single precision.
 inline Report1995Statistics ComputeAsPrinted1995(
-    const Eigen::Ref<const Eigen::VectorXd>& residuals) {
+    const Eigen::Ref<const VectorXd>& residuals) {
   return StatisticsOf1995<float>(residuals.cast<float>());
 }
 inline double RSquaredAsPrinted1995(
-    const Eigen::Ref<const Eigen::VectorXd>& targets,
-    const Eigen::Ref<const Eigen::VectorXd>& predicted) {
+    const Eigen::Ref<const VectorXd>& targets,
+    const Eigen::Ref<const VectorXd>& predicted) {
   return RSquaredOf1995<float>(targets.cast<float>(), predicted.cast<float>());
 }
 

@@ -31,13 +31,13 @@ class RunningSum {
 
 }  // namespace
 
-double CompensatedSum(const Eigen::Ref<const Eigen::VectorXd>& values) {
+double CompensatedSum(const Eigen::Ref<const VectorXd>& values) {
   RunningSum sum;
   for (const double value : values) sum.Add(value);
   return sum.value();
 }
 
-SampleSummary Summarize(const Eigen::Ref<const Eigen::VectorXd>& sample) {
+SampleSummary Summarize(const Eigen::Ref<const VectorXd>& sample) {
   SampleSummary summary;
   summary.n = sample.size();
   if (summary.n == 0) {
@@ -78,13 +78,13 @@ SampleSummary Summarize(const Eigen::Ref<const Eigen::VectorXd>& sample) {
   return summary;
 }
 
-double StandardError(double sd, Eigen::Index n) {
+double StandardError(double sd, Index n) {
   return sd / std::sqrt(static_cast<double>(n));
 }
 
-Eigen::VectorXd Standardise(const Eigen::Ref<const Eigen::VectorXd>& sample) {
+VectorXd Standardise(const Eigen::Ref<const VectorXd>& sample) {
   // Brought to size 1: squares of very large or small values would be lost.
-  const Eigen::VectorXd scaled = sample / PowerOfTwoOf(sample);
+  const VectorXd scaled = sample / PowerOfTwoOf(sample);
   const SampleSummary summary = Summarize(scaled);
   if (!(summary.sd > 0.0)) {
     throw std::invalid_argument(
@@ -94,31 +94,31 @@ Eigen::VectorXd Standardise(const Eigen::Ref<const Eigen::VectorXd>& sample) {
   return (scaled.array() - summary.mean) / summary.sd;
 }
 
-double Correlation(const Eigen::Ref<const Eigen::VectorXd>& a,
-                   const Eigen::Ref<const Eigen::VectorXd>& b) {
+double Correlation(const Eigen::Ref<const VectorXd>& a,
+                   const Eigen::Ref<const VectorXd>& b) {
   constexpr double kLeast = 1e-300;
-  const Eigen::VectorXd u = a.array() - a.mean();
-  const Eigen::VectorXd v = b.array() - b.mean();
+  const VectorXd u = a.array() - a.mean();
+  const VectorXd v = b.array() - b.mean();
   return u.dot(v) / std::max(u.norm() * v.norm(), kLeast);
 }
 
-double Quantile(const Eigen::Ref<const Eigen::VectorXd>& ascending,
+double Quantile(const Eigen::Ref<const VectorXd>& ascending,
                 double probability) {
   Require(probability >= 0.0 && probability <= 1.0,
           "Quantile: probability must be within 0 and 1",
           probability);
-  const Eigen::Index n = ascending.size();
+  const Index n = ascending.size();
   if (n == 0) return kNaN;
   const double at = probability * static_cast<double>(n - 1);
-  const auto below = static_cast<Eigen::Index>(at);
-  const Eigen::Index above = std::min(below + 1, n - 1);
+  const auto below = static_cast<Index>(at);
+  const Index above = std::min(below + 1, n - 1);
   const double share = at - static_cast<double>(below);
   return (1.0 - share) * ascending[below] + share * ascending[above];
 }
 
-Histogram MakeHistogram(const Eigen::Ref<const Eigen::VectorXd>& ascending,
-                        Eigen::Index bins) {
-  const Eigen::Index n = ascending.size();
+Histogram MakeHistogram(const Eigen::Ref<const VectorXd>& ascending,
+                        Index bins) {
+  const Index n = ascending.size();
   if (n == 0 || !ascending.allFinite() || bins < 0) {
     throw std::invalid_argument(
         "MakeHistogram: needs finite values and at least 0 bins, found " +
@@ -140,16 +140,15 @@ Histogram MakeHistogram(const Eigen::Ref<const Eigen::VectorXd>& ascending,
     const double iqr = Quantile(ascending, 0.75) - Quantile(ascending, 0.25);
     const double wanted = iqr > 0.0 ? range / (2.0 * iqr / std::cbrt(size))
                                     : std::log2(size) + 1.0;
-    bins = static_cast<Eigen::Index>(
-        std::ceil(std::clamp(wanted, 1.0, kMostBins)));
+    bins = static_cast<Index>(std::ceil(std::clamp(wanted, 1.0, kMostBins)));
   }
   Histogram histogram;
   histogram.low = low;
   histogram.width = range / static_cast<double>(bins);
   histogram.counts.assign(static_cast<std::size_t>(bins), 0);
   for (const double value : ascending) {
-    const auto bin = static_cast<Eigen::Index>((value - low) / range *
-                                               static_cast<double>(bins));
+    const auto bin =
+        static_cast<Index>((value - low) / range * static_cast<double>(bins));
     ++histogram.counts[static_cast<std::size_t>(std::min(bin, bins - 1))];
   }
   return histogram;

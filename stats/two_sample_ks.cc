@@ -12,9 +12,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 // |i/n - j/m| in whole steps of 1/(n m), so that equal distances are equal.
 std::int64_t Steps(Index i, Index j, Index n, Index m) {
   return std::abs(static_cast<std::int64_t>(i) * m -

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::stats {
 
@@ -21,7 +21,7 @@ inline constexpr double kMostPairsForExactKs = 2e7;
 /// probability counts lattice paths (Hodges 1957; with ties Schroeer & Trenkler
 /// 1995) in O(n m). Throws std::invalid_argument if a sample is empty or a
 /// value is not finite.
-TwoSampleKs ComputeTwoSampleKs(const Eigen::Ref<const Eigen::VectorXd>& a,
-                               const Eigen::Ref<const Eigen::VectorXd>& b);
+TwoSampleKs ComputeTwoSampleKs(const Eigen::Ref<const VectorXd>& a,
+                               const Eigen::Ref<const VectorXd>& b);
 
 }  // namespace errmap::stats

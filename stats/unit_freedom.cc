@@ -7,7 +7,7 @@
 
 namespace errmap::stats {
 
-double UnitFreedom(const Eigen::VectorXd& mean_squares, double least) {
+double UnitFreedom(const VectorXd& mean_squares, double least) {
   constexpr double kConfidence = 0.8;
   const auto n = static_cast<double>(mean_squares.size());
   const double mean = mean_squares.mean();

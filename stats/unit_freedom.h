@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::stats {
 
@@ -9,6 +9,6 @@ namespace errmap::stats {
 /// (Satterthwaite 1946; JCGM 100:2008, G.4). That variance is itself estimated,
 /// so f uses its upper bound at 80 % confidence, with at least `least` per
 /// unit. Infinite if all mean squares are equal.
-double UnitFreedom(const Eigen::VectorXd& mean_squares, double least = 1.0);
+double UnitFreedom(const VectorXd& mean_squares, double least = 1.0);
 
 }  // namespace errmap::stats

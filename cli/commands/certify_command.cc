@@ -4,13 +4,11 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/format_option.h"
 #include "cli/json_blocks.h"
 #include "cli/report/number_text.h"
 #include "cli/report/words/commands/certify_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "models/certification/certification.h"
 #include "models/study/record/record_json.h"
 #include "models/version.h"
@@ -58,7 +56,7 @@ int RunCertify(const CertifyArguments& arguments,
         report::CertificationText(certification, floors, arguments.details));
   }
   if (certification.passed()) return kDone;
-  const auto missed = static_cast<long long>(certification.missed.size());
+  const auto missed = std::ssize(certification.missed);
   Say(
       fmt::format("certify: {} missed, the first: {}; this installation is not "
                   "to be trusted",

@@ -2,18 +2,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdint>
-#include <stdexcept>
 #include <system_error>
 #include <thread>
 #include <type_traits>
 
-#include <fmt/format.h>
-
 #include "cli/command.h"
-#include "cli/commands/reading_option.h"
 #include "cli/report/words/commands/fault_text.h"
-#include "cli/shell/command_options.h"
 #include "cli/shell/command_reference.h"
 #include "cli/shell/standard_streams.h"
 #include "data/files/shown_path.h"

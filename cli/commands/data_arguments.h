@@ -124,4 +124,18 @@ void AddSeedOption(CLI::App* command,
                    std::uint64_t* seed,
                    const std::string& what = "Seed of all random choices");
 
+/// Copies a reading from a file (`errmap read --format json`) to `selection`:
+/// columns, sign, units and the pause that separates sessions. Throws
+/// data::InputError if the file is not a reading.
+void TakeReading(const std::string& path, data::DatasetSelection* selection);
+
+/// Adds --format table|json, for commands without more formats.
+void AddFormatOption(CLI::App* command, std::string* format);
+
+/// Adds --format with table, json and the formats of report/table.h. `words`
+/// explain the option in the help.
+void AddTableFormatOption(CLI::App* command,
+                          const std::string& words,
+                          std::string* format);
+
 }  // namespace errmap::cli

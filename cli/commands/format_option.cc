@@ -1,7 +1,6 @@
-#include "cli/commands/format_option.h"
-
 #include <vector>
 
+#include "cli/commands/data_arguments.h"
 #include "cli/report/table.h"
 #include "cli/shell/command_options.h"
 

@@ -1,4 +1,3 @@
-#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
@@ -8,7 +7,6 @@
 #include "cli/report/wrap_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "data/throwing_as.h"
 #include "models/recipe_catalog.h"
 

@@ -1,12 +1,11 @@
 #include "cli/commands/progress.h"
 
 #include <cmath>
-#include <string>
 #include <unistd.h>
 
 #include <fmt/format.h>
 
-#include "cli/desk/plan/rough_time.h"
+#include "cli/desk/plan/study_forecast.h"
 #include "cli/report/wrap_text.h"
 #include "cli/shell/standard_streams.h"
 

@@ -1,10 +1,6 @@
-#include "cli/commands/reading_option.h"
-
-#include <optional>
-#include <vector>
-
 #include <fmt/format.h>
 
+#include "cli/commands/data_arguments.h"
 #include "data/files/atomic_file.h"
 #include "data/files/shown_path.h"
 #include "data/input_error.h"

@@ -7,7 +7,6 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/format_option.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/report/number_text.h"
@@ -16,7 +15,6 @@
 #include "cli/report/wrap_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "data/column_header.h"
 #include "data/csv.h"
 #include "data/files/shown_path.h"
@@ -34,7 +32,6 @@
 namespace errmap::cli {
 namespace {
 
-using Eigen::Index;
 using Rows = std::vector<Index>;
 
 struct ResidualsArguments {
@@ -61,7 +58,7 @@ struct ResidualsArguments {
 // A numeric column and the data rows that it has values in.
 struct Column {
   std::string name;  // "": none
-  Eigen::VectorXd values;
+  VectorXd values;
   Rows rows;
 };
 
@@ -102,8 +99,8 @@ Column FindColumn(const data::CsvTable& table,
 }
 
 // The values of a column in these of its rows.
-Eigen::VectorXd At(const Column& column, const Rows& rows) {
-  Eigen::VectorXd values(static_cast<Index>(rows.size()));
+VectorXd At(const Column& column, const Rows& rows) {
+  VectorXd values(std::ssize(rows));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto at =
         std::lower_bound(column.rows.begin(), column.rows.end(), rows[i]);
@@ -149,7 +146,7 @@ models::ResidualInputs ReadInputs(const ResidualsArguments& arguments) {
   }
   models::ResidualInputs inputs;
   if (!order.name.empty()) {
-    const Eigen::VectorXd keys = At(order, rows);
+    const VectorXd keys = At(order, rows);
     std::vector<std::size_t> by_key(rows.size());
     std::iota(by_key.begin(), by_key.end(), std::size_t{0});
     std::stable_sort(
@@ -197,9 +194,9 @@ Json Report1995Json(const stats::Report1995Statistics& printed,
 }
 
 Json SummaryJson(const stats::ErrorMetrics& metrics,
-                 const Eigen::VectorXd& values,
+                 const VectorXd& values,
                  const stats::ShapeMoments& shape) {
-  Eigen::VectorXd sorted = values;
+  VectorXd sorted = values;
   std::sort(sorted.begin(), sorted.end());
   Json summary = models::ToJson(metrics);
   summary["standard_error"] = stats::StandardError(metrics.sd, metrics.n);
@@ -215,11 +212,11 @@ Json SummaryJson(const stats::ErrorMetrics& metrics,
 // Tukey-lambda curve, the normal probability plot and the histogram (`bins` 0:
 // Freedman-Diaconis) of `values`.
 Json PlotsJson(const models::ResidualReport& report,
-               const Eigen::VectorXd& values,
-               Eigen::Index bins) {
-  Eigen::VectorXd sorted = values;
+               const VectorXd& values,
+               Index bins) {
+  VectorXd sorted = values;
   std::sort(sorted.begin(), sorted.end());
-  const auto array = [](const Eigen::VectorXd& numbers) {
+  const auto array = [](const VectorXd& numbers) {
     return Json(std::vector<double>(numbers.begin(), numbers.end()));
   };
   const stats::Histogram histogram = stats::MakeHistogram(sorted, bins);
@@ -258,7 +255,7 @@ Json ConfigurationJson(const ResidualsArguments& arguments,
 int RunResiduals(const ResidualsArguments& arguments,
                  const std::string& command_line) {
   const models::ResidualInputs inputs = ReadInputs(arguments);
-  const Eigen::VectorXd& values = inputs.values;
+  const VectorXd& values = inputs.values;
   const data::Unit unit = data::UnitOfColumn(arguments.column);
   // A residual is what is left of a target, so R2 has no meaning here.
   stats::ErrorMetrics metrics =

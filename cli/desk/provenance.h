@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/desk/study_config.h"
 #include "models/model_file.h"
 #include "models/study/record/study_record.h"
 
@@ -36,5 +37,12 @@ models::Provenance ModelProvenance(const std::string& command_line,
 
 /// Returns the files that ModelProvenance named, in their order.
 std::vector<InputFile> DataOf(const models::Provenance& provenance);
+
+/// Returns a study's configuration by the keys of a study file, for provenance:
+/// {"seed","goal","indifference","holdouts","models",
+/// "component":[{"name","data","where","target",...}]}. Paths are as results
+/// show them. Defaults that were not decided are left out, so a study file made
+/// from it may be incomplete.
+models::ConfigurationRecord EffectiveConfiguration(const StudyConfig& config);
 
 }  // namespace errmap::desk

@@ -1,5 +1,3 @@
-#include "cli/machine/machine_file.h"
-
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -12,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "cli/desk/toml/toml_keys.h"
+#include "cli/machine/machine_study.h"
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
@@ -168,7 +167,7 @@ class MachineFileReader {
       if (!item.is_number() || !std::isfinite(NumberOf(item))) {
         keys.RefuseType(key, item, kWanted);
       }
-      vector[static_cast<Eigen::Index>(i)] = NumberOf(item);
+      vector[static_cast<Index>(i)] = NumberOf(item);
     }
     return vector;
   }

@@ -28,9 +28,7 @@
 namespace errmap::machine {
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixX3d;
-using Eigen::VectorXd;
 using models::ComponentStudy;
 using models::FittedModel;
 using models::Holdout;
@@ -344,7 +342,7 @@ class MachineJudge {
     std::ranges::sort(lengths);
     constexpr double kShare = 0.95;
     MachineDayRecord day{.session = session,
-                         .points = static_cast<std::int64_t>(rows.size()),
+                         .points = std::ssize(rows),
                          .rms = stats::RootMeanSquare(lengths),
                          .p95 = stats::Quantile(lengths, kShare),
                          .max = lengths[lengths.size() - 1]};

@@ -25,9 +25,6 @@ namespace errmap::machine {
 namespace {
 
 using data::QuotedName;
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using models::ErrorSource;
 using models::FittedModel;
 
@@ -275,7 +272,7 @@ class MachineEvaluator {
   // (points x inputs) in the map's units.
   MatrixXd InputsOf(const FittedModel& map, const std::string& coordinate) {
     MatrixXd inputs(static_cast<Index>(points_.num_rows),
-                    static_cast<Index>(map.inputs.size()));
+                    std::ssize(map.inputs));
     Index column = 0;
     for (const models::TrainedInput& input : map.inputs) {
       inputs.col(column++) = data::IsPosition(input.column)
@@ -317,8 +314,7 @@ class MachineEvaluator {
   // (rows of the log x inputs); positions are not known between measurements,
   // and no filter reads them.
   MatrixXd InputsInLog(const FittedModel& map) {
-    MatrixXd inputs(static_cast<Index>(log_->num_rows),
-                    static_cast<Index>(map.inputs.size()));
+    MatrixXd inputs(static_cast<Index>(log_->num_rows), std::ssize(map.inputs));
     Index column = 0;
     for (const models::TrainedInput& input : map.inputs) {
       if (data::IsPosition(input.column)) {

@@ -3,18 +3,17 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/csv.h"
 #include "models/history/map_log.h"
 #include "models/kinematics/machine.h"
 #include "models/kinematics/volumetric.h"
+#include "stats/eigen.h"
 
 namespace errmap::machine {
 
 /// What a machine's maps say at the points of a table.
 struct MachinePoints {
-  Eigen::MatrixXd coordinates;  // (m x coordinates) the chain's units
+  MatrixXd coordinates;  // (m x coordinates) the chain's units
   std::vector<models::ComponentAtPoints> components;  // as machine.errors
   /// (components)(m) Whether a map extrapolates there: an input outside its
   /// trained range, or a session whose first rows are missing.

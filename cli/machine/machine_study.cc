@@ -19,8 +19,6 @@
 namespace errmap::machine {
 namespace {
 
-using Eigen::Index;
-
 constexpr const char* kPoints = "tool_tip.csv";
 constexpr const char* kDiagonals = "diagonals.csv";
 

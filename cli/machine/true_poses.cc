@@ -16,7 +16,6 @@
 namespace errmap::machine {
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixX3d;
 
 // "p0n": at least two axes move.
@@ -84,7 +83,7 @@ TruePoses MakeTruePoses(data::CsvTable table,
 }
 
 MatrixX3d PlacesOf(const models::KinematicChain& chain,
-                   const Eigen::MatrixXd& coordinates) {
+                   const MatrixXd& coordinates) {
   MatrixX3d places(coordinates.rows(), 3);
   for (Index row = 0; row < coordinates.rows(); ++row) {
     places.row(row) = chain.NominalReach(coordinates.row(row));

@@ -4,26 +4,24 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
 #include "models/kinematics/iso230.h"
 #include "models/kinematics/machine.h"
+#include "stats/eigen.h"
 
 namespace errmap::machine {
 
 /// Poses of a machine with their true errors at the tool, session by session.
 struct TruePoses {
   data::CsvTable table;
-  Eigen::MatrixX3d errors;      // (m x 3) machine's unit; error_x_mm ...
-  data::Grouping sessions;      // of the rows
-  Eigen::MatrixXd coordinates;  // (m x coordinates of the chain)
-  Eigen::MatrixX3d places;      // (m x 3) KinematicChain::NominalReach
+  Eigen::MatrixX3d errors;  // (m x 3) machine's unit; error_x_mm ...
+  data::Grouping sessions;  // of the rows
+  MatrixXd coordinates;     // (m x coordinates of the chain)
+  Eigen::MatrixX3d places;  // (m x 3) KinematicChain::NominalReach
 
   /// Rows of these sessions, in their order.
-  std::vector<Eigen::Index> RowsOf(
-      const std::vector<std::string>& labels) const;
+  std::vector<Index> RowsOf(const std::vector<std::string>& labels) const;
 };
 
 /// The columns error_x_mm, error_y_mm and error_z_mm, or in another unit of
@@ -61,15 +59,14 @@ struct DiagonalFigures {
 /// rows of `rows` alone; `places` and `errors` (m x 3) are those of all. A
 /// diagonal without rows is left out. Throws data::InputError where all rows of
 /// one are at one place.
-std::vector<DiagonalFigures> DiagonalFiguresOf(
-    const data::CsvTable& table,
-    const DiagonalRuns& runs,
-    const std::vector<Eigen::Index>& rows,
-    const Eigen::MatrixX3d& places,
-    const Eigen::MatrixX3d& errors);
+std::vector<DiagonalFigures> DiagonalFiguresOf(const data::CsvTable& table,
+                                               const DiagonalRuns& runs,
+                                               const std::vector<Index>& rows,
+                                               const Eigen::MatrixX3d& places,
+                                               const Eigen::MatrixX3d& errors);
 
 /// KinematicChain::NominalReach of every row of coordinates (m x 3).
 Eigen::MatrixX3d PlacesOf(const models::KinematicChain& chain,
-                          const Eigen::MatrixXd& coordinates);
+                          const MatrixXd& coordinates);
 
 }  // namespace errmap::machine

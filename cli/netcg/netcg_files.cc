@@ -17,7 +17,6 @@
 namespace errmap::netcg {
 namespace {
 
-using Eigen::Index;
 namespace fs = std::filesystem;
 
 constexpr std::size_t kTitleLimit = 80;

@@ -1,15 +1,70 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/netcg/netcg_run.h"
-#include "cli/netcg/run_report.h"
-#include "cli/netcg/weights_file.h"
 #include "data/formats/pattern_file.h"
+#include "models/scaling.h"
+#include "stats/eigen.h"
 
 namespace errmap::netcg {
+
+/// Weights of a net as subroutines SETWTS and PUTWTS of NISTIR 5367, Appendix
+/// A, read and write them.
+struct NetcgWeights {
+  Index inputs = 0;
+  Index hidden = 0;
+  Index outputs = 0;
+  VectorXd w;  // (N) in NetcgObjective's order
+  /// How the training run scaled its targets; the program's own files do not
+  /// say.
+  std::optional<models::TargetScaling> scaling;
+};
+
+enum class WeightDigits {
+  kReport,  // 5E14.6: six digits
+  kFull,    // all digits, and the scaling on a last line that SETWTS ignores
+};
+
+/// Throws InputError naming `name`, line, what was expected and found.
+NetcgWeights ParseWeights(std::string_view text, const std::string& name);
+
+/// Nodes, then the weights into each node from a new line on.
+std::string WeightsText(const NetcgWeights& weights, WeightDigits digits);
+
+/// The graphics file of the weights into the hidden nodes: a row per input, a
+/// column per hidden node.
+std::string FirstLayerGraph(const NetcgWeights& weights);
+/// That of the weights into the first output.
+std::string SecondLayerGraph(const NetcgWeights& weights);
+
+/// Which figures a report shows.
+enum class NetcgStatistics {
+  kAsPrinted,  // as the program printed them; a line points to the errata
+  kCorrected,  // right ones, in the same places; lines say what they are
+};
+
+/// The run report in the layout of NISTIR 5367, Appendix B.
+std::string RunReport(const NetcgSpecification& specification,
+                      const NetcgResult& result,
+                      NetcgStatistics statistics);
+
+/// "achieved error goal", "iteration limit", ...: how the report ends.
+std::string EndingOf(int ierr);
+
+/// The graphics file of the error curve; of reals in that precision.
+std::string ErrorCurveGraph(const NetcgResult& result,
+                            NetcgPrecision precision);
+
+/// The graphics file of the residuals of the first output.
+std::string ResidualGraph(const NetcgFigures& figures);
+
+/// What the 1995 program and its report have wrong, a line each.
+std::string NetcgErrata();
 
 struct NetcgOptions {
   NetcgPrecision precision = NetcgPrecision::kSingle;  // the program's

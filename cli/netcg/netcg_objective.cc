@@ -5,8 +5,6 @@
 
 namespace errmap::netcg {
 
-using Eigen::Index;
-
 namespace {
 
 template <typename Scalar>

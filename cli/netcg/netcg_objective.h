@@ -1,8 +1,7 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include "fitting/minimisers/objective.h"
+#include "stats/eigen.h"
 
 namespace errmap::netcg {
 
@@ -24,10 +23,10 @@ class NetcgObjective final : public fitting::BasicObjective<Scalar> {
   /// hidden nodes.
   NetcgObjective(const Matrix& inputs,
                  const Matrix& targets,
-                 Eigen::Index hidden,
+                 Index hidden,
                  double wfactor);
 
-  Eigen::Index num_parameters() const override {
+  Index num_parameters() const override {
     return hidden_ * patterns_.rows() + targets_.rows() * (hidden_ + 1);
   }
   Scalar Evaluate(const Vector& w, Vector* gradient) const override;
@@ -45,11 +44,11 @@ class NetcgObjective final : public fitting::BasicObjective<Scalar> {
         w.data() + hidden_ * patterns_.rows(), targets_.rows(), hidden_ + 1};
   }
   // Hidden outputs and outputs of pattern p, in vhid_ and vout_.
-  void Forward(Eigen::Index p, const Layer& w1, const Layer& w2) const;
+  void Forward(Index p, const Layer& w1, const Layer& w2) const;
   // Its deltas, and what they add to the negative gradients.
-  void Backward(Eigen::Index p, const Layer& w2) const;
+  void Backward(Index p, const Layer& w2) const;
 
-  Eigen::Index hidden_;
+  Index hidden_;
   Scalar wfactor_;
   Matrix patterns_;  // ((I+1) x P), last row 1
   Matrix targets_;   // (J x P)

@@ -1,15 +1,15 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "cli/netcg/run_file.h"
 #include "fitting/minimisers/optimizer.h"
 #include "models/scaling.h"
+#include "stats/eigen.h"
 
 namespace errmap::netcg {
 
@@ -19,20 +19,20 @@ std::string_view ToString(NetcgPrecision precision);
 
 /// What a run works on: the chosen columns of its patterns.
 struct NetcgData {
-  Eigen::MatrixXd inputs;   // (P x I)
-  Eigen::MatrixXd targets;  // (P x J) as in the file
-  double scale = 1.0;       // the file's scale factor
+  MatrixXd inputs;     // (P x I)
+  MatrixXd targets;    // (P x J) as in the file
+  double scale = 1.0;  // the file's scale factor
   /// Of a testing run: how the training run scaled its targets, if known.
   std::optional<models::TargetScaling> training_scaling;
   /// (N) read from a file; (0) where the seed draws them.
-  Eigen::VectorXd initial_weights;
+  VectorXd initial_weights;
 };
 
 /// Errors after a run: error = desired - predicted.
 struct NetcgFigures {
-  Eigen::MatrixXd desired;    // (P x J)
-  Eigen::MatrixXd predicted;  // (P x J)
-  Eigen::MatrixXd errors;     // (P x J)
+  MatrixXd desired;    // (P x J)
+  MatrixXd predicted;  // (P x J)
+  MatrixXd errors;     // (P x J)
   double mean = 0.0;
   double sd = 0.0;
   double min = 0.0;
@@ -49,7 +49,7 @@ enum class NetcgScaling {
 };
 
 struct NetcgResult {
-  Eigen::VectorXd weights;        // (N)
+  VectorXd weights;               // (N)
   models::TargetScaling scaling;  // of the run's own targets
   /// As the program works them out, errata included (stats/report_1995.h); in
   /// a testing run desired and predicted are scaled by the test file's range.
@@ -80,5 +80,28 @@ struct NetcgResult {
 NetcgResult RunNetcg(const NetcgSpecification& specification,
                      const NetcgData& data,
                      NetcgPrecision precision);
+
+/// The report's random generator (function UNI of Appendix A, of J. Blue, D.
+/// Kahaner and G. Marsaglia): uniform on [0, 1) in single precision, from
+/// integers of 32 bits.
+class Uni {
+ public:
+  /// z = uni(seed), which is itself a draw: the first of Next().
+  explicit Uni(std::int64_t seed);
+  float Next();
+
+ private:
+  std::array<std::int64_t, 17> m_ = {};
+  std::size_t i_ = 4;
+  std::size_t j_ = 16;
+};
+
+/// Initial weights (N) of a net in NetcgObjective's order, as subroutine SETWTS
+/// draws them: after one draw that is not used, within +-0.5, row by row (to
+/// outer, from inner).
+Eigen::VectorXf RandomWeights(Index inputs,
+                              Index hidden,
+                              Index outputs,
+                              std::int64_t seed);
 
 }  // namespace errmap::netcg

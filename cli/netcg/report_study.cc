@@ -18,8 +18,6 @@
 namespace errmap::netcg {
 namespace {
 
-using Eigen::Index;
-
 constexpr int kThermocouples = 40;
 constexpr std::int64_t kSeed = 12345;  // Appendix B
 
@@ -82,7 +80,7 @@ std::string ColumnStarting(const data::CsvTable& table,
                          "...', as errmap simulate turning-centre writes it");
 }
 
-Eigen::VectorXd Numbers(const data::CsvTable& table, const std::string& name) {
+VectorXd Numbers(const data::CsvTable& table, const std::string& name) {
   std::vector<Index> rows;
   return data::NumericColumn(table, name, data::MissingPolicy::kError, &rows);
 }
@@ -91,9 +89,9 @@ Eigen::VectorXd Numbers(const data::CsvTable& table, const std::string& name) {
 std::vector<Index> FirstDay(const data::CsvTable& table) {
   std::vector<Index> rows;
   const bool has_days = table.Find("day") >= 0;
-  const Eigen::VectorXd days =
+  const VectorXd days =
       has_days ? Numbers(table, "day")
-               : Eigen::VectorXd::Ones(static_cast<Index>(table.num_rows));
+               : VectorXd::Ones(static_cast<Index>(table.num_rows));
   for (Index i = 0; i < days.size(); ++i) {
     if (days[i] == 1.0) rows.push_back(i);
   }
@@ -108,7 +106,7 @@ Direction ReadDirection(const std::string& folder, bool down) {
           .string();
   const data::CsvTable table = data::ReadCsv(direction.file);
   const std::vector<Index> day = FirstDay(table);
-  direction.rows = static_cast<Index>(day.size());
+  direction.rows = std::ssize(day);
   std::vector<Index> rows;
   constexpr Index kStops = 17;
   for (Index i = 0; i < direction.rows; ++i) {
@@ -124,13 +122,12 @@ Direction ReadDirection(const std::string& folder, bool down) {
   data::PatternTable& training = direction.training;
   training.inputs = {"position_mm"};
   training.targets = {"error_mm"};
-  training.input_values.resize(static_cast<Index>(rows.size()),
-                               kThermocouples + 1);
+  training.input_values.resize(std::ssize(rows), kThermocouples + 1);
   training.input_values.col(0) =
       Numbers(table, ColumnStarting(table, "position"))(rows);
   for (int i = 0; i < kThermocouples; ++i) {
     training.inputs.push_back(fmt::format("t{:02}_degC", i));
-    const Eigen::VectorXd readings =
+    const VectorXd readings =
         Numbers(table, ColumnStarting(table, fmt::format("t{:02}", i)))(rows);
     training.input_values.col(i + 1) = readings;
     if (readings.maxCoeff() == readings.minCoeff()) direction.dead.push_back(i);
@@ -168,7 +165,7 @@ NetcgSpecification SpecificationOf(const NetcgStudyRun& run,
                          prefix + "graph_w2.out",
                          prefix + "graph_res.out"};
   specification.patterns = direction.training.input_values.rows();
-  specification.inputs = static_cast<Index>(run.thermocouples.size()) + 1;
+  specification.inputs = std::ssize(run.thermocouples) + 1;
   specification.hidden = run.report.hidden;
   specification.outputs = 1;
   specification.wfactor = kWfactor;

@@ -12,12 +12,12 @@ namespace errmap::netcg {
 struct ReportRun {
   int number = 0;
   bool down = true;  // the direction of motion, else up
-  Eigen::Index hidden = 0;
+  Index hidden = 0;
   std::string_view selection;  // of thermocouples
-  Eigen::Index patterns = 0;
+  Index patterns = 0;
   int thermocouples = 0;  // as printed
   int input_nodes = 0;    // as printed
-  Eigen::Index weights = 0;
+  Index weights = 0;
   double mean = 0.0;
   double sd = 0.0;
   double min = 0.0;

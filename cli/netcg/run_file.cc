@@ -8,8 +8,6 @@ namespace errmap::netcg {
 namespace {
 
 using data::RecordReader;
-using Eigen::Index;
-
 // The program read its flags by two statements, 20 and 21 of them.
 constexpr std::size_t kFirstFlags = 20;
 constexpr std::size_t kSecondFlags = 21;

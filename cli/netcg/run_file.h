@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::netcg {
 
@@ -32,10 +32,10 @@ std::string_view NameOf(NetcgFile file);
 struct NetcgSpecification {
   std::string title;
   std::array<std::string, kNumNetcgFiles> files;  // as written
-  Eigen::Index patterns = 0;                      // npats
-  Eigen::Index inputs = 0;                        // ninp
-  Eigen::Index hidden = 0;                        // nhid
-  Eigen::Index outputs = 0;                       // nout
+  Index patterns = 0;                             // npats
+  Index inputs = 0;                               // ninp
+  Index hidden = 0;                               // nhid
+  Index outputs = 0;                              // nout
   double wfactor = 0.0;                           // at least 0
   std::int64_t seed = 0;  // nseed: above 0 draws the weights, else reads them
   std::int64_t iterations = 0;  // niter: 0 or less is a testing run
@@ -60,9 +60,9 @@ struct NetcgSpecification {
   }
   bool is_training() const { return iterations > 0; }
   bool draws_weights() const { return seed > 0; }
-  Eigen::Index num_weights1() const { return hidden * (inputs + 1); }
-  Eigen::Index num_weights2() const { return outputs * (hidden + 1); }
-  Eigen::Index num_weights() const { return num_weights1() + num_weights2(); }
+  Index num_weights1() const { return hidden * (inputs + 1); }
+  Index num_weights2() const { return outputs * (hidden + 1); }
+  Index num_weights() const { return num_weights1() + num_weights2(); }
 };
 
 /// The runs of a run file; the program closed its file inside the loop over

@@ -1,7 +1,6 @@
-#include "cli/netcg/run_report.h"
-
 #include <array>
 
+#include "cli/netcg/netcg_files.h"
 #include "data/argument_name.h"
 #include "data/formats/fortran_format.h"
 
@@ -12,8 +11,6 @@ using data::Edit1PE;
 using data::EditF;
 using data::EditG;
 using data::EditI;
-using Eigen::Index;
-
 std::string Blanks(int n) {
   return std::string(static_cast<std::size_t>(n), ' ');
 }

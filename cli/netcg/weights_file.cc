@@ -1,5 +1,4 @@
-#include "cli/netcg/weights_file.h"
-
+#include "cli/netcg/netcg_files.h"
 #include "data/csv.h"
 #include "data/formats/fortran_format.h"
 #include "data/formats/record_reader.h"
@@ -10,8 +9,6 @@ namespace {
 
 using data::EditE;
 using data::EditI;
-using Eigen::Index;
-
 constexpr const char* kScalingWord = "scaling";
 
 // The offset of a layer in w, its nodes and what leads to each of them.
@@ -53,8 +50,7 @@ NetcgWeights ParseWeights(std::string_view text, const std::string& name) {
                        .scaling = {}};
   // A number and a blank at least: no memory for what cannot be there.
   constexpr Index kLeastCharacters = 2;
-  if (NumWeights(weights) * kLeastCharacters >
-      static_cast<Index>(text.size())) {
+  if (NumWeights(weights) * kLeastCharacters > std::ssize(text)) {
     reader.Refuse("a net of " + std::to_string(nodes[0]) + "-" +
                   std::to_string(nodes[1]) + "-" + std::to_string(nodes[2]) +
                   " nodes has " + std::to_string(NumWeights(weights)) +

@@ -3,10 +3,10 @@
 #include <exception>
 #include <filesystem>
 #include <system_error>
-#include <vector>
 
 #include <fmt/format.h>
 
+#include "cli/desk/plan/run_files.h"
 #include "cli/report/documents/report_html.h"
 #include "cli/report/figures/learning_figures.h"
 #include "cli/report/report.h"
@@ -54,6 +54,29 @@ void WriteReport(const models::StudyRecord& record, ClaimedFolder* folder) {
       kReportPage,
       report::ReportHtml(record, FiguresInFolder(record, folder->PathOf("."))));
   folder->Write(kReportText, report::ReportMarkdown(record));
+}
+
+void RemoveAbandoned(const std::string& folder) {
+  data::RemoveAbandonedFiles(folder);
+  data::RemoveAbandonedFiles(
+      (std::filesystem::path(folder) / "models").string());
+}
+
+std::vector<std::string> OutputNames(const desk::StudyPlan& plan) {
+  std::vector<std::string> names = desk::RunFileNames(plan);
+  names.insert(names.begin() + 1, {kReportPage, kReportText});
+  return names;
+}
+
+void WriteOutputs(const desk::StudyRun& run,
+                  const models::StudyRecord& record,
+                  ClaimedFolder* folder) {
+  desk::WriteRunFiles(
+      run, record, [&](const std::string& name, std::string_view content) {
+        folder->Write(name, content);
+      });
+  WriteReport(record, folder);
+  folder->Finish();
 }
 
 }  // namespace errmap::cli

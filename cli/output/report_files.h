@@ -2,7 +2,10 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "cli/desk/plan/study_plan.h"
+#include "cli/desk/plan/study_run.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/figures/figures.h"
 #include "models/study/record/study_record.h"
@@ -27,5 +30,17 @@ report::FigureSet FiguresInFolder(const models::StudyRecord& record,
 /// from results.json. Each file appears completely or not at all. Throws
 /// std::system_error naming what could not be written.
 void WriteReport(const models::StudyRecord& record, ClaimedFolder* folder);
+
+/// Removes what a killed run left half-written in a folder and its models/.
+void RemoveAbandoned(const std::string& folder);
+
+/// Returns the names of all files that WriteOutputs may write for a study.
+std::vector<std::string> OutputNames(const desk::StudyPlan& plan);
+
+/// Writes the files of a run (desk::WriteRunFiles) and the report. Throws
+/// std::system_error naming a path that cannot be written.
+void WriteOutputs(const desk::StudyRun& run,
+                  const models::StudyRecord& record,
+                  ClaimedFolder* folder);
 
 }  // namespace errmap::cli

@@ -12,10 +12,6 @@
 namespace errmap::python {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // Calls Python with its lock; its errors become ours.
 template <typename Call>
 auto InPython(const Call& call) {

@@ -1,21 +1,17 @@
 #include "cli/python/studies.h"
 
 #include <mutex>
-#include <optional>
 #include <utility>
 
-#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/studies/compare_arguments.h"
-#include "cli/commands/studies/compare_plan.h"
-#include "cli/desk/plan/rough_time.h"
 #include "cli/desk/plan/run_files.h"
 #include "cli/desk/plan/study_forecast.h"
 #include "cli/desk/plan/study_run.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/output/output_folder.h"
+#include "cli/output/report_files.h"
 #include "cli/python/foreign.h"
 #include "cli/python/hosting.h"
 #include "cli/python/tables.h"
@@ -182,8 +178,8 @@ py::list Forecast(const Words& words,
 
 // (train, test) of each fold.
 py::list Folds(const std::string& holdout,
-               Eigen::Index rows,
-               const std::vector<Eigen::Index>& codes,
+               Index rows,
+               const std::vector<Index>& codes,
                std::uint64_t seed) {
   py::list folds;
   for (const stats::Fold& fold :

@@ -60,13 +60,13 @@ std::shared_ptr<py::object> Kept(py::object object) {
           }};
 }
 
-Eigen::VectorXd ToVector(const py::object& object) {
+VectorXd ToVector(const py::object& object) {
   const py::buffer_info info =
       py::reinterpret_borrow<py::buffer>(object).request();
   if (!IsDoubles(info)) {
     throw py::value_error("expected an array of float64 in one dimension");
   }
-  return Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<>>(
+  return Eigen::Map<const VectorXd, 0, Eigen::InnerStride<>>(
       static_cast<const double*>(info.ptr),
       info.shape[0],
       Eigen::InnerStride<>(info.strides[0] / kSize));
@@ -166,8 +166,8 @@ py::dict Table::Columns() const {
       continue;
     }
     Numbers numbers;
-    numbers.values.resize(static_cast<Eigen::Index>(column.values.size()), 1);
-    Eigen::Index row = 0;
+    numbers.values.resize(std::ssize(column.values), 1);
+    Index row = 0;
     for (const double value : column.values) numbers.values(row++) = value;
     columns[py::str(column.name)] = py::cast(std::move(numbers));
   }

@@ -3,10 +3,10 @@
 #include <memory>
 #include <string>
 
-#include <Eigen/Core>
 #include <pybind11/pybind11.h>
 
 #include "data/csv.h"
+#include "stats/eigen.h"
 
 namespace errmap::python {
 
@@ -17,13 +17,13 @@ std::shared_ptr<py::object> Kept(py::object object);
 
 /// Numbers that Python reads where they lie, by the buffer protocol.
 struct Numbers {
-  Eigen::MatrixXd values;
+  MatrixXd values;
   bool is_column = true;
 };
 
 /// The numbers of an object that shows its memory (float64, one dimension).
 /// Throws py::value_error where it does not.
-Eigen::VectorXd ToVector(const py::object& object);
+VectorXd ToVector(const py::object& object);
 
 /// A table that is filled column by column.
 class Table {

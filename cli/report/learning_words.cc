@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/report/number_text.h"
 #include "data/text.h"
 #include "models/learning/sensor_curve.h"
 
@@ -96,7 +95,7 @@ std::string SensorWords(const models::SensorCurve& curve,
                                         chosen.sensor,
                                         data::JoinWords(substitutes, ", ")));
   }
-  const auto number = static_cast<std::int64_t>(curve.chosen.size());
+  const auto number = std::ssize(curve.chosen);
   const auto point = std::ranges::find(
       curve.points, number, &models::SensorCurve::Point::sensors);
   return fmt::format(

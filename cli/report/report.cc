@@ -2,7 +2,7 @@
 
 #include "cli/report/documents/report_html.h"
 #include "cli/report/documents/study_table.h"
-#include "cli/report/tables/result_table.h"
+#include "cli/report/tables/report_tables.h"
 #include "cli/report/words/answers/first_answer.h"
 #include "cli/report/words/answers/verdict_text.h"
 #include "data/text.h"

@@ -1,7 +1,6 @@
 #include "cli/report/table.h"
 
 #include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
 

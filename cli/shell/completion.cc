@@ -6,7 +6,7 @@
 #include <set>
 #include <system_error>
 
-#include "cli/shell/topics.h"
+#include "cli/shell/help_text.h"
 #include "data/csv.h"
 #include "models/recipe_catalog.h"
 #include "stats/holdout.h"

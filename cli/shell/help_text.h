@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "cli/shell/command_reference.h"
 
@@ -26,5 +28,29 @@ std::string FirstSteps();
 
 /// Returns "FILE.csv --model SPEC [options]": what `command` requires.
 std::string UsageOf(const CommandReference& command);
+
+/// A page of cli/manual, built into the program.
+struct Topic {
+  std::string name;       // "tutorial"
+  std::string_view page;  // Markdown
+};
+
+/// Returns the topics in the order of cli/manual/pages.cmake; written by CMake.
+const std::vector<Topic>& Topics();
+
+std::vector<std::string> TopicNames();
+
+/// Returns its first heading.
+std::string TitleOf(const Topic& topic);
+
+/// Formats the page for a terminal: headings, paragraphs and lists in lines of
+/// `width`, code blocks and tables unchanged, links and pictures as their
+/// words.
+std::string TopicText(const Topic& topic, std::size_t width);
+
+/// Returns the manual's page Reference in Markdown, from the program itself:
+/// every command with its options, models with theirs, hold-outs, exit statuses
+/// and column names.
+std::string ReferencePage(const ProgramReference& program);
 
 }  // namespace errmap::cli

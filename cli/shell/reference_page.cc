@@ -1,7 +1,4 @@
-#include "cli/shell/reference_page.h"
-
 #include <algorithm>
-#include <string>
 #include <utility>
 #include <vector>
 

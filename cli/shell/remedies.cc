@@ -1,9 +1,8 @@
-#include "cli/shell/remedies.h"
-
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <vector>
+
+#include "cli/shell/standard_streams.h"
 
 namespace errmap::cli {
 namespace {

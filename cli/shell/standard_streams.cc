@@ -10,10 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/shell/host.h"
-#include "cli/shell/remedies.h"
-#include "cli/shell/terminal.h"
-
 namespace errmap::cli {
 namespace {
 

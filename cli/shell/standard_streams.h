@@ -1,9 +1,13 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "cli/report/screen.h"
 
 namespace errmap::cli {
 
@@ -38,5 +42,54 @@ void AdviseOnly(std::set<std::string, std::less<>> options);
 
 /// Draws on a terminal, unfiltered; only for text of our own.
 void DrawOnTerminal(std::string_view text);
+
+/// Returns the message without clauses that advise an option unknown to
+/// `has`: the library does not know which command reads its messages. For
+/// a command without --missing, "empty cell; fill it in, or drop such
+/// rows with --missing drop-rows" becomes "empty cell; fill it in". Text
+/// about another command ("errmap fit ... --model X") and quoted text
+/// stay.
+std::string WithOwnRemedies(
+    std::string_view message,
+    const std::function<bool(std::string_view option)>& has);
+
+/// Replaces the streams and signals of the process if another program runs
+/// commands in itself (RunHosted).
+struct Host {
+  const std::atomic<bool>* stop = nullptr;  // set: a command ends early
+  std::string printed = {};                 // to standard output
+  std::vector<std::string> messages = {};   // without "errmap: "
+};
+
+/// Returns null if the process is errmap's own.
+Host* CurrentHost();
+
+/// Makes `host` the current one for its lifetime; only one at a time.
+class HostedRun {
+ public:
+  explicit HostedRun(Host* host);
+  ~HostedRun();
+  HostedRun(const HostedRun&) = delete;
+  HostedRun& operator=(const HostedRun&) = delete;
+};
+
+/// Turns Ctrl-C (SIGINT), SIGTERM and SIGHUP (a closed terminal) into a flag
+/// that fits check. A second signal ends the program at once. A signal that was
+/// ignored at the program's start stays ignored.
+const std::atomic<bool>& InstallInterruptFlag();
+
+/// Returns what standard output can show; 80 columns if it is not a terminal.
+/// The environment's COLUMNS, LINES and NO_COLOR take precedence.
+report::Terminal OutputTerminal();
+
+/// PrintResult with bold strong lines if standard output has colours.
+void PrintScreen(const report::Screen& screen);
+
+/// Returns a message with a line feed. If standard error is a terminal, breaks
+/// it at blanks to fit.
+std::string MessageLines(std::string_view line);
+
+/// PrintResult of running text, in lines no wider than OutputTerminal().
+void PrintFitted(std::string_view text);
 
 }  // namespace errmap::cli

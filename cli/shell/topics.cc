@@ -1,9 +1,8 @@
-#include "cli/shell/topics.h"
-
 #include <algorithm>
 #include <sstream>
 
 #include "cli/report/wrap_text.h"
+#include "cli/shell/help_text.h"
 
 namespace errmap::cli {
 namespace {

@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "cli/turning_centre/day_programme.h"
 #include "cli/turning_centre/machine.h"
 #include "cli/turning_centre/thermal_network.h"
 

@@ -5,10 +5,6 @@
 
 namespace errmap::fitting {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 CrossProducts& CrossProducts::operator+=(const CrossProducts& other) {
   weight += other.weight;
   columns += other.columns;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::fitting {
 
@@ -9,24 +9,24 @@ namespace errmap::fitting {
 /// pass over the rows serves all folds. Columns should be near mean 0 and sd 1:
 /// digits that cancel in a variance are lost here.
 struct CrossProducts {
-  double weight = 0.0;            // sum of w
-  Eigen::VectorXd columns;        // (k) sum of w x
-  Eigen::MatrixXd products;       // (k x k) sum of w x x', lower triangle
-  double response = 0.0;          // sum of w y
-  double response_square = 0.0;   // sum of w y y
-  Eigen::VectorXd with_response;  // (k) sum of w x y
+  double weight = 0.0;           // sum of w
+  VectorXd columns;              // (k) sum of w x
+  MatrixXd products;             // (k x k) sum of w x x', lower triangle
+  double response = 0.0;         // sum of w y
+  double response_square = 0.0;  // sum of w y y
+  VectorXd with_response;        // (k) sum of w x y
 
   CrossProducts& operator+=(const CrossProducts& other);
   CrossProducts& operator-=(const CrossProducts& other);
 };
 
 /// Sums over no rows.
-CrossProducts NoRows(Eigen::Index num_columns);
+CrossProducts NoRows(Index num_columns);
 
 /// Sums over the rows of `columns` (n x k) and `response` (n). `weights` (n)
 /// must not be negative; (0): all 1.
-CrossProducts SumProducts(const Eigen::MatrixXd& columns,
-                          const Eigen::VectorXd& response,
-                          const Eigen::VectorXd& weights);
+CrossProducts SumProducts(const MatrixXd& columns,
+                          const VectorXd& response,
+                          const VectorXd& weights);
 
 }  // namespace errmap::fitting

@@ -18,19 +18,17 @@ template void LDLT<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) const;
 
 namespace errmap::fitting {
 
-Eigen::VectorXd TimesQTransposed(
-    const Eigen::HouseholderQR<Eigen::MatrixXd>& qr,
-    const Eigen::VectorXd& vector) {
+VectorXd TimesQTransposed(const Eigen::HouseholderQR<MatrixXd>& qr,
+                          const VectorXd& vector) {
   return qr.householderQ().transpose() * vector;
 }
 
-Eigen::MatrixXd ThinQ(const Eigen::HouseholderQR<Eigen::MatrixXd>& qr) {
-  return qr.householderQ() * Eigen::MatrixXd::Identity(qr.rows(), qr.cols());
+MatrixXd ThinQ(const Eigen::HouseholderQR<MatrixXd>& qr) {
+  return qr.householderQ() * MatrixXd::Identity(qr.rows(), qr.cols());
 }
 
-Eigen::MatrixXd CholeskyInverse(const Eigen::MatrixXd& matrix) {
-  return matrix.llt().solve(
-      Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
+MatrixXd CholeskyInverse(const MatrixXd& matrix) {
+  return matrix.llt().solve(MatrixXd::Identity(matrix.rows(), matrix.cols()));
 }
 
 }  // namespace errmap::fitting

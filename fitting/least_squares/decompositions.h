@@ -4,6 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
+#include "stats/eigen.h"
+
 // Eigen's decompositions of a MatrixXd and their solvers for a VectorXd or
 // MatrixXd, compiled once, in decompositions.cc: each takes the compiler longer
 // than the file that calls it. An expression instead of a named matrix would be
@@ -30,14 +32,13 @@ extern template void LDLT<MatrixXd>::_solve_impl(const MatrixXd&,
 namespace errmap::fitting {
 
 /// Returns Q' vector (n) of A = Q R.
-Eigen::VectorXd TimesQTransposed(
-    const Eigen::HouseholderQR<Eigen::MatrixXd>& qr,
-    const Eigen::VectorXd& vector);
+VectorXd TimesQTransposed(const Eigen::HouseholderQR<MatrixXd>& qr,
+                          const VectorXd& vector);
 
 /// Returns the first p columns of Q (n x p) of A = Q R.
-Eigen::MatrixXd ThinQ(const Eigen::HouseholderQR<Eigen::MatrixXd>& qr);
+MatrixXd ThinQ(const Eigen::HouseholderQR<MatrixXd>& qr);
 
 /// Returns the inverse of a symmetric, positive definite matrix by Cholesky.
-Eigen::MatrixXd CholeskyInverse(const Eigen::MatrixXd& matrix);
+MatrixXd CholeskyInverse(const MatrixXd& matrix);
 
 }  // namespace errmap::fitting

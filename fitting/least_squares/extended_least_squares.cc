@@ -12,7 +12,6 @@
 namespace errmap::fitting {
 namespace {
 
-using Eigen::Index;
 using stats::DoubleDouble;
 
 void CheckExtended(const ExtendedMatrix& design,
@@ -34,8 +33,8 @@ void CheckExtended(const ExtendedMatrix& design,
 }
 
 // The power of two next to the length of each column: scaling by it is exact.
-Eigen::VectorXd ColumnScales(const ExtendedMatrix& design) {
-  Eigen::VectorXd scales(design.cols());
+VectorXd ColumnScales(const ExtendedMatrix& design) {
+  VectorXd scales(design.cols());
   for (Index j = 0; j < design.cols(); ++j) {
     const double length = design.col(j).cast<double>().stableNorm();
     scales[j] = length > 0.0 ? std::ldexp(1.0, -std::ilogb(length)) : 1.0;
@@ -44,8 +43,7 @@ Eigen::VectorXd ColumnScales(const ExtendedMatrix& design) {
 }
 
 // Products of `matrix` by powers of two, column by column.
-ExtendedMatrix Scaled(const ExtendedMatrix& matrix,
-                      const Eigen::VectorXd& scales) {
+ExtendedMatrix Scaled(const ExtendedMatrix& matrix, const VectorXd& scales) {
   ExtendedMatrix scaled = matrix;
   for (Index j = 0; j < scaled.cols(); ++j) {
     for (Index i = 0; i < scaled.rows(); ++i) scaled(i, j) *= scales[j];
@@ -73,7 +71,7 @@ void Rotate(ExtendedMatrix* a, ExtendedVector* y) {
 
 ExtendedLeastSquaresFit Solve(const ExtendedMatrix& scaled,
                               const ExtendedVector& response,
-                              const Eigen::VectorXd& scales) {
+                              const VectorXd& scales) {
   const Index n = scaled.rows();
   const Index p = scaled.cols();
   ExtendedMatrix design = scaled;
@@ -124,7 +122,7 @@ ExtendedLeastSquaresFit Solve(const ExtendedMatrix& scaled,
 ExtendedLeastSquaresFit SolveExtendedLeastSquares(
     const ExtendedMatrix& design, const ExtendedVector& response) {
   CheckExtended(design, response);
-  const Eigen::VectorXd scales = ColumnScales(design);
+  const VectorXd scales = ColumnScales(design);
   return Solve(Scaled(design, scales), response, scales);
 }
 

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include "stats/double_double.h"
+#include "stats/eigen.h"
 
 namespace errmap::fitting {
 
@@ -15,7 +14,7 @@ struct ExtendedLeastSquaresFit {
   ExtendedVector coefficients;         // (p)
   ExtendedVector standard_deviations;  // (p) of the coefficients; NaN if n = p
   stats::DoubleDouble residual_sum_of_squares;
-  Eigen::Index degrees_of_freedom = 0;  // n - p
+  Index degrees_of_freedom = 0;  // n - p
   /// |R| |R^-1| (Frobenius) of the design with columns of unit length.
   double condition = 0.0;
   /// False if the columns depend on each other to working precision: the

@@ -16,9 +16,6 @@
 namespace errmap::fitting {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using stats::DoubleDouble;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -324,7 +321,7 @@ std::optional<Refined> Refine(Problem* problem,
   constexpr double kExtendedEpsilon = 1e-31;
   const auto& [design, response] = problem->exact();
   const Index n = response.size();
-  const auto k = static_cast<Index>(parts.kept.size());
+  const auto k = std::ssize(parts.kept);
   const MatrixXd& triangle = parts.triangle;
   const auto r = triangle.triangularView<Eigen::Upper>();
   if (parts.basis.cols() != k) {
@@ -474,7 +471,7 @@ LeastSquaresFit SolveLeastSquares(const MatrixXd& design,
   Decomposition parts = Decompose(&problem, false);
 
   LeastSquaresFit fit;
-  fit.rank = static_cast<Index>(parts.kept.size());
+  fit.rank = std::ssize(parts.kept);
   fit.aliased = std::move(parts.aliased);
   fit.nearly_aliased = std::move(parts.nearly_aliased);
   fit.coefficients = VectorXd::Zero(design.cols());

@@ -3,27 +3,26 @@
 #include <functional>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "fitting/least_squares/extended_least_squares.h"
+#include "stats/eigen.h"
 
 namespace errmap::fitting {
 
 /// Solution of min |sqrt(weights) (y - X b)|.
 struct LeastSquaresFit {
-  Eigen::VectorXd coefficients;  // (p) 0 for aliased columns
-  Eigen::Index rank = 0;
-  std::vector<Eigen::Index> aliased;  // columns determined by earlier ones
+  VectorXd coefficients;  // (p) 0 for aliased columns
+  Index rank = 0;
+  std::vector<Index> aliased;  // columns determined by earlier ones
   /// Columns nearly determined by earlier ones but kept, since 106 bits tell
   /// them apart. The solution is then computed in 106 bits.
-  std::vector<Eigen::Index> nearly_aliased;
+  std::vector<Index> nearly_aliased;
   double residual_sum_of_squares = 0.0;  // weighted
   /// Largest over smallest pivot of the scaled columns kept: a lower bound of
   /// their condition number, and usually close to it.
   double condition = 0.0;
   /// (p) of the coefficients, NaN if aliased. (0) unless requested, needed (53
   /// bits lack the digits wanted) and affordable for the size of the design.
-  Eigen::VectorXd standard_deviations;
+  VectorXd standard_deviations;
   int bits = 53;  // precision of the solution: 53 or 106
 };
 
@@ -57,7 +56,7 @@ struct LeastSquaresOptions {
   /// Length of the effect of data rounding on a `combination` (p) of the
   /// columns, weights included. A column that leaves at most 64 times that is
   /// aliased, too. Null: data without rounding.
-  std::function<double(const Eigen::VectorXd& combination)> noise = {};
+  std::function<double(const VectorXd& combination)> noise = {};
 
   /// Throws std::invalid_argument naming field, value and range.
   void Validate() const;
@@ -65,7 +64,7 @@ struct LeastSquaresOptions {
 
 /// Returns the number of rows that count as observations: all `rows`, or those
 /// with weight above 0, as in R's lm. `weights` (rows) or (0).
-double CountObservations(Eigen::Index rows, const Eigen::VectorXd& weights);
+double CountObservations(Index rows, const VectorXd& weights);
 
 /// Least squares by Householder QR on columns scaled to unit length, in
 /// the order given, never by normal equations. If digits require it, the
@@ -77,13 +76,13 @@ double CountObservations(Eigen::Index rows, const Eigen::VectorXd& weights);
 /// `design` (n x p), `response` (n), `weights` (n) not negative or (0): equal.
 /// Throws std::invalid_argument if shapes do not agree, n < 1, p < 1, or a
 /// value is not finite. n < p is allowed; then rank <= n.
-LeastSquaresFit SolveLeastSquares(const Eigen::MatrixXd& design,
-                                  const Eigen::VectorXd& response,
-                                  const Eigen::VectorXd& weights = {},
+LeastSquaresFit SolveLeastSquares(const MatrixXd& design,
+                                  const VectorXd& response,
+                                  const VectorXd& weights = {},
                                   const LeastSquaresOptions& options = {});
 
 /// Returns an orthonormal basis (n x rank) of the columns of `design` (n x p)
 /// that SolveLeastSquares keeps.
-Eigen::MatrixXd OrthonormalColumns(const Eigen::MatrixXd& design);
+MatrixXd OrthonormalColumns(const MatrixXd& design);
 
 }  // namespace errmap::fitting

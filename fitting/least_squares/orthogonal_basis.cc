@@ -7,10 +7,6 @@
 
 namespace errmap::fitting {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 VectorXd OrthogonalBasis::Remainder(const VectorXd& column,
                                     VectorXd* along) const {
   VectorXd rest = column;

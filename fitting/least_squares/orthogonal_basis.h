@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::fitting {
 
@@ -12,32 +12,31 @@ namespace errmap::fitting {
 /// rotations remove them (Golub and Van Loan, 6.5.2).
 class OrthogonalBasis {
  public:
-  explicit OrthogonalBasis(Eigen::Index rows) : rows_(rows) {}
+  explicit OrthogonalBasis(Index rows) : rows_(rows) {}
 
-  Eigen::Index size() const { return size_; }
+  Index size() const { return size_; }
   auto Q() const { return q_.leftCols(size_); }
   auto R() const { return r_.topLeftCorner(size_, size_); }
 
   /// Returns the part of `column` (n) orthogonal to Q. `along`, unless null,
   /// gets its coefficients in Q.
-  Eigen::VectorXd Remainder(const Eigen::VectorXd& column,
-                            Eigen::VectorXd* along = nullptr) const;
+  VectorXd Remainder(const VectorXd& column, VectorXd* along = nullptr) const;
 
   /// Appends a column, given its `remainder` (not zero) and `along`.
-  void Append(const Eigen::VectorXd& remainder, const Eigen::VectorXd& along);
+  void Append(const VectorXd& remainder, const VectorXd& along);
 
   /// Removes column `index` (0-based). Returns the unit vector (n) that leaves
   /// the span.
-  Eigen::VectorXd Remove(Eigen::Index index);
+  VectorXd Remove(Index index);
 
   /// Returns R^-1 (k x k), upper triangular.
-  Eigen::MatrixXd InverseTriangle() const;
+  MatrixXd InverseTriangle() const;
 
  private:
-  Eigen::Index rows_;
-  Eigen::Index size_ = 0;
-  Eigen::MatrixXd q_;  // capacity grows by doubling
-  Eigen::MatrixXd r_;
+  Index rows_;
+  Index size_ = 0;
+  MatrixXd q_;  // capacity grows by doubling
+  MatrixXd r_;
 };
 
 }  // namespace errmap::fitting

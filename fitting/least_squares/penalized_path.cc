@@ -13,10 +13,6 @@
 namespace errmap::fitting {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 std::vector<double> FallingGrid(double largest, int decades, int per_decade) {
   std::vector<double> grid;
   for (int i = 0; i <= decades * per_decade; ++i) {
@@ -91,8 +87,7 @@ class LassoPathFollower {
 
   // Coefficients at each of the `strengths`.
   MatrixXd Follow(const std::vector<double>& strengths) {
-    MatrixXd solutions(coefficients_.size(),
-                       static_cast<Index>(strengths.size()));
+    MatrixXd solutions(coefficients_.size(), std::ssize(strengths));
     std::vector<std::size_t> falling(strengths.size());
     std::iota(falling.begin(), falling.end(), std::size_t{0});
     std::stable_sort(
@@ -127,7 +122,7 @@ class LassoPathFollower {
   };
 
   static std::size_t At(Index index) { return static_cast<std::size_t>(index); }
-  Index num_active() const { return static_cast<Index>(active_.size()); }
+  Index num_active() const { return std::ssize(active_); }
 
   // Knot by knot down to `target`, or until the path is lost.
   void MoveTo(double target) {
@@ -494,7 +489,7 @@ MatrixXd PenalizedPath::Shifted(double strength) const {
 MatrixXd PenalizedPath::RidgeSolutions(
     const std::vector<double>& strengths) const {
   const Index k = covariance_.size();
-  MatrixXd solutions = MatrixXd::Zero(k, static_cast<Index>(strengths.size()));
+  MatrixXd solutions = MatrixXd::Zero(k, std::ssize(strengths));
   // Columns that depend on each other, without a penalty, have the limit of
   // weak ones; how weak, the rounding of their correlations says.
   constexpr double kWeak = 1e-11;

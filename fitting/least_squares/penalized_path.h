@@ -3,9 +3,8 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "fitting/least_squares/cross_products.h"
+#include "stats/eigen.h"
 
 namespace errmap::fitting {
 
@@ -29,9 +28,9 @@ class PenalizedPath {
   /// (n), (0): all 1.
   PenalizedPath(const CrossProducts& sums,
                 bool intercept,
-                const Eigen::MatrixXd& columns,
-                const Eigen::VectorXd& response,
-                const Eigen::VectorXd& weights);
+                const MatrixXd& columns,
+                const VectorXd& response,
+                const VectorXd& weights);
 
   /// Returns descending strengths worth trying. Ridge: from 10 times a column's
   /// variance down to the onset of rounding. Lasso: from the strength at which
@@ -39,8 +38,8 @@ class PenalizedPath {
   std::vector<double> Grid() const;
 
   struct Solutions {
-    Eigen::MatrixXd coefficients;  // (k x strengths) for the columns as given
-    Eigen::VectorXd intercepts;    // (strengths)
+    MatrixXd coefficients;  // (k x strengths) for the columns as given
+    VectorXd intercepts;    // (strengths)
   };
   /// Returns solutions for `strengths`, at least 0, in any order. If columns
   /// depend on each other, a ridge at 0 has the limit of weak strengths. Ridge
@@ -59,13 +58,12 @@ class PenalizedPath {
   /// positive definite at this strength.
   void Refine(double strength,
               double residuals,
-              const Eigen::VectorXd& with_columns,
+              const VectorXd& with_columns,
               Solutions* solution) const;
 
   /// Returns the degrees of freedom with intercept: trace of the hat matrix
   /// (ridge), number of terms (lasso: Zou, Hastie and Tibshirani 2007).
-  double DegreesOfFreedom(double strength,
-                          const Eigen::VectorXd& coefficients) const;
+  double DegreesOfFreedom(double strength, const VectorXd& coefficients) const;
 
  private:
   // Sets means, scales and the covariance with the response.
@@ -73,22 +71,22 @@ class PenalizedPath {
   bool in_rows() const { return rows_.size() > 0; }
   // Lower triangle of the matrix to factorise: that of the columns, or of the
   // rows, plus strength I.
-  Eigen::MatrixXd Shifted(double strength) const;
-  Eigen::MatrixXd RidgeSolutions(const std::vector<double>& strengths) const;
-  Eigen::MatrixXd LassoSolutions(const std::vector<double>& strengths) const;
+  MatrixXd Shifted(double strength) const;
+  MatrixXd RidgeSolutions(const std::vector<double>& strengths) const;
+  MatrixXd LassoSolutions(const std::vector<double>& strengths) const;
 
   Penalty penalty_;
   bool intercept_;
   double weight_;               // sum of w
-  Eigen::VectorXd means_;       // (k) 0 without an intercept
-  Eigen::VectorXd scales_;      // (k) 1 / spread; 0 for constant columns
+  VectorXd means_;              // (k) 0 without an intercept
+  VectorXd scales_;             // (k) 1 / spread; 0 for constant columns
   double mean_response_ = 0.0;  // 0 without an intercept
   // (k x k) of the scaled columns; for a ridge only the lower triangle.
-  Eigen::MatrixXd correlation_;
-  Eigen::VectorXd covariance_;  // (k) of the scaled columns and the response
+  MatrixXd correlation_;
+  VectorXd covariance_;  // (k) of the scaled columns and the response
   // In the space of the rows, where correlation_ is (n x n) of the rows.
-  Eigen::MatrixXd rows_;      // (n x k) scaled, times the root of the weight
-  Eigen::VectorXd response_;  // (n) less its mean, times the same
+  MatrixXd rows_;      // (n x k) scaled, times the root of the weight
+  VectorXd response_;  // (n) less its mean, times the same
 };
 
 }  // namespace errmap::fitting

@@ -14,10 +14,6 @@
 namespace errmap::fitting {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
 constexpr double kConfidence = 0.95;
 // A leverage this near to 1 is 1.
@@ -258,7 +254,7 @@ void RowDiagnostics::Add(const RegressionDiagnostics& fit,
                          const MatrixXd& terms,
                          const VectorXd& response,
                          const VectorXd& weights) {
-  const Index k = static_cast<Index>(fit.kept.size());
+  const Index k = std::ssize(fit.kept);
   VectorXd predicted = VectorXd::Constant(terms.rows(), fit.intercept.estimate);
   VectorXd leverage = VectorXd::Constant(
       terms.rows(), fit.has_intercept ? 1.0 / fit.sum_of_weights : 0.0);

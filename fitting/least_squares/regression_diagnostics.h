@@ -2,21 +2,20 @@
 
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "fitting/least_squares/linear_least_squares.h"
+#include "stats/eigen.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::fitting {
 
 /// A regression of y on an intercept and k terms.
 struct RegressionProblem {
-  const Eigen::MatrixXd& terms;     // (n x k), without the intercept
-  const Eigen::VectorXd& response;  // (n)
-  const Eigen::VectorXd& weights;   // (n) not negative, or (0)
+  const MatrixXd& terms;     // (n x k), without the intercept
+  const VectorXd& response;  // (n)
+  const VectorXd& weights;   // (n) not negative, or (0)
   /// (n) the intercept's column if the rows are those of a triangle; (0): ones;
   /// zeros: no intercept.
-  Eigen::VectorXd intercept = {};
+  VectorXd intercept = {};
   double observations = 0.0;  // 0: number of rows with weight above 0
 };
 
@@ -37,9 +36,9 @@ struct CoefficientEstimate {
 /// about 0 if there is no intercept.
 struct RegressionDiagnostics {
   double observations = 0.0;
-  Eigen::Index rank = 0;  // number of coefficients, with intercept
+  Index rank = 0;  // number of coefficients, with intercept
   bool has_intercept = true;
-  std::vector<Eigen::Index> aliased;  // terms omitted, coefficient 0
+  std::vector<Index> aliased;  // terms omitted, coefficient 0
   CoefficientEstimate intercept;
   std::vector<CoefficientEstimate> coefficients;  // (k)
   double regression_sum_of_squares = 0.0;
@@ -55,16 +54,16 @@ struct RegressionDiagnostics {
   /// smallest singular value (Belsley, Kuh and Welsch 1980), and the number of
   /// singular values above max(n, k) epsilon times the largest.
   double condition = 0.0;
-  Eigen::Index effective_rank = 0;
+  Index effective_rank = 0;
   /// Triangle R with (X_c R^-1)' (X_c R^-1) = I for the kept terms, centred;
   /// used for the leverages of other rows.
-  Eigen::MatrixXd triangle;
-  Eigen::VectorXd means;           // (k) weighted means of the terms
-  std::vector<Eigen::Index> kept;  // the terms of `triangle`
-  int bits = 53;                   // precision of the estimates
-  double sum_of_weights = 0.0;     // 0 if there is no intercept
+  MatrixXd triangle;
+  VectorXd means;               // (k) weighted means of the terms
+  std::vector<Index> kept;      // the terms of `triangle`
+  int bits = 53;                // precision of the estimates
+  double sum_of_weights = 0.0;  // 0 if there is no intercept
 
-  Eigen::Index regression_degrees_of_freedom() const {
+  Index regression_degrees_of_freedom() const {
     return rank - (has_intercept ? 1 : 0);
   }
   double total_degrees_of_freedom() const {
@@ -90,16 +89,16 @@ LeastSquaresFit SolveRegression(const RegressionProblem& problem,
 struct RowDiagnostics {
   double press = 0.0;  // sum of w (e / (1 - h))^2; infinite at leverage 1
   double largest_residual = 0.0;  // largest in size, with sign, not weighted
-  Eigen::Index largest_residual_row = -1;
+  Index largest_residual_row = -1;
   double largest_leverage = 0.0;
-  Eigen::Index leverage_one = 0;  // number of rows of leverage 1
-  Eigen::Index rows = 0;
+  Index leverage_one = 0;  // number of rows of leverage 1
+  Index rows = 0;
 
   /// Adds rows (b x k terms, b responses, b weights or 0).
   void Add(const RegressionDiagnostics& fit,
-           const Eigen::MatrixXd& terms,
-           const Eigen::VectorXd& response,
-           const Eigen::VectorXd& weights);
+           const MatrixXd& terms,
+           const VectorXd& response,
+           const VectorXd& weights);
   /// Returns 1 - PRESS / total sum of squares, for the terms as given.
   double PredictedR2(const RegressionDiagnostics& fit) const {
     return 1.0 - press / fit.total_sum_of_squares;
@@ -112,13 +111,13 @@ struct AliasRelation {
   bool constant = false;  // the column does not vary
   /// Columns (of those given) that contribute, largest first; contributions are
   /// compared for columns scaled to unit spread.
-  std::vector<Eigen::Index> columns;
+  std::vector<Index> columns;
 };
 
 /// Explains why `column` (n) adds nothing to `intercept` (n; 0: ones) and
 /// `others` (n x k).
-AliasRelation ExplainAlias(const Eigen::VectorXd& column,
-                           const Eigen::MatrixXd& others,
-                           const Eigen::VectorXd& intercept = {});
+AliasRelation ExplainAlias(const VectorXd& column,
+                           const MatrixXd& others,
+                           const VectorXd& intercept = {});
 
 }  // namespace errmap::fitting

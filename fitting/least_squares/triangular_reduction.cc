@@ -52,9 +52,6 @@ void dtpqrt_(const int* m,
 namespace errmap::fitting {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-
 void Require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument("ReduceToTriangle: " + what);
 }

@@ -11,7 +11,7 @@ namespace errmap::fitting {
 class BestPoint {
  public:
   BestPoint(const Objective& f,
-            const Eigen::VectorXd& x0,
+            const VectorXd& x0,
             const StoppingRules& rules,
             const RunControl& run)
       : monitor(rules, run), x(x0), f_(f), best_(x0), trial_(x0.size()) {}
@@ -25,14 +25,14 @@ class BestPoint {
     return !monitor.StopAtGoal(cost, gradient_norm, x.norm());
   }
 
-  double Evaluate(const Eigen::VectorXd& at, Eigen::VectorXd* slope) {
+  double Evaluate(const VectorXd& at, VectorXd* slope) {
     ++evaluations;
     return f_.Evaluate(at, slope);
   }
 
   /// Makes one iteration: x += step, then checks every stop but the limits.
   /// Returns false if the run has ended.
-  bool Move(const Eigen::VectorXd& step, const char* not_finite) {
+  bool Move(const VectorXd& step, const char* not_finite) {
     trial_ = x + step;
     const double trial_cost = Evaluate(trial_, &trial_gradient_);
     if (!std::isfinite(trial_cost) || !trial_gradient_.allFinite()) {
@@ -44,7 +44,7 @@ class BestPoint {
 
   /// Makes one iteration to a point already evaluated and feasible. Swaps its x
   /// and gradient with the current ones.
-  bool MoveTo(Eigen::VectorXd* at, double its_cost, Eigen::VectorXd* slope) {
+  bool MoveTo(VectorXd* at, double its_cost, VectorXd* slope) {
     x.swap(*at);
     gradient.swap(*slope);
     cost = its_cost;
@@ -68,8 +68,8 @@ class BestPoint {
   }
 
   RunMonitor monitor;
-  Eigen::VectorXd x;
-  Eigen::VectorXd gradient;  // at x
+  VectorXd x;
+  VectorXd gradient;  // at x
   double cost = 0.0;
   double gradient_norm = 0.0;
   std::int64_t evaluations = 0;
@@ -82,9 +82,9 @@ class BestPoint {
   }
 
   const Objective& f_;
-  Eigen::VectorXd best_;
-  Eigen::VectorXd trial_;
-  Eigen::VectorXd trial_gradient_;
+  VectorXd best_;
+  VectorXd trial_;
+  VectorXd trial_gradient_;
   double best_cost_ = 0.0;
   double best_gradient_norm_ = 0.0;
   std::int64_t steps_since_check_ = 0;

@@ -19,10 +19,7 @@
 namespace errmap::fitting {
 namespace {
 
-using Eigen::Index;
 using Eigen::Map;
-using Eigen::VectorXd;
-
 using RowMajorMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -117,7 +114,7 @@ class GuardedResiduals final : public ceres::CostFunction {
   const ResidualFunction& f_;
   const double root_ridge_;
   mutable VectorXd r_;
-  mutable Eigen::MatrixXd jacobian_;
+  mutable MatrixXd jacobian_;
 };
 
 bool NeedsResiduals(CeresMethod method) {

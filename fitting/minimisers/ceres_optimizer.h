@@ -61,7 +61,7 @@ class CeresOptimizer final : public Optimizer {
   /// Throws std::invalid_argument if the method needs residuals and `f` has
   /// none.
   Minimum DoMinimize(const Objective& f,
-                     const Eigen::VectorXd& x0,
+                     const VectorXd& x0,
                      const RunControl& run) const override;
 
   CeresOptions options_;

@@ -12,8 +12,6 @@
 namespace errmap::fitting {
 namespace {
 
-using Eigen::VectorXd;
-
 // One run; equations are those of section 6.5.
 class CgRun {
  public:
@@ -183,7 +181,7 @@ class CgRun {
   VectorXd lowest_g_;
   VectorXd trial_x_;
   VectorXd trial_g_;
-  Eigen::Index steps_since_restart_ = 0;
+  Index steps_since_restart_ = 0;
 };
 
 }  // namespace

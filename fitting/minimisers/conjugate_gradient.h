@@ -34,7 +34,7 @@ class ConjugateGradient final : public Optimizer {
 
  private:
   Minimum DoMinimize(const Objective& f,
-                     const Eigen::VectorXd& x0,
+                     const VectorXd& x0,
                      const RunControl& run) const override;
 
   ConjugateGradientOptions options_;

@@ -1,14 +1,9 @@
 #include "fitting/minimisers/cost_resolution.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 namespace errmap::fitting {
 namespace {
-
-using Eigen::Index;
-using Eigen::VectorXd;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 

@@ -45,14 +45,14 @@ struct CostResolution {
 /// `may_evaluate` is asked before each evaluation; if it refuses, the result is
 /// unknown.
 CostResolution FindCostResolution(const Objective& f,
-                                  const Eigen::VectorXd& x,
+                                  const VectorXd& x,
                                   const std::function<bool()>& may_evaluate);
 
 /// Ends a run that finds no descent from x: with kResolution if the cost shows
 /// a minimum, else with kNoDescent and `why`. `spend` is asked before each
 /// evaluation of f; if it refuses, it must have ended the run itself.
 void StopWithoutDescent(const Objective& f,
-                        const Eigen::VectorXd& x,
+                        const VectorXd& x,
                         const std::function<bool()>& spend,
                         const std::string& why,
                         RunMonitor* monitor);

@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "fitting/minimisers/levenberg_marquardt.h"
 #include "fitting/minimisers/objective.h"
 
 namespace errmap::fitting {
@@ -14,10 +13,10 @@ class DampedLeastSquares {
   virtual ~DampedLeastSquares() = default;
 
   /// Evaluates residuals and Jacobian at x (n) and the derived quantities.
-  void MoveTo(const Eigen::VectorXd& x);
+  void MoveTo(const VectorXd& x);
 
   double cost() const { return cost_; }
-  const Eigen::VectorXd& gradient() const { return gradient_; }
+  const VectorXd& gradient() const { return gradient_; }
   /// sum_j (|J_j| / D_j)^2 / n
   double mean_curvature() const { return mean_curvature_; }
   /// True if cost and gradient are finite, so that steps may be computed.
@@ -29,18 +28,18 @@ class DampedLeastSquares {
   virtual void Settle() {}
 
   /// Computes the step (n) for a damping; false if rounding leaves none.
-  virtual bool Solve(double lambda, Eigen::VectorXd* step) = 0;
+  virtual bool Solve(double lambda, VectorXd* step) = 0;
   /// |D v|^2
-  virtual double ScaledSquaredNorm(const Eigen::VectorXd& v) const = 0;
+  virtual double ScaledSquaredNorm(const VectorXd& v) const = 0;
 
  protected:
   explicit DampedLeastSquares(const ResidualFunction& residuals)
       : ridge_(residuals.ridge()) {}
 
   const double ridge_;
-  Eigen::VectorXd x_;
-  Eigen::VectorXd residuals_;  // (m)
-  Eigen::VectorXd gradient_;   // (n) J'r + ridge x
+  VectorXd x_;
+  VectorXd residuals_;  // (m)
+  VectorXd gradient_;   // (n) J'r + ridge x
   double mean_curvature_ = 0.0;
 
  private:
@@ -54,7 +53,7 @@ class DampedLeastSquares {
 /// by the first MoveTo, increased by Settle, and shared by the spaces of one
 /// run. Null for D = I.
 std::unique_ptr<DampedLeastSquares> MakeParameterSpace(
-    const ResidualFunction& residuals, std::shared_ptr<Eigen::VectorXd> scale);
+    const ResidualFunction& residuals, std::shared_ptr<VectorXd> scale);
 
 /// Makes one that uses Cholesky factorisation of J J' + mu I; D = I.
 std::unique_ptr<DampedLeastSquares> MakePatternSpace(

@@ -1,7 +1,6 @@
 #include "fitting/minimisers/discrepancy_principle.h"
 
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "stats/require.h"
@@ -35,14 +34,14 @@ void DiscrepancyRules::Validate() const {
 
 DiscrepancyChoice ChooseByDiscrepancy(
     const DiscrepancyRules& rules,
-    const Eigen::VectorXd& start,
-    const std::function<Minimum(double, const Eigen::VectorXd&)>& minimize,
-    const std::function<double(const Eigen::VectorXd&)>& misfit) {
+    const VectorXd& start,
+    const std::function<Minimum(double, const VectorXd&)>& minimize,
+    const std::function<double(const VectorXd&)>& misfit) {
   rules.Validate();
   DiscrepancyChoice best;
   bool goes_on = true;
   // Keeps what is within delta at the largest alpha, else the smallest misfit.
-  const auto attempt = [&](double alpha, const Eigen::VectorXd& from) {
+  const auto attempt = [&](double alpha, const VectorXd& from) {
     Minimum minimum = minimize(alpha, from);
     const double now = misfit(minimum.x);
     best.steps.push_back({alpha, now});
@@ -58,7 +57,7 @@ DiscrepancyChoice ChooseByDiscrepancy(
     best.minimum = std::move(minimum);
     return best.minimum.x;
   };
-  Eigen::VectorXd last = start;
+  VectorXd last = start;
   double alpha = rules.alpha0;
   last = attempt(alpha, last);
   while (goes_on && !best.reached && alpha * rules.q >= rules.least_alpha) {

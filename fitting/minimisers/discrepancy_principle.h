@@ -54,9 +54,8 @@ struct DiscrepancyChoice {
 /// std::invalid_argument if a rule is out of range.
 DiscrepancyChoice ChooseByDiscrepancy(
     const DiscrepancyRules& rules,
-    const Eigen::VectorXd& start,
-    const std::function<Minimum(double alpha, const Eigen::VectorXd& start)>&
-        minimize,
-    const std::function<double(const Eigen::VectorXd& w)>& misfit);
+    const VectorXd& start,
+    const std::function<Minimum(double alpha, const VectorXd& start)>& minimize,
+    const std::function<double(const VectorXd& w)>& misfit);
 
 }  // namespace errmap::fitting

@@ -42,15 +42,15 @@ Derivative RiddersDerivative(const std::function<double(double)>& f,
 }
 
 GradientCheck CheckGradient(const Objective& f,
-                            const Eigen::VectorXd& x,
+                            const VectorXd& x,
                             double step) {
   constexpr double kNegligible = 1e-6;
-  Eigen::VectorXd gradient(x.size());
+  VectorXd gradient(x.size());
   f.Evaluate(x, &gradient);
   const double floor = kNegligible * gradient.cwiseAbs().maxCoeff();
   GradientCheck check;
-  Eigen::VectorXd moved = x;
-  for (Eigen::Index j = 0; j < x.size(); ++j) {
+  VectorXd moved = x;
+  for (Index j = 0; j < x.size(); ++j) {
     const auto along = [&](double value) {
       moved[j] = value;
       return f.Evaluate(moved, nullptr);

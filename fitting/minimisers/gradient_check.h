@@ -20,7 +20,7 @@ Derivative RiddersDerivative(const std::function<double(double)>& f,
 
 struct GradientCheck {
   double worst_relative_error = 0.0;  // |analytic - numeric| / scale
-  Eigen::Index worst_parameter = -1;
+  Index worst_parameter = -1;
   double worst_analytic = 0.0;
   double worst_numeric = 0.0;
 };
@@ -30,7 +30,7 @@ struct GradientCheck {
 /// gradient component), since a component near zero cannot be judged by its own
 /// size.
 GradientCheck CheckGradient(const Objective& f,
-                            const Eigen::VectorXd& x,
+                            const VectorXd& x,
                             double step = 0.1);
 
 }  // namespace errmap::fitting

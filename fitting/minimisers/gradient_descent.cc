@@ -22,11 +22,11 @@ GradientDescent::GradientDescent(GradientDescentOptions options)
 }
 
 Minimum GradientDescent::DoMinimize(const Objective& f,
-                                    const Eigen::VectorXd& x0,
+                                    const VectorXd& x0,
                                     const RunControl& run) const {
   BestPoint state(f, x0, options_.stopping, run);
   if (state.Start()) {
-    Eigen::VectorXd step = Eigen::VectorXd::Zero(x0.size());
+    VectorXd step = VectorXd::Zero(x0.size());
     while (!state.monitor.StopAtLimit(state.evaluations, 1)) {
       step = options_.momentum * step -
              options_.learning_rate * state.gradient;  // Eq. (70)

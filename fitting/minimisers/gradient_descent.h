@@ -34,7 +34,7 @@ class GradientDescent final : public Optimizer {
 
  private:
   Minimum DoMinimize(const Objective& f,
-                     const Eigen::VectorXd& x0,
+                     const VectorXd& x0,
                      const RunControl& run) const override;
 
   GradientDescentOptions options_;

@@ -9,8 +9,6 @@
 namespace errmap::fitting {
 
 using Eigen::Map;
-using Eigen::VectorXd;
-
 GuardedRun::GuardedRun(const Objective& f,
                        const StoppingRules& rules,
                        const RunControl& run,

@@ -29,7 +29,7 @@ class GuardedRun {
              std::int64_t patience);
 
   /// Evaluates the start. Returns false if the run ends there.
-  bool Start(const Eigen::VectorXd& x0);
+  bool Start(const VectorXd& x0);
 
   /// Evaluates value and gradient at x (n numbers). Returns false if there are
   /// none: x is infeasible, or the run has ended and the solver must stop.
@@ -41,8 +41,8 @@ class GuardedRun {
 
   /// Those of the last Evaluate that returned true, or of the start.
   double cost() const { return cost_; }
-  const Eigen::VectorXd& x() const { return x_; }
-  const Eigen::VectorXd& gradient() const { return gradient_; }
+  const VectorXd& x() const { return x_; }
+  const VectorXd& gradient() const { return gradient_; }
 
   /// True if the run has ended, for the reason that Finish reports.
   bool stopped() const { return thrown_ != nullptr || monitor_.stopped(); }
@@ -68,13 +68,13 @@ class GuardedRun {
   const Objective& f_;
   const std::int64_t patience_;
   RunMonitor monitor_;
-  Eigen::VectorXd x_;
-  Eigen::VectorXd gradient_;
+  VectorXd x_;
+  VectorXd gradient_;
   double x_norm_ = 0.0;
   double gradient_norm_ = 0.0;
   double cost_ = 0.0;
   bool is_finite_ = false;  // at x_
-  Eigen::VectorXd best_;
+  VectorXd best_;
   double best_cost_ = 0.0;
   double best_gradient_norm_ = 0.0;
   bool is_iteration_open_ = false;  // a better point since EndIteration

@@ -5,7 +5,6 @@
 #include <limits>
 #include <memory>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "fitting/interruption.h"
@@ -17,11 +16,9 @@
 namespace errmap::fitting {
 namespace {
 
-using Eigen::VectorXd;
-
 bool InPatternSpace(const LevenbergMarquardtOptions& options,
                     const ResidualFunction& residuals,
-                    Eigen::Index num_parameters) {
+                    Index num_parameters) {
   if (options.space != LmSpace::kAuto) {
     return options.space == LmSpace::kPatterns;
   }

@@ -90,7 +90,7 @@ class LevenbergMarquardt final : public Optimizer {
  private:
   // Throws std::invalid_argument if f has no residual form or a ridge < 0.
   Minimum DoMinimize(const Objective& f,
-                     const Eigen::VectorXd& x0,
+                     const VectorXd& x0,
                      const RunControl& run) const override;
 
   LevenbergMarquardtOptions options_;

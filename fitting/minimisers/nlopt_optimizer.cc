@@ -14,10 +14,7 @@
 namespace errmap::fitting {
 namespace {
 
-using Eigen::Index;
 using Eigen::Map;
-using Eigen::VectorXd;
-
 struct DestroyNlopt {
   void operator()(nlopt_opt_s* problem) const { nlopt_destroy(problem); }
 };

@@ -55,7 +55,7 @@ struct NloptOptions {
 class NloptOptimizer final : public Optimizer {
  public:
   /// Maximum number of parameters that crs2_lm searches.
-  static constexpr Eigen::Index kMostCrs2Parameters = 100;
+  static constexpr Index kMostCrs2Parameters = 100;
 
   /// Throws std::invalid_argument if an option is out of range.
   explicit NloptOptimizer(NloptOptions options);
@@ -67,7 +67,7 @@ class NloptOptimizer final : public Optimizer {
   /// Throws std::invalid_argument if crs2_lm is given more parameters than
   /// kMostCrs2Parameters.
   Minimum DoMinimize(const Objective& f,
-                     const Eigen::VectorXd& x0,
+                     const VectorXd& x0,
                      const RunControl& run) const override;
 
   NloptOptions options_;

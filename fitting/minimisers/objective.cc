@@ -74,23 +74,19 @@ class EvaluatedLinearization final : public Linearization {
   explicit EvaluatedLinearization(const ResidualFunction& function)
       : function_(function) {}
 
-  void MoveTo(const Eigen::VectorXd& x,
-              Eigen::VectorXd* residuals,
-              Eigen::MatrixXd* gram) override {
+  void MoveTo(const VectorXd& x, VectorXd* residuals, MatrixXd* gram) override {
     function_.Evaluate(x, residuals, &jacobian_);
     gram->resize(jacobian_.rows(), jacobian_.rows());
     MultiplyByOwnTranspose(jacobian_, *gram);
   }
-  Eigen::VectorXd Apply(const Eigen::VectorXd& v) const override {
-    return jacobian_ * v;
-  }
-  Eigen::VectorXd ApplyTransposed(const Eigen::VectorXd& u) const override {
+  VectorXd Apply(const VectorXd& v) const override { return jacobian_ * v; }
+  VectorXd ApplyTransposed(const VectorXd& u) const override {
     return jacobian_.transpose() * u;
   }
 
  private:
   const ResidualFunction& function_;
-  Eigen::MatrixXd jacobian_;
+  MatrixXd jacobian_;
 };
 
 }  // namespace

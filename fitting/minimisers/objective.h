@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::fitting {
 
@@ -39,25 +39,25 @@ class Linearization {
   virtual ~Linearization() = default;
   /// Moves to x (n). Fills `residuals` (m) and the lower triangle of `gram` (m
   /// x m) with J J' at x; its upper triangle is undefined.
-  virtual void MoveTo(const Eigen::VectorXd& x,
-                      Eigen::VectorXd* residuals,
-                      Eigen::MatrixXd* gram) = 0;
+  virtual void MoveTo(const VectorXd& x,
+                      VectorXd* residuals,
+                      MatrixXd* gram) = 0;
   /// Returns J v (m) for v (n), at the last x.
-  virtual Eigen::VectorXd Apply(const Eigen::VectorXd& v) const = 0;
+  virtual VectorXd Apply(const VectorXd& v) const = 0;
   /// Returns J'u (n) for u (m), at the last x.
-  virtual Eigen::VectorXd ApplyTransposed(const Eigen::VectorXd& u) const = 0;
+  virtual VectorXd ApplyTransposed(const VectorXd& u) const = 0;
 };
 
 /// r(x) of f(x) = 1/2 |r(x)|^2 + 1/2 ridge |x|^2, for Gauss-Newton methods.
 class ResidualFunction {
  public:
   virtual ~ResidualFunction() = default;
-  virtual Eigen::Index num_residuals() const = 0;
+  virtual Index num_residuals() const = 0;
   virtual double ridge() const = 0;
   /// Fills `residuals` (m) and, unless null, `jacobian` (m x n), dr_i/dx_j.
-  virtual void Evaluate(const Eigen::VectorXd& x,
-                        Eigen::VectorXd* residuals,
-                        Eigen::MatrixXd* jacobian) const = 0;
+  virtual void Evaluate(const VectorXd& x,
+                        VectorXd* residuals,
+                        MatrixXd* jacobian) const = 0;
   /// Returns a linearization. The default stores the Jacobian from Evaluate.
   virtual std::unique_ptr<Linearization> NewLinearization() const;
 };
@@ -70,7 +70,7 @@ class BasicObjective {
  public:
   using Vector = VectorOf<Scalar>;
   virtual ~BasicObjective() = default;
-  virtual Eigen::Index num_parameters() const = 0;
+  virtual Index num_parameters() const = 0;
   /// Returns f(x); fills `gradient` (n) unless null. A non-finite value marks x
   /// infeasible: the optimizer shortens its step, nothing throws.
   virtual Scalar Evaluate(const Vector& x, Vector* gradient) const = 0;

@@ -20,13 +20,11 @@ class CountedResiduals final : public ResidualFunction {
                    std::int64_t* gradients)
       : function_(function), values_(values), gradients_(gradients) {}
 
-  Eigen::Index num_residuals() const override {
-    return function_.num_residuals();
-  }
+  Index num_residuals() const override { return function_.num_residuals(); }
   double ridge() const override { return function_.ridge(); }
-  void Evaluate(const Eigen::VectorXd& x,
-                Eigen::VectorXd* residuals,
-                Eigen::MatrixXd* jacobian) const override {
+  void Evaluate(const VectorXd& x,
+                VectorXd* residuals,
+                MatrixXd* jacobian) const override {
     ++(jacobian == nullptr ? *values_ : *gradients_);
     function_.Evaluate(x, residuals, jacobian);
   }
@@ -40,16 +38,16 @@ class CountedResiduals final : public ResidualFunction {
     Counted(std::unique_ptr<Linearization> linearization,
             std::int64_t* gradients)
         : linearization_(std::move(linearization)), gradients_(gradients) {}
-    void MoveTo(const Eigen::VectorXd& x,
-                Eigen::VectorXd* residuals,
-                Eigen::MatrixXd* gram) override {
+    void MoveTo(const VectorXd& x,
+                VectorXd* residuals,
+                MatrixXd* gram) override {
       ++*gradients_;
       linearization_->MoveTo(x, residuals, gram);
     }
-    Eigen::VectorXd Apply(const Eigen::VectorXd& v) const override {
+    VectorXd Apply(const VectorXd& v) const override {
       return linearization_->Apply(v);
     }
-    Eigen::VectorXd ApplyTransposed(const Eigen::VectorXd& u) const override {
+    VectorXd ApplyTransposed(const VectorXd& u) const override {
       return linearization_->ApplyTransposed(u);
     }
 
@@ -72,9 +70,7 @@ class CountedObjective final : public BasicObjective<Scalar> {
   explicit CountedObjective(const BasicObjective<Scalar>& objective)
       : objective_(objective) {}
 
-  Eigen::Index num_parameters() const override {
-    return objective_.num_parameters();
-  }
+  Index num_parameters() const override { return objective_.num_parameters(); }
 
   Scalar Evaluate(const Vector& x, Vector* gradient) const override {
     ++(gradient == nullptr ? values_ : gradients_);

@@ -41,7 +41,7 @@ struct Iterate {
   std::int64_t iteration = 0;
   double cost = 0.0;
   double gradient_norm = 0.0;
-  const Eigen::VectorXd& x;  // (n) valid only during the call
+  const VectorXd& x;  // (n) valid only during the call
 };
 
 /// Surroundings of a run that do not change its mathematics.
@@ -53,7 +53,7 @@ struct RunControl {
 };
 
 struct Minimum {
-  Eigen::VectorXd x;  // (n) best point seen
+  VectorXd x;  // (n) best point seen
   FitSummary summary;
 };
 

@@ -11,7 +11,7 @@ namespace errmap::fitting {
 template <typename Scalar>
 Scalar OrderedDot(const VectorOf<Scalar>& x, const VectorOf<Scalar>& y) {
   Scalar sum = 0;
-  for (Eigen::Index i = 0; i < x.size(); ++i) sum += x[i] * y[i];
+  for (Index i = 0; i < x.size(); ++i) sum += x[i] * y[i];
   return sum;
 }
 
@@ -22,7 +22,7 @@ Scalar OrderedNorm(const VectorOf<Scalar>& x) {
   constexpr Scalar kSmall = Scalar(4.441e-16);
   Scalar sum = 0;
   Scalar largest = 0;
-  Eigen::Index i = 0;
+  Index i = 0;
   for (; i < x.size() && !(std::abs(x[i]) > kSmall); ++i) {
     const Scalar size = std::abs(x[i]);
     if (size == Scalar(0)) continue;

@@ -56,7 +56,7 @@ class RunMonitor {
     squares_ += offset * (taken.count() - mean_seconds_);
     Trace(cost, gradient_norm);
     if (!run_.after_iteration) return;
-    const Eigen::VectorXd& at = x.template cast<double>();
+    const VectorXd& at = x.template cast<double>();
     if (!run_.after_iteration({summary_.iterations, cost, gradient_norm, at})) {
       Stop(Termination::kInterrupted, "ended by the caller");
     }

@@ -244,7 +244,7 @@ class MollerRun {
   std::int64_t pass_ = 0;
   std::int64_t evaluations_ = 0;
   std::int64_t steps_since_check_ = 0;
-  Eigen::Index steps_since_restart_ = 0;
+  Index steps_since_restart_ = 0;
   int failures_ = 0;
   bool is_new_direction_ = true;
   bool is_anew_ = false;  // cost and r are evaluated at w, not kept by the path

@@ -223,7 +223,7 @@ class NetcgRun {
   Scalar mu_ = 0;
   std::int64_t pass_ = 0;
   std::int64_t evaluations_ = 0;
-  Eigen::Index steps_since_restart_ = 0;
+  Index steps_since_restart_ = 0;
   std::int64_t steps_since_check_ = 0;
   int failures_ = 0;
   int infeasible_ = 0;

@@ -8,8 +8,6 @@
 namespace errmap::fitting {
 namespace {
 
-using Eigen::Index;
-
 // A function that multiversion.h compiles several times takes with it what it
 // calls, if that is inlined.
 #define ERRMAP_INLINE __attribute__((always_inline)) inline

@@ -12,7 +12,6 @@
 namespace errmap::fitting {
 namespace {
 
-using Eigen::Index;
 using stats::DoubleDouble;
 
 // Step of the linearised problem: min |r + J p|; false where J is deficient.
@@ -72,13 +71,13 @@ void KeepBetter(Candidate candidate, Candidate* best) {
 
 }  // namespace
 
-double RegressionObjective::Evaluate(const Eigen::VectorXd& b,
-                                     Eigen::VectorXd* gradient) const {
-  Eigen::VectorXd residuals;
+double RegressionObjective::Evaluate(const VectorXd& b,
+                                     VectorXd* gradient) const {
+  VectorXd residuals;
   if (gradient == nullptr) {
     function_.Evaluate(b, &residuals, nullptr);
   } else {
-    Eigen::MatrixXd jacobian;
+    MatrixXd jacobian;
     function_.Evaluate(b, &residuals, &jacobian);
     *gradient = jacobian.transpose() * residuals;
   }
@@ -103,7 +102,7 @@ RegressionStatistics AssessRegression(const RegressionFunction& function,
   statistics.degrees_of_freedom = n - p;
   const DoubleDouble sum_of_squares = residuals.squaredNorm();
   statistics.residual_sum_of_squares = sum_of_squares.hi;
-  statistics.standard_deviations = Eigen::VectorXd::Constant(p, stats::kNaN);
+  statistics.standard_deviations = VectorXd::Constant(p, stats::kNaN);
   if (!jacobian.cast<double>().allFinite() ||
       !residuals.cast<double>().allFinite()) {
     return statistics;
@@ -171,11 +170,11 @@ PolishedParameters PolishRegression(const RegressionFunction& function,
 }
 
 RegressionFit FitNonlinearRegression(const RegressionFunction& function,
-                                     const Eigen::VectorXd& start,
+                                     const VectorXd& start,
                                      const StoppingRules& stopping) {
   const auto minimize = [&](const Strategy& strategy,
                             const Objective& objective,
-                            const Eigen::VectorXd& from) {
+                            const VectorXd& from) {
     return LevenbergMarquardt({.stopping = stopping,
                                .initial_damping = strategy.initial_damping,
                                .scaling = strategy.scaling,

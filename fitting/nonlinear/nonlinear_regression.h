@@ -2,12 +2,11 @@
 
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "fitting/least_squares/extended_least_squares.h"
 #include "fitting/minimisers/objective.h"
 #include "fitting/minimisers/optimizer.h"
 #include "fitting/nonlinear/dual_number.h"
+#include "stats/eigen.h"
 
 namespace errmap::fitting {
 
@@ -16,15 +15,15 @@ namespace errmap::fitting {
 class RegressionFunction {
  public:
   virtual ~RegressionFunction() = default;
-  virtual Eigen::Index num_parameters() const = 0;
-  virtual Eigen::Index num_observations() const = 0;
+  virtual Index num_parameters() const = 0;
+  virtual Index num_observations() const = 0;
   /// Indices of parameters in which f is jointly linear while the others are
   /// fixed.
-  virtual std::vector<Eigen::Index> linear_parameters() const { return {}; }
+  virtual std::vector<Index> linear_parameters() const { return {}; }
   /// Fills `residuals` (n) and, unless null, `jacobian` (n x p), dr_i/db_j.
-  virtual void Evaluate(const Eigen::VectorXd& b,
-                        Eigen::VectorXd* residuals,
-                        Eigen::MatrixXd* jacobian) const = 0;
+  virtual void Evaluate(const VectorXd& b,
+                        VectorXd* residuals,
+                        MatrixXd* jacobian) const = 0;
   virtual void Evaluate(const ExtendedVector& b,
                         ExtendedVector* residuals,
                         ExtendedMatrix* jacobian) const = 0;
@@ -46,18 +45,18 @@ class FormulaRegression final : public RegressionFunction {
         double_predictors_(predictors_.cast<double>()),
         double_target_(target_.cast<double>()) {}
 
-  Eigen::Index num_parameters() const override { return Formula::kParameters; }
-  Eigen::Index num_observations() const override { return target_.size(); }
-  std::vector<Eigen::Index> linear_parameters() const override {
+  Index num_parameters() const override { return Formula::kParameters; }
+  Index num_observations() const override { return target_.size(); }
+  std::vector<Index> linear_parameters() const override {
     if constexpr (requires { Formula::kLinear; }) {
       return {std::begin(Formula::kLinear), std::end(Formula::kLinear)};
     } else {
       return {};
     }
   }
-  void Evaluate(const Eigen::VectorXd& b,
-                Eigen::VectorXd* residuals,
-                Eigen::MatrixXd* jacobian) const override {
+  void Evaluate(const VectorXd& b,
+                VectorXd* residuals,
+                MatrixXd* jacobian) const override {
     EvaluateIn<double>(
         double_predictors_, double_target_, b, residuals, jacobian);
   }
@@ -79,7 +78,7 @@ class FormulaRegression final : public RegressionFunction {
     using Derived = Dual<Scalar, kParameters>;
     residuals->resize(target.size());
     if (jacobian == nullptr) {
-      for (Eigen::Index i = 0; i < target.size(); ++i) {
+      for (Index i = 0; i < target.size(); ++i) {
         (*residuals)[i] =
             target[i] - Formula::Predict(b.data(), predictors.col(i).data());
       }
@@ -90,7 +89,7 @@ class FormulaRegression final : public RegressionFunction {
     for (int j = 0; j < kParameters; ++j) {
       parameters[static_cast<std::size_t>(j)] = Derived::Parameter(b[j], j);
     }
-    for (Eigen::Index i = 0; i < target.size(); ++i) {
+    for (Index i = 0; i < target.size(); ++i) {
       const Derived prediction =
           Formula::Predict(parameters.data(), predictors.col(i).data());
       (*residuals)[i] = target[i] - prediction.value;
@@ -102,8 +101,8 @@ class FormulaRegression final : public RegressionFunction {
 
   ExtendedMatrix predictors_;  // (k x n)
   ExtendedVector target_;
-  Eigen::MatrixXd double_predictors_;
-  Eigen::VectorXd double_target_;
+  MatrixXd double_predictors_;
+  VectorXd double_target_;
 };
 
 /// f(b) = 1/2 |r(b)|^2 as an Objective for optimizers. `function` must outlive
@@ -113,21 +112,16 @@ class RegressionObjective final : public Objective, private ResidualFunction {
   explicit RegressionObjective(const RegressionFunction& function)
       : function_(function) {}
 
-  Eigen::Index num_parameters() const override {
-    return function_.num_parameters();
-  }
-  double Evaluate(const Eigen::VectorXd& b,
-                  Eigen::VectorXd* gradient) const override;
+  Index num_parameters() const override { return function_.num_parameters(); }
+  double Evaluate(const VectorXd& b, VectorXd* gradient) const override;
   const ResidualFunction* residuals() const override { return this; }
 
  private:
-  Eigen::Index num_residuals() const override {
-    return function_.num_observations();
-  }
+  Index num_residuals() const override { return function_.num_observations(); }
   double ridge() const override { return 0.0; }
-  void Evaluate(const Eigen::VectorXd& b,
-                Eigen::VectorXd* residuals,
-                Eigen::MatrixXd* jacobian) const override {
+  void Evaluate(const VectorXd& b,
+                VectorXd* residuals,
+                MatrixXd* jacobian) const override {
     function_.Evaluate(b, residuals, jacobian);
   }
 
@@ -136,11 +130,11 @@ class RegressionObjective final : public Objective, private ResidualFunction {
 
 /// Results of a regression at given parameters, computed in 106 bits.
 struct RegressionStatistics {
-  Eigen::VectorXd parameters;  // (p)
+  VectorXd parameters;  // (p)
   /// sqrt(s^2 [(J'J)^-1]_jj), s^2 = RSS / (n - p); NaN if J is rank deficient.
-  Eigen::VectorXd standard_deviations;
+  VectorXd standard_deviations;
   double residual_sum_of_squares = 0.0;
-  Eigen::Index degrees_of_freedom = 0;
+  Index degrees_of_freedom = 0;
 };
 
 /// Computes them. Throws std::invalid_argument unless b has size p and n > p.
@@ -185,7 +179,7 @@ struct RegressionFit {
 /// the best run did. Throws std::invalid_argument as Optimizer::Minimize
 /// does.
 RegressionFit FitNonlinearRegression(const RegressionFunction& function,
-                                     const Eigen::VectorXd& start,
+                                     const VectorXd& start,
                                      const StoppingRules& stopping);
 
 }  // namespace errmap::fitting

@@ -8,10 +8,6 @@
 
 namespace errmap::fitting {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 ProjectedObjective::ProjectedObjective(const RegressionFunction& function)
     : function_(function), linear_(function.linear_parameters()) {
   for (Index j = 0; j < function.num_parameters(); ++j) {
@@ -27,9 +23,7 @@ ProjectedObjective::ProjectedObjective(const RegressionFunction& function)
   }
 }
 
-Index ProjectedObjective::num_parameters() const {
-  return static_cast<Index>(others_.size());
-}
+Index ProjectedObjective::num_parameters() const { return std::ssize(others_); }
 
 VectorXd ProjectedObjective::Reduce(const VectorXd& b) const {
   return b(others_);

@@ -2,9 +2,8 @@
 
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "fitting/nonlinear/nonlinear_regression.h"
+#include "stats/eigen.h"
 
 namespace errmap::fitting {
 
@@ -23,27 +22,24 @@ class ProjectedObjective final : public Objective, private ResidualFunction {
   /// parameters.
   explicit ProjectedObjective(const RegressionFunction& function);
 
-  Eigen::Index num_parameters() const override;
-  double Evaluate(const Eigen::VectorXd& a,
-                  Eigen::VectorXd* gradient) const override;
+  Index num_parameters() const override;
+  double Evaluate(const VectorXd& a, VectorXd* gradient) const override;
   const ResidualFunction* residuals() const override { return this; }
 
   /// Reduce returns the parameters a of b (p); Complete adds the best c to a.
-  Eigen::VectorXd Reduce(const Eigen::VectorXd& b) const;
-  Eigen::VectorXd Complete(const Eigen::VectorXd& a) const;
+  VectorXd Reduce(const VectorXd& b) const;
+  VectorXd Complete(const VectorXd& a) const;
 
  private:
-  Eigen::Index num_residuals() const override {
-    return function_.num_observations();
-  }
+  Index num_residuals() const override { return function_.num_observations(); }
   double ridge() const override { return 0.0; }
-  void Evaluate(const Eigen::VectorXd& a,
-                Eigen::VectorXd* residuals,
-                Eigen::MatrixXd* jacobian) const override;
+  void Evaluate(const VectorXd& a,
+                VectorXd* residuals,
+                MatrixXd* jacobian) const override;
 
   const RegressionFunction& function_;
-  std::vector<Eigen::Index> linear_;
-  std::vector<Eigen::Index> others_;
+  std::vector<Index> linear_;
+  std::vector<Index> others_;
 };
 
 }  // namespace errmap::fitting

@@ -14,10 +14,6 @@
 namespace errmap::fitting {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Reordering pays if a branch still has many leaves.
 constexpr Index kFreeColumnsWorthSorting = 6;
@@ -93,7 +89,7 @@ class Search {
       return;
     }
     ++nodes_;
-    const Index size = static_cast<Index>(node.columns.size());
+    const Index size = std::ssize(node.columns);
     if (size - node.fixed >= kFreeColumnsWorthSorting) SortFree(&node);
     // Leading subsets: the response's part in the rows below is their rss.
     const VectorXd response = node.triangle.col(size);
@@ -147,7 +143,7 @@ class Search {
   }
 
   static double RssWithout(const Node& node, Index place) {
-    const Index size = static_cast<Index>(node.columns.size());
+    const Index size = std::ssize(node.columns);
     double rss = node.triangle(size, size) * node.triangle(size, size);
     // Rotating column `place` away moves this much of the response down.
     VectorXd unit = VectorXd::Zero(size);
@@ -164,7 +160,7 @@ class Search {
   // Free columns in falling order of what their loss would cost, so that the
   // branches without the strong ones are cut at once.
   static void SortFree(Node* node) {
-    const Index size = static_cast<Index>(node->columns.size());
+    const Index size = std::ssize(node->columns);
     VectorXd cost(size);
     for (Index place = 0; place < size; ++place) {
       cost[place] = RssWithout(*node, place);
@@ -256,7 +252,7 @@ BestSubsetResult SelectBestSubset(const SelectionProblem& problem,
   }
   VectorXd along;
   const VectorXd residual = basis.Remainder(response, &along);
-  const Index size = static_cast<Index>(root.columns.size());
+  const Index size = std::ssize(root.columns);
   if (static_cast<double>(root.fixed) + 1.0 > n) {
     throw std::invalid_argument(
         "SelectBestSubset: more included terms than rows");

@@ -4,10 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "fitting/information_criteria.h"
 #include "fitting/selection/selection_state.h"
+#include "stats/eigen.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::fitting {
@@ -17,7 +16,7 @@ struct BestSubsetOptions {
   /// residual sum of squares and the number of terms.
   Criterion criterion = Criterion::kBic;
   /// Maximum number of terms; below 0: limited only by the rows.
-  Eigen::Index max_terms = -1;
+  Index max_terms = -1;
   /// Error variance for Cp; NaN: that of the model with all candidates.
   double sigma2 = stats::kNaN;
   /// Candidates determined by earlier ones to this tolerance are skipped; above
@@ -29,11 +28,11 @@ struct BestSubsetOptions {
 };
 
 struct BestSubsetResult {
-  std::vector<Eigen::Index> chosen;   // columns, ascending
-  std::vector<Eigen::Index> aliased;  // skipped
-  double criterion = 0.0;             // its value; adjusted R2 is not negated
-  std::int64_t nodes = 0;             // number of tree nodes visited
-  bool complete = true;               // false: interrupted, best so far
+  std::vector<Index> chosen;   // columns, ascending
+  std::vector<Index> aliased;  // skipped
+  double criterion = 0.0;      // its value; adjusted R2 is not negated
+  std::int64_t nodes = 0;      // number of tree nodes visited
+  bool complete = true;        // false: interrupted, best so far
 };
 
 /// Returns the best subset of the candidates by `options.criterion` among all
@@ -47,7 +46,7 @@ struct BestSubsetResult {
 /// more terms than rows.
 BestSubsetResult SelectBestSubset(
     const SelectionProblem& problem,
-    const std::vector<Eigen::Index>& include,
+    const std::vector<Index>& include,
     const std::vector<bool>& excluded,
     const BestSubsetOptions& options,
     const std::atomic<bool>* stop_token = nullptr);

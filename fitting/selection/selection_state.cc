@@ -10,10 +10,6 @@
 namespace errmap::fitting {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 }  // namespace

@@ -3,28 +3,25 @@
 #include <cstddef>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "fitting/least_squares/linear_least_squares.h"
 #include "fitting/least_squares/orthogonal_basis.h"
+#include "stats/eigen.h"
 
 namespace errmap::fitting {
 
 /// Converts an Eigen index to an index of a std::vector.
-inline std::size_t At(Eigen::Index index) {
-  return static_cast<std::size_t>(index);
-}
+inline std::size_t At(Index index) { return static_cast<std::size_t>(index); }
 
 /// Rows and columns of a least-squares problem whose terms are being selected.
 /// The references must outlive all users of the problem.
 struct SelectionProblem {
-  const Eigen::MatrixXd& candidates;  // X (n x m), without the intercept
-  const Eigen::VectorXd& response;    // y (n)
+  const MatrixXd& candidates;  // X (n x m), without the intercept
+  const VectorXd& response;    // y (n)
   /// (n) not negative, or (0): all equal.
-  const Eigen::VectorXd& weights;
+  const VectorXd& weights;
   /// (n) the intercept's column if the rows are those of a triangle, not
   /// observations; (0): ones.
-  Eigen::VectorXd intercept = {};
+  VectorXd intercept = {};
   /// Number of observations; 0: number of rows with weight above 0.
   double observations = 0.0;
 
@@ -39,10 +36,10 @@ struct SelectionProblem {
 
 /// A term that enters or leaves.
 struct SelectionMove {
-  Eigen::Index candidate = -1;  // -1: none
+  Index candidate = -1;  // -1: none
   bool enters = true;
-  double gain = 0.0;          // change of the residual sum of squares, >= 0
-  Eigen::VectorXd direction;  // (n) unit vector that joins or leaves the span
+  double gain = 0.0;   // change of the residual sum of squares, >= 0
+  VectorXd direction;  // (n) unit vector that joins or leaves the span
 };
 
 /// The chosen terms with an orthonormal basis of their span. For every
@@ -55,15 +52,15 @@ class SelectionState {
  public:
   SelectionState(const SelectionProblem& problem, double collinearity);
 
-  const std::vector<Eigen::Index>& chosen() const { return chosen_; }
-  bool is_chosen(Eigen::Index candidate) const {
+  const std::vector<Index>& chosen() const { return chosen_; }
+  bool is_chosen(Index candidate) const {
     return is_chosen_[static_cast<std::size_t>(candidate)];
   }
   double residual_sum_of_squares() const { return residual_.squaredNorm(); }
   /// sqrt(w) (y - fit) (n).
-  const Eigen::VectorXd& residual() const { return residual_; }
+  const VectorXd& residual() const { return residual_; }
   /// Diagonal of the hat matrix (n).
-  const Eigen::VectorXd& leverage() const { return leverage_; }
+  const VectorXd& leverage() const { return leverage_; }
   /// Residual sums of squares below this are rounding.
   double noise() const { return noise_; }
 
@@ -72,38 +69,38 @@ class SelectionState {
   SelectionMove BestEntry(const std::vector<bool>& open);
   /// Returns the entry of one candidate; its `candidate` is -1 if the chosen
   /// terms determine it.
-  SelectionMove EntryOf(Eigen::Index candidate);
+  SelectionMove EntryOf(Index candidate);
   /// Returns the exits of all chosen terms, in order of entry, with their
   /// directions if requested.
   std::vector<SelectionMove> Exits(bool with_directions) const;
   /// Returns the exit of one chosen term, with its direction.
-  SelectionMove ExitOf(Eigen::Index candidate) const;
+  SelectionMove ExitOf(Index candidate) const;
 
   void Apply(const SelectionMove& move);
 
  private:
-  Eigen::VectorXd WeightedColumn(Eigen::Index candidate) const;
-  Eigen::VectorXd Products(const Eigen::VectorXd& direction) const;
-  void Renew(Eigen::Index candidate);
-  bool IsCollinear(Eigen::Index candidate) const;
+  VectorXd WeightedColumn(Index candidate) const;
+  VectorXd Products(const VectorXd& direction) const;
+  void Renew(Index candidate);
+  bool IsCollinear(Index candidate) const;
 
   const SelectionProblem& problem_;
-  Eigen::VectorXd roots_;     // sqrt of the weights, or (0)
-  Eigen::VectorXd response_;  // weighted
+  VectorXd roots_;     // sqrt of the weights, or (0)
+  VectorXd response_;  // weighted
   double collinearity_;
   double rounding_;  // relative error of a product of two vectors
   double noise_;
   OrthogonalBasis basis_;
-  std::vector<Eigen::Index> chosen_;
+  std::vector<Index> chosen_;
   std::vector<bool> is_chosen_;
-  Eigen::VectorXd residual_;
-  Eigen::VectorXd leverage_;
+  VectorXd residual_;
+  VectorXd leverage_;
   // For each candidate:
-  Eigen::VectorXd length_;        // |x|
-  Eigen::VectorXd rest_squared_;  // z'z
-  Eigen::VectorXd rest_error_;
-  Eigen::VectorXd product_;  // z'y
-  Eigen::VectorXd product_error_;
+  VectorXd length_;        // |x|
+  VectorXd rest_squared_;  // z'z
+  VectorXd rest_error_;
+  VectorXd product_;  // z'y
+  VectorXd product_error_;
   std::vector<bool> is_fresh_;      // both are exact for the present span
   std::vector<bool> is_collinear_;  // until a term leaves
 };

@@ -10,15 +10,10 @@
 #include "fitting/least_squares/linear_least_squares.h"
 #include "fitting/selection/swept_candidates.h"
 #include "stats/f_test.h"
-#include "stats/not_a_number.h"
 #include "stats/require.h"
 
 namespace errmap::fitting {
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 // A leverage this near to 1 is 1: the row has a coefficient to itself.
@@ -90,8 +85,7 @@ class Selection {
         result.ended = "interrupted";
         break;
       }
-      const bool too_many =
-          static_cast<Index>(state_.chosen().size()) > most_terms_;
+      const bool too_many = std::ssize(state_.chosen()) > most_terms_;
       SelectionMove move = FindMove(too_many);
       if (move.candidate < 0) {
         result.ended = why_none_;
@@ -250,9 +244,8 @@ class Selection {
     for (std::size_t j = 0; j < open.size(); ++j) {
       open[j] = MayEnter(static_cast<Index>(j));
     }
-    at_most_terms_ =
-        static_cast<Index>(state_.chosen().size()) >= most_terms_ &&
-        std::ranges::count(open, true) > 0;
+    at_most_terms_ = std::ssize(state_.chosen()) >= most_terms_ &&
+                     std::ranges::count(open, true) > 0;
     if (at_most_terms_) {
       why_none_ = "no more terms are allowed";
       return {};
@@ -337,7 +330,7 @@ class Selection {
     SelectionStep step;
     step.candidate = move.candidate;
     step.entered = move.enters;
-    step.terms = static_cast<Index>(state_.chosen().size());
+    step.terms = std::ssize(state_.chosen());
     VectorXd residual = state_.residual();
     VectorXd leverage = state_.leverage();
     const double before = state_.residual_sum_of_squares();
@@ -380,7 +373,7 @@ class Selection {
     if (move.candidate >= 0 && move.enters) terms.push_back(move.candidate);
     if (move.candidate >= 0 && !move.enters) std::erase(terms, move.candidate);
     const Index rows = problem_.response.size();
-    MatrixXd design(rows, static_cast<Index>(terms.size()) + 1);
+    MatrixXd design(rows, std::ssize(terms) + 1);
     design.col(0) = problem_.intercept.size() != 0 ? problem_.intercept
                                                    : VectorXd::Ones(rows);
     design.rightCols(design.cols() - 1) =
@@ -412,7 +405,7 @@ class Selection {
         options_.choose != Criterion::kNone) {
       double lowest = kNoLimit;
       for (std::size_t i = 0; i < models.size(); ++i) {
-        const bool fits = static_cast<Index>(models[i].size()) <= most_terms_;
+        const bool fits = std::ssize(models[i]) <= most_terms_;
         const double value = result->steps[i].ValueOf(options_.choose);
         if (fits && value < lowest) {
           lowest = value;

@@ -4,11 +4,10 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "fitting/fold_codes.h"
 #include "fitting/information_criteria.h"
 #include "fitting/selection/selection_state.h"
+#include "stats/eigen.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::fitting {
@@ -33,7 +32,7 @@ struct StepwiseOptions {
   double remove = 0.10;
   Heredity heredity = Heredity::kNone;
   /// Maximum number of terms; below 0: limited only by the rows.
-  Eigen::Index max_terms = -1;
+  Index max_terms = -1;
   /// A candidate is skipped while its part orthogonal to the chosen terms is
   /// shorter than this times the candidate; above 0, below 1. R's lm has 1e-7.
   double collinearity = 1e-7;
@@ -48,21 +47,21 @@ struct StepwiseOptions {
 
 /// Rules for entering and leaving.
 struct TermRules {
-  std::vector<Eigen::Index> include;  // always in, in this order
-  std::vector<bool> excluded;         // (m) never in; empty: none
+  std::vector<Index> include;  // always in, in this order
+  std::vector<bool> excluded;  // (m) never in; empty: none
   /// (m) columns of the terms with one power less; -1 for one that is not a
   /// candidate. Empty: no heredity.
-  std::vector<std::vector<Eigen::Index>> parents;
+  std::vector<std::vector<Index>> parents;
   FoldCodes folds;  // for CV; without codes: none
 };
 
 /// One step of a selection; NaN if not computed or not defined.
 struct SelectionStep {
-  Eigen::Index candidate = -1;           // -1: the start
+  Index candidate = -1;                  // -1: the start
   double residual_sum_of_squares = 0.0;  // weighted
   double bic = 0.0;
   bool entered = true;
-  Eigen::Index terms = 0;  // after the step, without the intercept
+  Index terms = 0;  // after the step, without the intercept
   /// Partial F of the term that entered or left (1 and n - k degrees of
   /// freedom, k coefficients of the larger model) and its p.
   double f = stats::kNaN;
@@ -82,12 +81,12 @@ struct SelectionStep {
 };
 
 struct SelectionResult {
-  std::vector<Eigen::Index> chosen;  // columns of the design, in order of entry
+  std::vector<Index> chosen;         // columns of the design, in order of entry
   std::vector<SelectionStep> steps;  // the start and each move
   std::size_t chosen_step = 0;       // the step whose model was chosen
-  std::vector<Eigen::Index> aliased_includes;  // determined by earlier ones
-  std::string ended;           // why the selection ended, as text
-  bool at_most_terms = false;  // ... because of max_terms
+  std::vector<Index> aliased_includes;  // determined by earlier ones
+  std::string ended;                    // why the selection ended, as text
+  bool at_most_terms = false;           // ... because of max_terms
 };
 
 /// Stepwise selection. Starts from the intercept and `rules.include` (backward:
@@ -106,7 +105,7 @@ SelectionResult SelectStepwise(const SelectionProblem& problem,
 
 /// A candidate outside a model.
 struct ExcludedTerm {
-  Eigen::Index candidate = -1;
+  Index candidate = -1;
   bool aliased = false;    // the model's terms determine it
   double f = stats::kNaN;  // if it entered now
   double p = stats::kNaN;
@@ -117,14 +116,14 @@ struct ExcludedTerm {
 /// becomes true (null: never).
 std::vector<ExcludedTerm> JudgeExcluded(
     const SelectionProblem& problem,
-    const std::vector<Eigen::Index>& chosen,
+    const std::vector<Index>& chosen,
     double collinearity,
     const std::atomic<bool>* stop_token = nullptr);
 
 /// Returns the sum of squared errors over the judged folds (FoldCodes). Each is
 /// predicted by the terms in `design` (n x k, with intercept and weights).
-double CrossValidatedError(const Eigen::MatrixXd& design,
-                           const Eigen::VectorXd& response,
+double CrossValidatedError(const MatrixXd& design,
+                           const VectorXd& response,
                            const FoldCodes& folds);
 
 }  // namespace errmap::fitting

@@ -10,9 +10,6 @@
 namespace errmap::fitting {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 constexpr std::ptrdiff_t kLanes = 16;
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 // A leverage this near to 1 is 1: the row has a coefficient to itself.

@@ -2,9 +2,8 @@
 
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "fitting/selection/selection_state.h"
+#include "stats/eigen.h"
 
 namespace errmap::fitting {
 
@@ -21,33 +20,33 @@ class SweptCandidates {
                   double collinearity);
 
   /// Switches to the terms `chosen`; cheap if it only grew, else rebuilds.
-  void Follow(const std::vector<Eigen::Index>& chosen);
+  void Follow(const std::vector<Index>& chosen);
 
   /// Returns PRESS, the sum over rows of (e / (1 - h))^2, after entry of each
   /// candidate. Infinite if a leverage is 1, for those determined by the chosen
   /// terms and those not `open`. All rows must be fitted.
-  Eigen::VectorXd PressAfterEntry(const Eigen::VectorXd& leverage,
-                                  const std::vector<bool>& open) const;
+  VectorXd PressAfterEntry(const VectorXd& leverage,
+                           const std::vector<bool>& open) const;
 
   /// Returns the squared error on the held-out rows after entry of each
   /// candidate in `open`. One determined on the fitted rows adds nothing.
-  Eigen::VectorXd HeldOutErrorAfterEntry(const std::vector<bool>& open) const;
+  VectorXd HeldOutErrorAfterEntry(const std::vector<bool>& open) const;
 
  private:
   void Reset();
-  void SweepOut(const Eigen::VectorXd& column);
-  double SquaredRest(Eigen::Index candidate) const;
+  void SweepOut(const VectorXd& column);
+  double SquaredRest(Index candidate) const;
 
   const SelectionProblem& problem_;
   double collinearity_;
-  Eigen::VectorXd fitted_;    // (n) 1 or 0
-  Eigen::VectorXd held_out_;  // (n) 1 or 0
+  VectorXd fitted_;    // (n) 1 or 0
+  VectorXd held_out_;  // (n) 1 or 0
   bool all_fitted_;
-  Eigen::VectorXd roots_;  // (n)
-  Eigen::MatrixXd rest_;   // (n x m)
-  Eigen::VectorXd least_;  // (m) squared lengths that count as collinear
-  Eigen::VectorXd error_;  // (n) sqrt(w) (y - fit), in all rows
-  std::vector<Eigen::Index> chosen_;
+  VectorXd roots_;  // (n)
+  MatrixXd rest_;   // (n x m)
+  VectorXd least_;  // (m) squared lengths that count as collinear
+  VectorXd error_;  // (n) sqrt(w) (y - fit), in all rows
+  std::vector<Index> chosen_;
 };
 
 }  // namespace errmap::fitting

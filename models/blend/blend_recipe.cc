@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include "models/averaged_model.h"
@@ -20,17 +19,15 @@
 #include "models/inner_folds.h"
 #include "models/net/net_recipe.h"
 #include "models/option_list.h"
-#include "models/polynomial/penalized_candidates.h"
+#include "models/polynomial/penalized_fit.h"
 #include "models/polynomial/polynomial_model.h"
+#include "stats/eigen.h"
 #include "stats/indices.h"
 
 namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-using Eigen::VectorXd;
-
 // Which candidates an average is of.
 enum class Among { kAll, kStraight };
 
@@ -67,7 +64,7 @@ VectorXd WeightsAmong(const std::vector<Score>& scores,
                       Among among,
                       double power) {
   const double least = LeastOf(scores, among);
-  VectorXd weights = VectorXd::Zero(static_cast<Index>(scores.size()));
+  VectorXd weights = VectorXd::Zero(std::ssize(scores));
   for (std::size_t i = 0; i < scores.size(); ++i) {
     const Score& score = scores[i];
     if (std::isnan(score.rmse)) continue;
@@ -343,7 +340,7 @@ class BlendRecipe final : public ModelRecipe {
           MakeGuards(fitted.inputs, training.target_values(), grows);
     }
     fitted.model = std::make_shared<AveragedModel>(
-        static_cast<Index>(all.size()), "likelihood", std::move(members));
+        std::ssize(all), "likelihood", std::move(members));
     if (!history.derived.empty()) {
       fitted = WithHistory(std::move(fitted), training, history);
     }

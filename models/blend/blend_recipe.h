@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "models/error_model.h"
-#include "models/model_options.h"
 #include "models/polynomial/polynomial_options.h"
 
 namespace errmap::models {

@@ -11,20 +11,19 @@ namespace errmap::models {
 namespace {
 
 std::shared_ptr<const ErrorModel> ModelOf(PolynomialForm form,
-                                          Eigen::Index parameters) {
+                                          Index parameters) {
   return std::make_shared<PolynomialModel>(std::move(form), parameters);
 }
 
-std::shared_ptr<const ErrorModel> ModelOf(NetForm form,
-                                          Eigen::Index /*parameters*/) {
+std::shared_ptr<const ErrorModel> ModelOf(NetForm form, Index /*parameters*/) {
   return std::make_shared<FeedforwardNet>(std::move(form));
 }
 
 std::shared_ptr<const ErrorModel> ModelOf(BlendForm form,
-                                          Eigen::Index /*parameters*/) {
+                                          Index /*parameters*/) {
   std::vector<AveragedMember> members;
   for (BlendForm::Member& member : form.members) {
-    const Eigen::Index parameters = member.parameters;
+    const Index parameters = member.parameters;
     members.push_back(
         {std::move(member.name),
          member.weight,
@@ -40,7 +39,7 @@ std::shared_ptr<const ErrorModel> ModelOf(BlendForm form,
 }
 
 std::shared_ptr<const ErrorModel> ModelOf(const OpaqueForm& form,
-                                          Eigen::Index /*parameters*/) {
+                                          Index /*parameters*/) {
   RequireFormula(form, "a model from plain data");
   return nullptr;
 }
@@ -48,7 +47,7 @@ std::shared_ptr<const ErrorModel> ModelOf(const OpaqueForm& form,
 }  // namespace
 
 std::shared_ptr<const ErrorModel> ModelOfForm(ModelDescription form,
-                                              Eigen::Index parameters) {
+                                              Index parameters) {
   return std::visit(
       [&](auto& known) { return ModelOf(std::move(known), parameters); }, form);
 }

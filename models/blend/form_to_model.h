@@ -2,9 +2,8 @@
 
 #include <memory>
 
-#include <Eigen/Core>
-
 #include "models/error_model.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -12,6 +11,6 @@ namespace errmap::models {
 /// tells whether its intercept is one. Throws std::invalid_argument if the form
 /// is inconsistent.
 std::shared_ptr<const ErrorModel> ModelOfForm(ModelDescription form,
-                                              Eigen::Index parameters);
+                                              Index parameters);
 
 }  // namespace errmap::models

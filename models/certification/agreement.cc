@@ -1,16 +1,10 @@
-
-
 #include "fitting/parallel_for.h"
 #include "models/certification/certification.h"
-#include "models/certification/net_example.h"
-#include "models/certification/solvers.h"
+#include "models/certification/parts.h"
 #include "models/net/feedforward_net.h"
 
 namespace errmap::models {
 namespace {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 // Outputs z (P x 1) of the net, by the formulas as they stand (Eq. 14-18).
 VectorXd Predict(const NetExampleShape& example, const VectorXd& w) {

@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "fitting/minimisers/objective.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -160,7 +159,7 @@ void CertifyAgreement(Certification* certification);
 /// point, for a minimum, where the gradient vanishes; 0: the largest at x.
 void CertifyGradient(const std::string& name,
                      const fitting::Objective& f,
-                     const Eigen::VectorXd& x,
+                     const VectorXd& x,
                      double gradient_size,
                      Certification* certification);
 

@@ -7,16 +7,11 @@
 #include "fitting/minimisers/scaled_conjugate_gradient.h"
 #include "fitting/nonlinear/variable_projection.h"
 #include "models/certification/certification.h"
-#include "models/certification/net_example.h"
-#include "models/certification/strd_functions.h"
+#include "models/certification/parts.h"
 #include "models/net/feedforward_net.h"
 
 namespace errmap::models {
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 // v'r(x) of residuals r: its gradient J'v has a share of every entry of J, and
 // does not vanish where J'r does.

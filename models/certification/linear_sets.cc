@@ -7,7 +7,7 @@
 #include "data/measurements/dataset.h"
 #include "data/text.h"
 #include "models/certification/certification.h"
-#include "models/certification/strd_functions.h"
+#include "models/certification/parts.h"
 #include "models/recipe_catalog.h"
 #include "models/regression_record.h"
 #include "stats/extended_summary.h"
@@ -63,10 +63,10 @@ LinearCertificate Certify(const data::StrdProblem& problem) {
   for (const CoefficientRecord& line : fitted.regression->coefficients) {
     row.estimates.push_back({line.term, line.estimate, line.standard_error});
   }
-  const auto count = static_cast<Eigen::Index>(row.estimates.size());
-  Eigen::VectorXd coefficients(count);
-  Eigen::VectorXd deviations(count);
-  for (Eigen::Index j = 0; j < count; ++j) {
+  const auto count = std::ssize(row.estimates);
+  VectorXd coefficients(count);
+  VectorXd deviations(count);
+  for (Index j = 0; j < count; ++j) {
     const CertifiedEstimate& found = row.estimates[static_cast<std::size_t>(j)];
     coefficients[j] = found.estimate;
     deviations[j] = found.standard_deviation;
@@ -98,7 +98,7 @@ void CertifyUnivariate(Certification* certification) {
   for (const data::StrdProblem& problem : data::StrdProblems()) {
     if (problem.kind != data::StrdKind::kUnivariate) continue;
     const ExtendedVector sample = StrdColumn(problem, 0);
-    const Eigen::VectorXd doubles = sample.cast<double>();
+    const VectorXd doubles = sample.cast<double>();
     const stats::SampleSummary plain = stats::Summarize(doubles);
     const stats::ExtendedSummary extended = stats::SummarizeExtended(sample);
     UnivariateCertificate row{.problem = problem.name};

@@ -1,11 +1,8 @@
-#include "models/certification/net_example.h"
-
 #include <cmath>
 
-namespace errmap::models {
+#include "models/certification/parts.h"
 
-using Eigen::Index;
-using Eigen::MatrixXd;
+namespace errmap::models {
 
 const std::vector<NetExampleShape>& NetExampleShapes() {
   static const std::vector<NetExampleShape> kShapes{

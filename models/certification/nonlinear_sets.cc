@@ -2,8 +2,7 @@
 
 #include "fitting/parallel_for.h"
 #include "models/certification/certification.h"
-#include "models/certification/solvers.h"
-#include "models/certification/strd_functions.h"
+#include "models/certification/parts.h"
 #include "stats/lre.h"
 
 namespace errmap::models {
@@ -66,7 +65,7 @@ void JudgeRow(const data::StrdProblem& problem,
       statistics.standard_deviations, CertifiedDeviations(problem), kCap);
   row->rss = statistics.residual_sum_of_squares;
   for (std::size_t j = 0; j < problem.parameters.size(); ++j) {
-    const auto at = static_cast<Eigen::Index>(j);
+    const auto at = static_cast<Index>(j);
     row->estimates.push_back({problem.parameters[j].name,
                               statistics.parameters[at],
                               statistics.standard_deviations[at]});
@@ -89,7 +88,7 @@ NonlinearCertificate RunCase(const Case& run) {
           problem.name,
           run.solver == nullptr ? kDefaultSolver : run.solver->name)};
   const auto function = MakeStrdFunction(problem);
-  const Eigen::VectorXd start = StrdStart(problem, run.start);
+  const VectorXd start = StrdStart(problem, run.start);
   try {
     fitting::FitSummary summary;
     RegressionStatistics statistics;

@@ -1,14 +1,14 @@
-#include "models/certification/strd_functions.h"
-
+#include <array>
 #include <cmath>
 #include <map>
 #include <stdexcept>
 #include <string>
 
+#include "models/certification/parts.h"
+
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
 using fitting::ExtendedMatrix;
 using fitting::ExtendedVector;
 using stats::DoubleDouble;
@@ -25,64 +25,59 @@ T Square(const T& x) {
   return x * x;
 }
 
+// How many parameters a model has, and which of them are linear.
+template <int kNumber, int... kIndices>
+struct Form {
+  static constexpr int kParameters = kNumber;
+  static constexpr std::array<int, sizeof...(kIndices)> kLinear = {kIndices...};
+};
+
+using std::atan;
+using std::cos;
+using std::exp;
+using std::pow;
+using std::sin;
+
 // NIST's models; b[0] is b1. Written so that X (data) and T (parameters, with
 // derivatives) mix: constants become T where they meet one.
-struct Bennett5 {
-  static constexpr int kParameters = 3;
-  static constexpr int kLinear[] = {0};
+struct Bennett5 : Form<3, 0> {
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
-    using std::pow;
     return b[0] * pow(b[1] + T(x[0]), T(X(-1.0)) / b[2]);
   }
 };
 
-struct BoxBod {  // and Misra1a
-  static constexpr int kParameters = 2;
-  static constexpr int kLinear[] = {0};
+struct BoxBod : Form<2, 0> {  // and Misra1a
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
-    using std::exp;
     return b[0] * (T(X(1.0)) - exp(-b[1] * T(x[0])));
   }
 };
 
-struct Chwirut {
-  static constexpr int kParameters = 3;
+struct Chwirut : Form<3> {
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
-    using std::exp;
     return exp(-b[0] * T(x[0])) / (b[1] + b[2] * T(x[0]));
   }
 };
 
-struct DanWood {
-  static constexpr int kParameters = 2;
-  static constexpr int kLinear[] = {0};
+struct DanWood : Form<2, 0> {
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
-    using std::pow;
     return b[0] * pow(T(x[0]), b[1]);
   }
 };
 
-struct Eckerle4 {
-  static constexpr int kParameters = 3;
-  static constexpr int kLinear[] = {0};
+struct Eckerle4 : Form<3, 0> {
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
-    using std::exp;
     return b[0] / b[1] * exp(T(X(-0.5)) * Square<T>((T(x[0]) - b[2]) / b[1]));
   }
 };
 
-struct Enso {
-  static constexpr int kParameters = 9;
-  static constexpr int kLinear[] = {0, 1, 2, 4, 5, 7, 8};
+struct Enso : Form<9, 0, 1, 2, 4, 5, 7, 8> {
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
-    using std::cos;
-    using std::sin;
     const X turn = X(2.0) * Pi<X>() * x[0];
     const T year = T(turn / X(12.0));
     const T second = T(turn) / b[3];
@@ -92,21 +87,16 @@ struct Enso {
   }
 };
 
-struct Gauss {
-  static constexpr int kParameters = 8;
-  static constexpr int kLinear[] = {0, 2, 5};
+struct Gauss : Form<8, 0, 2, 5> {
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
-    using std::exp;
     return b[0] * exp(-b[1] * T(x[0])) +
            b[2] * exp(-Square<T>((T(x[0]) - b[3]) / b[4])) +
            b[5] * exp(-Square<T>((T(x[0]) - b[6]) / b[7]));
   }
 };
 
-struct CubicOverCubic {  // Hahn1, Thurber
-  static constexpr int kParameters = 7;
-  static constexpr int kLinear[] = {0, 1, 2, 3};
+struct CubicOverCubic : Form<7, 0, 1, 2, 3> {  // Hahn1, Thurber
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
     const T t(x[0]);
@@ -115,9 +105,7 @@ struct CubicOverCubic {  // Hahn1, Thurber
   }
 };
 
-struct Kirby2 {
-  static constexpr int kParameters = 5;
-  static constexpr int kLinear[] = {0, 1, 2};
+struct Kirby2 : Form<5, 0, 1, 2> {
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
     const T t(x[0]);
@@ -125,21 +113,16 @@ struct Kirby2 {
   }
 };
 
-struct Lanczos {
-  static constexpr int kParameters = 6;
-  static constexpr int kLinear[] = {0, 2, 4};
+struct Lanczos : Form<6, 0, 2, 4> {
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
-    using std::exp;
     const T t(x[0]);
     return b[0] * exp(-b[1] * t) + b[2] * exp(-b[3] * t) +
            b[4] * exp(-b[5] * t);
   }
 };
 
-struct Mgh09 {
-  static constexpr int kParameters = 4;
-  static constexpr int kLinear[] = {0};
+struct Mgh09 : Form<4, 0> {
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
     const T t(x[0]);
@@ -147,30 +130,22 @@ struct Mgh09 {
   }
 };
 
-struct Mgh10 {
-  static constexpr int kParameters = 3;
-  static constexpr int kLinear[] = {0};
+struct Mgh10 : Form<3, 0> {
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
-    using std::exp;
     return b[0] * exp(b[1] / (T(x[0]) + b[2]));
   }
 };
 
-struct Mgh17 {
-  static constexpr int kParameters = 5;
-  static constexpr int kLinear[] = {0, 1, 2};
+struct Mgh17 : Form<5, 0, 1, 2> {
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
-    using std::exp;
     const T t(x[0]);
     return b[0] + b[1] * exp(-t * b[3]) + b[2] * exp(-t * b[4]);
   }
 };
 
-struct Misra1b {
-  static constexpr int kParameters = 2;
-  static constexpr int kLinear[] = {0};
+struct Misra1b : Form<2, 0> {
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
     const T one(X(1.0));
@@ -179,20 +154,15 @@ struct Misra1b {
   }
 };
 
-struct Misra1c {
-  static constexpr int kParameters = 2;
-  static constexpr int kLinear[] = {0};
+struct Misra1c : Form<2, 0> {
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
-    using std::pow;
     const T one(X(1.0));
     return b[0] * (one - pow(one + T(X(2.0)) * b[1] * T(x[0]), T(X(-0.5))));
   }
 };
 
-struct Misra1d {
-  static constexpr int kParameters = 2;
-  static constexpr int kLinear[] = {0};
+struct Misra1d : Form<2, 0> {
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
     const T product = b[1] * T(x[0]);
@@ -200,44 +170,31 @@ struct Misra1d {
   }
 };
 
-struct Nelson {  // of log y
-  static constexpr int kParameters = 3;
-  static constexpr int kLinear[] = {0, 1};
+struct Nelson : Form<3, 0, 1> {  // of log y
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
-    using std::exp;
     return b[0] - b[1] * T(x[0]) * exp(-b[2] * T(x[1]));
   }
 };
 
-struct Rat42 {
-  static constexpr int kParameters = 3;
-  static constexpr int kLinear[] = {0};
+struct Rat42 : Form<3, 0> {
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
-    using std::exp;
     return b[0] / (T(X(1.0)) + exp(b[1] - b[2] * T(x[0])));
   }
 };
 
-struct Rat43 {
-  static constexpr int kParameters = 4;
-  static constexpr int kLinear[] = {0};
+struct Rat43 : Form<4, 0> {
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
-    using std::exp;
-    using std::pow;
     const T one(X(1.0));
     return b[0] / pow(one + exp(b[1] - b[2] * T(x[0])), one / b[3]);
   }
 };
 
-struct Roszman1 {
-  static constexpr int kParameters = 4;
-  static constexpr int kLinear[] = {0, 1};
+struct Roszman1 : Form<4, 0, 1> {
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
-    using std::atan;
     return b[0] - b[1] * T(x[0]) - atan(b[2] / (T(x[0]) - b[3])) / T(Pi<X>());
   }
 };
@@ -272,8 +229,8 @@ const std::map<std::string, FunctionMaker>& Makers() {
 }
 
 template <typename Text>
-Eigen::VectorXd ParameterNumbers(const data::StrdProblem& problem, Text text) {
-  Eigen::VectorXd numbers(static_cast<Index>(problem.parameters.size()));
+VectorXd ParameterNumbers(const data::StrdProblem& problem, Text text) {
+  VectorXd numbers(std::ssize(problem.parameters));
   for (std::size_t j = 0; j < problem.parameters.size(); ++j) {
     numbers[static_cast<Index>(j)] =
         stats::ParseDoubleDouble(problem.parameters[j].*text).hi;
@@ -285,7 +242,7 @@ Eigen::VectorXd ParameterNumbers(const data::StrdProblem& problem, Text text) {
 
 ExtendedVector StrdColumn(const data::StrdProblem& problem,
                           std::size_t column) {
-  ExtendedVector values(static_cast<Index>(problem.rows.size()));
+  ExtendedVector values(std::ssize(problem.rows));
   for (std::size_t i = 0; i < problem.rows.size(); ++i) {
     values[static_cast<Index>(i)] =
         stats::ParseDoubleDouble(problem.rows[i].at(column));
@@ -304,14 +261,12 @@ std::unique_ptr<fitting::RegressionFunction> MakeStrdFunction(
   if (problem.name == "Nelson") {
     for (DoubleDouble& y : target) y = log(y);
   }
-  ExtendedMatrix predictors(target.size(),
-                            static_cast<Index>(problem.columns.size()) - 1);
+  ExtendedMatrix predictors(target.size(), std::ssize(problem.columns) - 1);
   for (std::size_t j = 1; j < problem.columns.size(); ++j) {
     predictors.col(static_cast<Index>(j) - 1) = StrdColumn(problem, j);
   }
   auto function = maker->second(std::move(predictors), std::move(target));
-  if (function->num_parameters() !=
-      static_cast<Index>(problem.parameters.size())) {
+  if (function->num_parameters() != std::ssize(problem.parameters)) {
     throw std::invalid_argument("MakeStrdFunction: " + problem.name + " has " +
                                 std::to_string(function->num_parameters()) +
                                 " parameters, found " +
@@ -320,15 +275,15 @@ std::unique_ptr<fitting::RegressionFunction> MakeStrdFunction(
   return function;
 }
 
-Eigen::VectorXd CertifiedParameters(const data::StrdProblem& problem) {
+VectorXd CertifiedParameters(const data::StrdProblem& problem) {
   return ParameterNumbers(problem, &data::StrdParameter::certified);
 }
 
-Eigen::VectorXd CertifiedDeviations(const data::StrdProblem& problem) {
+VectorXd CertifiedDeviations(const data::StrdProblem& problem) {
   return ParameterNumbers(problem, &data::StrdParameter::standard_deviation);
 }
 
-Eigen::VectorXd StrdStart(const data::StrdProblem& problem, int start) {
+VectorXd StrdStart(const data::StrdProblem& problem, int start) {
   if (start != 1 && start != 2) {
     throw std::invalid_argument("StrdStart: start must be 1 or 2, found " +
                                 std::to_string(start));

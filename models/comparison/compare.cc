@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "data/csv.h"
-#include "models/comparison/component_plan.h"
 #include "models/record.h"
 #include "models/study/study_defaults.h"
 

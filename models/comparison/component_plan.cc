@@ -16,7 +16,7 @@
 namespace errmap::models {
 namespace {
 
-Eigen::Index FewestTrainingRows(const ComponentStudy& component) {
+Index FewestTrainingRows(const ComponentStudy& component) {
   constexpr std::size_t kFewestUsable = 2;
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   for (const Holdout& holdout : component.holdouts) {
@@ -31,13 +31,13 @@ Eigen::Index FewestTrainingRows(const ComponentStudy& component) {
         data::PrintablePath(component.data.dataset.source()),
         fewest));
   }
-  return static_cast<Eigen::Index>(fewest);
+  return static_cast<Index>(fewest);
 }
 
 std::vector<std::unique_ptr<ModelRecipe>> MakeRecipes(
     const std::vector<std::string>& specs,
     const data::Dataset& dataset,
-    Eigen::Index fewest_training_rows,
+    Index fewest_training_rows,
     std::vector<std::string>* left_out,
     OwnRecipes own) {
   std::vector<std::unique_ptr<ModelRecipe>> recipes;

@@ -1,19 +1,16 @@
-#include "models/export/c_code.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "models/export/c_language.h"
+#include "models/export/program/run_program.h"
 #include "models/export/program/safe_names.h"
-#include "models/export/program/saved_state.h"
+#include "models/export/program_text.h"
 #include "models/history/lag.h"
 
 namespace errmap::models {
 namespace {
-
-using Eigen::Index;
 
 class CWriter {
  public:
@@ -183,7 +180,7 @@ std::string CWriter::CellTables() const {
 std::string CWriter::Tables() const {
   std::string text;
   for (std::size_t form = 0; form < program_.forms.size(); ++form) {
-    const Eigen::MatrixXd& states = program_.forms[form].states;
+    const MatrixXd& states = program_.forms[form].states;
     if (states.size() == 0) continue;
     text += fmt::format("\nstatic const double {}_states{}[{}][{}] = {{\n",
                         name_,
@@ -198,11 +195,10 @@ std::string CWriter::Tables() const {
     text += "};\n";
   }
   for (std::size_t k = 0; k < program_.tables.size(); ++k) {
-    const Eigen::MatrixXd& table = program_.tables[k];
+    const MatrixXd& table = program_.tables[k];
     const bool single =
         precision_ == Precision::kSingle && !program_.IsTableDouble(k);
-    const auto list = [&](const Eigen::VectorXd& values,
-                          const std::string& indent) {
+    const auto list = [&](const VectorXd& values, const std::string& indent) {
       std::vector<std::string> numbers;
       for (const double value : values) {
         numbers.push_back(language_.Number(value, single));

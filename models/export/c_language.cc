@@ -98,8 +98,7 @@ Lines CLanguage::Bound(const std::string& condition,
 
 // Input by input, a few outputs side by side: as many sums as registers hold
 // go on at once, each still in the order of the inputs.
-Lines CLanguage::Affine(const Instruction& it,
-                        const Eigen::MatrixXd& table) const {
+Lines CLanguage::Affine(const Instruction& it, const MatrixXd& table) const {
   constexpr int kAtOnce = 8;
   const std::string from = ArrayAt(it.a, "i");
   Lines lines{fmt::format("for (j = 0; j < {}; ++j) {} = {}_bias{}[j];",

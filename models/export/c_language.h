@@ -29,8 +29,7 @@ class CLanguage final : public Language {
               const std::string& to,
               const std::string& value,
               bool guards) const override;
-  Lines Affine(const Instruction& it,
-               const Eigen::MatrixXd& table) const override;
+  Lines Affine(const Instruction& it, const MatrixXd& table) const override;
   Lines Sigmoids(const Instruction& it) const override;
 
   std::string name_;

@@ -8,9 +8,9 @@
 #include "data/argument_name.h"
 #include "data/measurements/row_filters.h"
 #include "data/way_words.h"
-#include "models/export/program/map_pair.h"
+#include "models/export/program/map_program.h"
+#include "models/export/program/run_program.h"
 #include "models/export/program/safe_names.h"
-#include "models/export/program/saved_state.h"
 
 namespace errmap::models {
 

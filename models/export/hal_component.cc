@@ -1,14 +1,12 @@
-#include "models/export/hal_component.h"
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
-#include "models/export/c_code.h"
 #include "models/export/program/error_curve.h"
 #include "models/export/program/safe_names.h"
+#include "models/export/program_text.h"
 
 namespace errmap::models {
 namespace {

@@ -78,7 +78,7 @@ class Language {
                       const std::string& value,
                       bool guards) const = 0;
   virtual Lines Affine(const Instruction& instruction,
-                       const Eigen::MatrixXd& table) const = 0;
+                       const MatrixXd& table) const = 0;
   /// kSigmoid of more than one value.
   virtual Lines Sigmoids(const Instruction& instruction) const = 0;
 

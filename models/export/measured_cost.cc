@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "data/files/atomic_file.h"
-#include "models/export/c_code.h"
 #include "models/export/program/safe_names.h"
+#include "models/export/program_text.h"
 
 namespace errmap::models {
 namespace {
@@ -125,7 +125,7 @@ int main(void) {{
 std::string TimerText(const MapExport& map) {
   // Of what sensors move between rows, so much in a step: none jumps.
   constexpr double kShare = 0.01;
-  const Eigen::VectorXd mean = MeanReadings(map.program);
+  const VectorXd mean = MeanReadings(map.program);
   std::string rows;
   // Within the trained range, where a controller is.
   std::size_t count = 0;
@@ -133,7 +133,7 @@ std::string TimerText(const MapExport& map) {
     if ((row.status & (kMapOutside | kMapNotTaken)) != 0) continue;
     std::string numbers;
     for (std::size_t i = 0; i < map.program.readings.size(); ++i) {
-      const auto at = static_cast<Eigen::Index>(i);
+      const auto at = static_cast<Index>(i);
       const double share = map.program.readings[i].is_position ? 1.0 : kShare;
       numbers +=
           RealText(mean[at] + share * (row.readings[at] - mean[at])) + ", ";

@@ -1,18 +1,15 @@
-#include "models/export/python_code.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "models/export/program/run_program.h"
 #include "models/export/program/safe_names.h"
-#include "models/export/program/saved_state.h"
+#include "models/export/program_text.h"
 #include "models/history/lag.h"
 
 namespace errmap::models {
 namespace {
-
-using Eigen::Index;
 
 constexpr Syntax kPython{.conjunction = "and",
                          .disjunction = "or",
@@ -96,8 +93,7 @@ class PythonLanguage final : public Language {
     return lines;
   }
 
-  Lines Affine(const Instruction& it,
-               const Eigen::MatrixXd& table) const override {
+  Lines Affine(const Instruction& it, const MatrixXd& table) const override {
     const std::string to = ArrayAt(it.to, "j");
     return {
         fmt::format("for j in range({}):", it.count),
@@ -160,7 +156,7 @@ std::string PythonWriter::Tables() const {
                         ListText(TableValues(program_, cell), ""));
   }
   for (std::size_t form = 0; form < program_.forms.size(); ++form) {
-    const Eigen::MatrixXd& states = program_.forms[form].states;
+    const MatrixXd& states = program_.forms[form].states;
     if (states.size() == 0) continue;
     text += fmt::format("_STATES{} = [\n", form);
     for (const auto coordinate : states.colwise()) {
@@ -170,14 +166,14 @@ std::string PythonWriter::Tables() const {
     text += "]\n";
   }
   for (std::size_t k = 0; k < program_.tables.size(); ++k) {
-    const Eigen::MatrixXd& table = program_.tables[k];
+    const MatrixXd& table = program_.tables[k];
     const Index num_inputs = table.cols() - 1;
-    const Eigen::VectorXd bias = table.col(num_inputs);
+    const VectorXd bias = table.col(num_inputs);
     text += fmt::format(
         "_BIAS{} = {}\n", k, ListText({bias.begin(), bias.end()}, ""));
     text += fmt::format("_WEIGHTS{} = [\n", k);
     for (Index i = 0; i < num_inputs; ++i) {
-      const Eigen::VectorXd weights = table.col(i);
+      const VectorXd weights = table.col(i);
       text +=
           "    " + ListText({weights.begin(), weights.end()}, "    ") + ",\n";
     }

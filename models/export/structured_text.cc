@@ -1,17 +1,14 @@
-#include "models/export/structured_text.h"
-
 #include <algorithm>
 
 #include <fmt/format.h>
 
+#include "models/export/program/run_program.h"
 #include "models/export/program/safe_names.h"
-#include "models/export/program/saved_state.h"
+#include "models/export/program_text.h"
 #include "models/history/lag.h"
 
 namespace errmap::models {
 namespace {
-
-using Eigen::Index;
 
 constexpr Syntax kStandard{.conjunction = "AND",
                            .disjunction = "OR",
@@ -194,8 +191,7 @@ class StructuredTextLanguage final : public Language {
   }
 
   // Three products a line: editors of controllers cut long ones.
-  Lines Affine(const Instruction& it,
-               const Eigen::MatrixXd& table) const override {
+  Lines Affine(const Instruction& it, const MatrixXd& table) const override {
     constexpr Index kProductsPerLine = 3;
     Lines lines;
     const Index num_inputs = table.cols() - 1;
@@ -302,7 +298,7 @@ void AddTables(const MapProgram& program,
     add(language.VariableOf(cell), TableValues(program, cell));
   }
   for (std::size_t form = 0; form < program.forms.size(); ++form) {
-    const Eigen::MatrixXd& states = program.forms[form].states;
+    const MatrixXd& states = program.forms[form].states;
     for (Index k = 0; k < states.cols(); ++k) {
       add(fmt::format("States{}_{}", form, k),
           {states.col(k).begin(), states.col(k).end()});

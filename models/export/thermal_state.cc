@@ -1,5 +1,3 @@
-#include "models/export/thermal_state.h"
-
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
@@ -8,12 +6,11 @@
 
 #include "data/argument_name.h"
 #include "data/text.h"
+#include "models/export/compensation_table.h"
 #include "models/history/map_log.h"
 
 namespace errmap::models {
 namespace {
-
-using Eigen::Index;
 
 // The readings other than the position, if there is one.
 std::vector<std::string> NamesBeside(const MapProgram& program, int position) {
@@ -68,7 +65,7 @@ ErrorCurve CurveAfterLog(const FittedModel& fitted,
                          const MapProgram& program,
                          const data::CsvTable& log,
                          int row) {
-  const Eigen::MatrixXd readings = InputsOf(fitted, log);
+  const MatrixXd readings = InputsOf(fitted, log);
   const MapLog map = MakeMapLog(fitted, log, {});
   ProgramRun run(program, Precision::kDouble);
   const auto session = [&](Index at) {

@@ -12,7 +12,6 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "models/error_model.h"
@@ -137,14 +136,14 @@ void ReadMembers(const ModelJsonNode& node,
   } else if constexpr (std::is_same_v<T, int>) {
     *value = static_cast<int>(node.Number());
   } else if constexpr (std::is_integral_v<T>) {
-    const Eigen::Index count = node.Count();
+    const Index count = node.Count();
     if (std::cmp_greater(count, std::numeric_limits<T>::max())) {
       node.Refuse("is too large");
     }
     *value = static_cast<T>(count);
-  } else if constexpr (std::is_same_v<T, Eigen::VectorXd>) {
+  } else if constexpr (std::is_same_v<T, VectorXd>) {
     *value = node.Vector();
-  } else if constexpr (std::is_same_v<T, Eigen::MatrixXd>) {
+  } else if constexpr (std::is_same_v<T, MatrixXd>) {
     *value = node.Matrix();
   } else if constexpr (std::is_same_v<T, std::string>) {
     *value = node.Text();

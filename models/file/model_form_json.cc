@@ -14,7 +14,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
 using Json = ModelJson;
 using Node = ModelJsonNode;
 

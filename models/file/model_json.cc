@@ -1,6 +1,5 @@
 #include "models/file/model_json.h"
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -8,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "data/input_error.h"
+#include "data/sha256.h"
 
 namespace errmap::models {
 
-using Eigen::Index;
 using Node = ModelJsonNode;
 
 namespace {
@@ -28,14 +27,14 @@ std::string EitherOf(const std::vector<std::string>& words) {
 
 }  // namespace
 
-ModelJson NumbersToJson(const Eigen::VectorXd& vector) {
+ModelJson NumbersToJson(const VectorXd& vector) {
   return std::vector<double>(vector.begin(), vector.end());
 }
 
-ModelJson NumbersToJson(const Eigen::MatrixXd& matrix) {
+ModelJson NumbersToJson(const MatrixXd& matrix) {
   ModelJson rows = ModelJson::array();
   for (Index i = 0; i < matrix.rows(); ++i) {
-    rows.push_back(NumbersToJson(Eigen::VectorXd(matrix.row(i).transpose())));
+    rows.push_back(NumbersToJson(VectorXd(matrix.row(i).transpose())));
   }
   return rows;
 }
@@ -109,22 +108,22 @@ Index Node::Count() const {
   return value_.get<Index>();
 }
 
-Eigen::VectorXd Node::Vector() const {
+VectorXd Node::Vector() const {
   const std::vector<Node> elements = Elements();
-  Eigen::VectorXd vector(static_cast<Index>(elements.size()));
+  VectorXd vector(std::ssize(elements));
   for (std::size_t i = 0; i < elements.size(); ++i) {
     vector[static_cast<Index>(i)] = elements[i].Number();
   }
   return vector;
 }
 
-Eigen::MatrixXd Node::Matrix() const {
+MatrixXd Node::Matrix() const {
   const std::vector<Node> rows = Elements();
   if (rows.empty()) return {};
-  Eigen::MatrixXd matrix;
+  MatrixXd matrix;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Eigen::VectorXd row = rows[i].Vector();
-    if (i == 0) matrix.resize(static_cast<Index>(rows.size()), row.size());
+    const VectorXd row = rows[i].Vector();
+    if (i == 0) matrix.resize(std::ssize(rows), row.size());
     if (row.size() != matrix.cols()) {
       rows[i].Refuse(fmt::format(
           "has {} numbers, the first row has {}", row.size(), matrix.cols()));
@@ -132,6 +131,42 @@ Eigen::MatrixXd Node::Matrix() const {
     matrix.row(static_cast<Index>(i)) = row.transpose();
   }
   return matrix;
+}
+
+namespace {
+
+// Numbers are kept as written: a digit may differ although the double read is
+// the same.
+std::string WithoutBlanks(std::string_view json) {
+  std::string kept;
+  kept.reserve(json.size());
+  bool in_text = false;
+  bool is_escaped = false;
+  for (const char c : json) {
+    const bool is_blank = c == ' ' || c == '\t' || c == '\r' || c == '\n';
+    if (in_text || !is_blank) kept += c;
+    if (c == '"' && !is_escaped) in_text = !in_text;
+    is_escaped = in_text && c == '\\' && !is_escaped;
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::string WithChecksum(std::string json) {
+  json.erase(json.find_last_of('}'));
+  const std::string sum = data::Sha256(WithoutBlanks(json));
+  json.erase(json.find_last_not_of(" \t\r\n") + 1);
+  return fmt::format("{},\n \"{}\": \"{}\"\n}}\n", json, kChecksumKey, sum);
+}
+
+bool HasChecksum(std::string_view json, std::string_view checksum) {
+  std::string before = WithoutBlanks(json);
+  const std::string end =
+      fmt::format(",\"{}\":\"{}\"}}", kChecksumKey, checksum);
+  if (!before.ends_with(end)) return false;
+  before.resize(before.size() - end.size());
+  return data::Sha256(before) == checksum;
 }
 
 }  // namespace errmap::models

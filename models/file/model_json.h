@@ -3,12 +3,13 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
 #include "models/error_model.h"
+#include "stats/eigen.h"
 
 // Shared by the writer and the reader of model files. Not installed, and not
 // included by public headers.
@@ -28,9 +29,9 @@ inline std::string CoverageKey(double coverage) {
   return std::to_string(std::lround(coverage * kPercent));
 }
 
-ModelJson NumbersToJson(const Eigen::VectorXd& vector);
+ModelJson NumbersToJson(const VectorXd& vector);
 /// By rows.
-ModelJson NumbersToJson(const Eigen::MatrixXd& matrix);
+ModelJson NumbersToJson(const MatrixXd& matrix);
 
 /// A value of a model file and its place, for messages. Refers to the document
 /// and the file's name, which must outlive it. Every reader throws
@@ -58,10 +59,10 @@ class ModelJsonNode {
   double Number() const;
   bool Truth() const;
   /// Reads a number of at least 0.
-  Eigen::Index Count() const;
-  Eigen::VectorXd Vector() const;
+  Index Count() const;
+  VectorXd Vector() const;
   /// Reads rows of equal length.
-  Eigen::MatrixXd Matrix() const;
+  MatrixXd Matrix() const;
 
  private:
   const ModelJson& value_;
@@ -79,7 +80,19 @@ void WriteForm(const ErrorModel& model,
 /// Reads the model and its equation from the whole document, given the kind
 /// already read; `num_inputs` is that of the form, including derived inputs.
 void ReadForm(const ModelJsonNode& document,
-              Eigen::Index num_inputs,
+              Index num_inputs,
               FittedModel* fitted);
+
+/// Last key of a model file.
+inline constexpr const char* kChecksumKey = "checksum";
+
+/// Returns `json`, an object with at least one member, with its checksum as a
+/// further member: the SHA-256 of all text before it, without blanks between
+/// tokens. A copy may thus be indented or have other line ends.
+std::string WithChecksum(std::string json);
+
+/// Returns true if `json` ends with `checksum` as written by WithChecksum, and
+/// the text before is unchanged.
+bool HasChecksum(std::string_view json, std::string_view checksum);
 
 }  // namespace errmap::models

@@ -7,10 +7,10 @@
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
 
+#include "data/files/atomic_file.h"
 #include "data/formats/nesting.h"
 #include "data/input_error.h"
 #include "data/text.h"
-#include "models/file/checksum.h"
 #include "models/file/map_members_json.h"
 #include "models/file/model_json.h"
 #include "models/history/history.h"
@@ -32,7 +32,6 @@ data::ColumnInfo ReadColumn(const ModelJsonNode& node) {
 
 namespace {
 
-using Eigen::Index;
 using Json = ModelJson;
 using Node = ModelJsonNode;
 
@@ -147,26 +146,24 @@ Guards ReadGuards(const Node& node, Index num_inputs) {
   return guards;
 }
 
-void RequireSize(const Node& node, const Eigen::VectorXd& values, Index size) {
+void RequireSize(const Node& node, const VectorXd& values, Index size) {
   if (values.size() != size) {
     node.Refuse(fmt::format("needs {} numbers, has {}", size, values.size()));
   }
 }
 
-void RequirePositive(const Node& node,
-                     const Eigen::VectorXd& values,
-                     Index size) {
+void RequirePositive(const Node& node, const VectorXd& values, Index size) {
   RequireSize(node, values, size);
   if (!(values.array() > 0.0).all()) node.Refuse("must be above 0");
 }
 
 // But for what rounding to the six digits of a file may take from its least
 // eigenvalue, of as many columns.
-bool IsPositiveDefinite(Eigen::MatrixXd matrix) {
+bool IsPositiveDefinite(MatrixXd matrix) {
   constexpr double kHalfDigit = 5e-6;
   const auto size = static_cast<double>(matrix.rows());
   matrix.diagonal().array() += size * kHalfDigit * matrix.cwiseAbs().maxCoeff();
-  return Eigen::LLT<Eigen::MatrixXd>(matrix).info() == Eigen::Success;
+  return Eigen::LLT<MatrixXd>(matrix).info() == Eigen::Success;
 }
 
 std::vector<Index> ReadColumnsOf(const Node& node,
@@ -195,7 +192,7 @@ Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
     }
   }
   trained.columns = ReadColumnsOf(node.At("columns"), fitted.inputs);
-  const auto size = static_cast<Index>(trained.columns.size());
+  const auto size = std::ssize(trained.columns);
   if (const auto standing = node.Find("standing")) {
     const StandingStill& still = trained.standing;
     RequireSize(standing->At("others_move"), still.others_move, size);
@@ -480,6 +477,10 @@ FittedModel ModelFromJson(const std::string& text, const std::string& source) {
   FittedModel fitted = ReadModel(root);
   if (remark) fitted.remarks.push_back(*remark);
   return fitted;
+}
+
+FittedModel LoadModel(const std::string& path) {
+  return ModelFromJson(data::ReadFile(path, data::kMostTextOfPrograms), path);
 }
 
 }  // namespace errmap::models

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "models/file/checksum.h"
+#include "data/files/atomic_file.h"
 #include "models/file/map_members_json.h"
 #include "models/file/model_json.h"
 #include "models/history/history.h"
@@ -17,7 +17,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
 using Json = ModelJson;
 
 Json ToJson(const History& history) {
@@ -127,6 +126,12 @@ std::string ModelToJson(const FittedModel& fitted,
   }
   constexpr int kIndent = 1;
   return WithChecksum(document.dump(kIndent));
+}
+
+void SaveModel(const FittedModel& fitted,
+               const Provenance& provenance,
+               const std::string& path) {
+  data::WriteFileAtomically(path, ModelToJson(fitted, provenance));
 }
 
 }  // namespace errmap::models

@@ -1,10 +1,9 @@
-#include "models/fleet/sensor_relations.h"
-
 #include <algorithm>
 #include <cstdint>
 
 #include "data/input_error.h"
 #include "fitting/least_squares/decompositions.h"
+#include "models/fleet/watch.h"
 #include "models/study/record/record_json.h"
 #include "stats/order_statistic.h"
 
@@ -29,10 +28,6 @@ struct RelationsRecord {
 };
 
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 constexpr Index kFewestLeftOut = 3;
 

@@ -10,9 +10,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 std::vector<MeasuredSession> SessionsOf(const FittedModel& fitted,
                                         const MapRows& rows) {
   const std::vector<Moment> moments =
@@ -56,7 +53,7 @@ void JudgeSensorsOf(const data::Dataset& dataset,
                     const std::vector<const data::CsvColumn*>& sensors,
                     const SensorRelations& relations,
                     MeasuredSession* measured) {
-  Eigen::MatrixXd values(measured->rows.size(), sensors.size());
+  MatrixXd values(measured->rows.size(), sensors.size());
   Index kept = 0;
   for (const Index row : measured->rows) {
     const auto in_file =
@@ -79,7 +76,7 @@ std::string WhyNotWatched(const FittedModel& fitted) {
     return "its map was not judged on whole sessions: it promises nothing for "
            "another one";
   }
-  if (const auto units = static_cast<Index>(fitted.held_out->units.size());
+  if (const auto units = std::ssize(fitted.held_out->units);
       units < kFewestSessions) {
     return fmt::format(
         "its map was judged on {} sessions: how much they differ is not known "
@@ -94,7 +91,7 @@ std::vector<MeasuredSession> MeasureSessions(const FittedModel& fitted,
                                              const MapRows& rows,
                                              const SensorRelations* relations) {
   const data::Dataset& dataset = rows.dataset;
-  const Eigen::MatrixXd form_inputs = fitted.FormInputs(dataset);
+  const MatrixXd form_inputs = fitted.FormInputs(dataset);
   const std::vector<RowFlag> flags =
       FlagRows(fitted, dataset.input_values(), form_inputs);
   const VectorXd residuals =

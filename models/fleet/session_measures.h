@@ -3,18 +3,17 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "models/error_model.h"
 #include "models/fleet/watch.h"
 #include "models/session/map_rows.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
 /// A session and which rows of the data set are its own, in their order.
 struct MeasuredSession {
   WatchedSession session;
-  std::vector<Eigen::Index> rows;
+  std::vector<Index> rows;
 };
 
 /// Why new sessions cannot be held against what the map promises; "" where they

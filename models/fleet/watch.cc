@@ -11,9 +11,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 // What the spread common to all sensors counts in that of one, in sessions.
 constexpr double kPriorSessions = 1.0;
 // Odd days are more frequent than t has them: by so much wider, of 252 healthy
@@ -127,7 +124,7 @@ ExpectedErrors ExpectedOf(const HeldOutErrors& errors,
                           const VectorXd& elapsed,
                           const VectorXd& position) {
   ExpectedErrors expected;
-  const auto num_units = static_cast<Index>(errors.units.size());
+  const auto num_units = std::ssize(errors.units);
   if (num_units < kFewestSessions) return expected;
   const Neighbours neighbours(errors, elapsed, position);
   const Index num_rows = std::max<Index>(

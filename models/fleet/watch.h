@@ -5,10 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
-
-#include "models/fleet/sensor_relations.h"
+#include "data/measurements/dataset.h"
 #include "models/map_experience.h"
+#include "stats/eigen.h"
 #include "stats/not_a_number.h"
 
 // Whether a map still does what it promised, and its sensors still go together
@@ -17,6 +16,48 @@
 // and tried on healthy simulated machines (tests/benchmarks/watch_study.cc).
 
 namespace errmap::models {
+
+/// How the sensors of a component go together: what the others tell of each, by
+/// linear regression on them.
+struct SensorRelations {
+  std::vector<data::ColumnInfo> columns;  // (s) of the data, as in training
+  VectorXd mean;                          // (s)
+  /// (s x s) value less what the others tell = (values - mean)' * weights.
+  MatrixXd weights;
+  VectorXd variance;  // (s) of that, row by row
+  /// (s) Mean over the sessions, each left out in turn, of how far the others
+  /// were from their own mean (SensorShifts::distance).
+  VectorXd distance;
+  /// (s) RMS of those sessions' shifts, each over sqrt(1 + its distance /
+  /// `distance`): what is extrapolated far errs more.
+  VectorXd spread;
+  /// (s) Variance of the shifts of rows about their session's, on average: what
+  /// a part of a session may be off by more than a whole one.
+  VectorXd within;
+  Index sessions = 0;
+  Index rows = 0;  // of a session, the median; 0: not known
+
+  /// (k x s) Of distances of the others (k x s) what widens the variance of a
+  /// shift.
+  Eigen::ArrayXXd Widening(const MatrixXd& distances) const;
+
+  std::string ToJsonText() const;
+  /// Throws data::InputError where it is not what ToJsonText wrote.
+  static SensorRelations FromJsonText(std::string_view text);
+};
+
+/// Of the inputs that are no positions; nothing for fewer than two of them or
+/// than three sessions.
+std::optional<SensorRelations> LearnRelations(const data::Dataset& training);
+
+/// The sensors of a session, by the mean of its rows.
+struct SensorShifts {
+  VectorXd shift;     // (s) value less what the others tell, its unit
+  VectorXd distance;  // (s) of the others, squared, after Mahalanobis
+};
+
+/// Over `values` (m x s).
+SensorShifts ShiftsOf(const SensorRelations& relations, const MatrixXd& values);
 
 /// What the held-out units show of rows at some times and places.
 struct ExpectedErrors {
@@ -33,23 +74,23 @@ struct ExpectedErrors {
 /// `position` (m) or (0). Nothing is known from units without errors, or of
 /// fewer than kFewestSessions of them.
 ExpectedErrors ExpectedOf(const HeldOutErrors& errors,
-                          const Eigen::VectorXd& elapsed,
-                          const Eigen::VectorXd& position);
+                          const VectorXd& elapsed,
+                          const VectorXd& position);
 
 /// By two days nobody knows how days differ.
-inline constexpr Eigen::Index kFewestSessions = 3;
+inline constexpr Index kFewestSessions = 3;
 /// Of fewer rows, or of less than half of the travel, errmap check tells
 /// more: the mean of half a sweep is that of the map's own shape.
-inline constexpr Eigen::Index kFewestRows = 5;
+inline constexpr Index kFewestRows = 5;
 /// Whether these rows (`position` (m), or (0) where there are none) are so few.
 bool AreTooFew(const HeldOutErrors& errors,
-               Eigen::Index rows,
-               const Eigen::VectorXd& position);
+               Index rows,
+               const VectorXd& position);
 
 /// A session as it was found: what is kept of it for later.
 struct WatchedSession {
   std::string label = {};
-  Eigen::Index rows = 0;
+  Index rows = 0;
   double offset = 0.0;       // mean of target less prediction, its unit
   double mean_square = 0.0;  // of the same
   /// Of so many rows at these times; not known where they are too few, or the

@@ -15,9 +15,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-using Eigen::VectorXd;
-
 // Root of the TypicalError of `fit` on rows of one view; NaN if a fold cannot
 // be fitted.
 double HeldOutError(const Dataset& rows,

@@ -16,15 +16,10 @@
 #include "data/measurements/sessions.h"
 #include "data/text.h"
 #include "models/history/history_state.h"
-#include "models/history/lag.h"
 #include "models/history/session_start.h"
-#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
 
 // Inputs of the form in every row of a table, and their columns.
 struct Derived {
@@ -87,9 +82,8 @@ Derived DeriveLog(const data::SessionLog& log,
     if (to >= 0) again.emplace_back(static_cast<Index>(i), to);
     to = static_cast<Index>(i);
   }
-  MatrixXd derived(static_cast<Index>(log_rows.size()),
-                   static_cast<Index>(state.form_columns().size()));
-  Eigen::VectorXd reading(static_cast<Index>(columns.size()));
+  MatrixXd derived(std::ssize(log_rows), std::ssize(state.form_columns()));
+  VectorXd reading(std::ssize(columns));
   const std::vector<std::vector<Index>> sessions = RowsOfSessions(log);
   for (std::size_t s = 0; s < sessions.size(); ++s) {
     Index before = -1;
@@ -119,8 +113,7 @@ Derived DeriveRows(const data::Dataset& dataset,
                    HistoryState state) {
   const MatrixXd readings =
       dataset.input_values()(Eigen::all, columns).transpose();
-  MatrixXd derived(dataset.num_rows(),
-                   static_cast<Index>(state.form_columns().size()));
+  MatrixXd derived(dataset.num_rows(), std::ssize(state.form_columns()));
   for (Index row = 0; row < derived.rows(); ++row) {
     state.Start(readings.col(row));
     derived.row(row) = state.form_inputs().transpose();

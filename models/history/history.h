@@ -4,9 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/measurements/dataset.h"
+#include "stats/eigen.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::models {
@@ -110,7 +109,7 @@ struct History {
   std::vector<std::string> columns() const;
   /// Returns the indices in columns() of those filtered or zeroed. A log of
   /// earlier rows needs no others.
-  std::vector<Eigen::Index> remembered() const;
+  std::vector<Index> remembered() const;
 };
 inline constexpr double kSettledTaus = 4.0;
 
@@ -158,8 +157,7 @@ std::vector<Missing> FindMissing(const data::SessionLog& log,
 /// Filters run through all rows of its log, so a selection of rows gets the
 /// same values. Throws std::invalid_argument if a column or a log that the
 /// history needs is missing, or if its time has another unit.
-Eigen::MatrixXd DeriveInputs(const data::Dataset& dataset,
-                             const History& history);
+MatrixXd DeriveInputs(const data::Dataset& dataset, const History& history);
 
 /// Returns the rows of `dataset` with form_inputs as inputs, log included, so
 /// that any recipe can fit them. Throws like DeriveInputs.

@@ -12,8 +12,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-
 [[noreturn]] void Refuse(const std::string& what) {
   throw std::invalid_argument("HistoryState: " + what);
 }
@@ -31,7 +29,7 @@ Index FindName(const std::vector<data::ColumnInfo>& columns,
 
 HistoryState::HistoryState(const History& history,
                            const std::vector<data::ColumnInfo>& columns)
-    : num_columns_(static_cast<Index>(columns.size())) {
+    : num_columns_(std::ssize(columns)) {
   std::vector<data::ColumnInfo> known = columns;
   for (const DerivedInput& input : history.derived) {
     Node node{.filter = input.filter, .source = FindName(known, input.of)};
@@ -68,15 +66,12 @@ HistoryState::HistoryState(const History& history,
         known[static_cast<std::size_t>(form_sources_.back())]);
   }
   gains_.resize(taus_.size());
-  values_ =
-      Eigen::VectorXd::Constant(static_cast<Index>(known.size()), stats::kNaN);
-  memory_ =
-      Eigen::VectorXd::Constant(static_cast<Index>(nodes_.size()), stats::kNaN);
-  form_inputs_ = Eigen::VectorXd::Constant(
-      static_cast<Index>(form_sources_.size()), stats::kNaN);
+  values_ = VectorXd::Constant(std::ssize(known), stats::kNaN);
+  memory_ = VectorXd::Constant(std::ssize(nodes_), stats::kNaN);
+  form_inputs_ = VectorXd::Constant(std::ssize(form_sources_), stats::kNaN);
 }
 
-void HistoryState::Start(const Eigen::Ref<const Eigen::VectorXd>& readings) {
+void HistoryState::Start(const Eigen::Ref<const VectorXd>& readings) {
   values_.setConstant(stats::kNaN);
   memory_.setConstant(stats::kNaN);
   SetReadings(readings);
@@ -84,8 +79,7 @@ void HistoryState::Start(const Eigen::Ref<const Eigen::VectorXd>& readings) {
   Update(false);
 }
 
-void HistoryState::Step(double dt,
-                        const Eigen::Ref<const Eigen::VectorXd>& readings) {
+void HistoryState::Step(double dt, const Eigen::Ref<const VectorXd>& readings) {
   if (!started_) Refuse("Step before Start");
   if (!(dt >= 0.0)) Refuse(fmt::format("a step of {}; time goes on", dt));
   previous_ = values_;
@@ -107,8 +101,7 @@ void HistoryState::TakeZero() {
   Update(false);
 }
 
-void HistoryState::SetReadings(
-    const Eigen::Ref<const Eigen::VectorXd>& readings) {
+void HistoryState::SetReadings(const Eigen::Ref<const VectorXd>& readings) {
   if (readings.size() != num_columns_) {
     Refuse(
         fmt::format("{} readings, expected {}", readings.size(), num_columns_));
@@ -153,14 +146,14 @@ void HistoryState::Update(bool passes) {
   }
 }
 
-Eigen::VectorXd HistoryState::state() const {
+VectorXd HistoryState::state() const {
   if (!started_) return {};
-  Eigen::VectorXd state(num_columns_ + memory_.size());
+  VectorXd state(num_columns_ + memory_.size());
   state << values_.head(num_columns_), memory_;
   return state;
 }
 
-void HistoryState::set_state(const Eigen::VectorXd& state) {
+void HistoryState::set_state(const VectorXd& state) {
   if (state.size() != num_columns_ + memory_.size()) {
     Refuse(fmt::format("a state of {} numbers, expected {}",
                        state.size(),

@@ -2,10 +2,9 @@
 
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/measurements/dataset.h"
 #include "models/history/history.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -23,19 +22,19 @@ class HistoryState {
   /// per column), and the zero is taken here. NaN means not yet known: values
   /// that depend on it begin with its first number. Throws
   /// std::invalid_argument if the number of readings is wrong.
-  void Start(const Eigen::Ref<const Eigen::VectorXd>& readings);
+  void Start(const Eigen::Ref<const VectorXd>& readings);
 
   /// Advances by `dt` (unit of time, at least 0) to these readings. A reading
   /// of NaN keeps its last value. dt = 0 leaves the filters unchanged and
   /// replaces the earlier readings. Throws std::invalid_argument if dt is below
   /// 0 or NaN, the number of readings is wrong, or Start was not called.
-  void Step(double dt, const Eigen::Ref<const Eigen::VectorXd>& readings);
+  void Step(double dt, const Eigen::Ref<const VectorXd>& readings);
 
   /// Takes the zero here instead of at the start of the session.
   void TakeZero();
 
   /// Returns the form's inputs now; NaN if unknown.
-  const Eigen::VectorXd& form_inputs() const { return form_inputs_; }
+  const VectorXd& form_inputs() const { return form_inputs_; }
   /// Returns their columns and units.
   const std::vector<data::ColumnInfo>& form_columns() const {
     return form_columns_;
@@ -43,26 +42,26 @@ class HistoryState {
 
   /// Returns readings held, filters and zeros (columns + derived inputs): all
   /// that must be saved for a restart. Empty before Start.
-  Eigen::VectorXd state() const;
+  VectorXd state() const;
   /// Continues from the result of state(). Throws std::invalid_argument if the
   /// size is wrong.
-  void set_state(const Eigen::VectorXd& state);
+  void set_state(const VectorXd& state);
 
  private:
   struct Node {
     Filter filter = Filter::kEma;
-    Eigen::Index source = 0;  // index into values_
-    std::size_t tau = 0;      // of kEma: index into taus_
+    Index source = 0;     // index into values_
+    std::size_t tau = 0;  // of kEma: index into taus_
     Between between = Between::kLinear;
     double factor = 1.0;  // sine and cosine: radians per unit
   };
 
-  void SetReadings(const Eigen::Ref<const Eigen::VectorXd>& readings);
+  void SetReadings(const Eigen::Ref<const VectorXd>& readings);
   /// Computes all derived values; if time `passes`, the filters advance by
   /// gains_.
   void Update(bool passes);
 
-  Eigen::Index num_columns_ = 0;
+  Index num_columns_ = 0;
   std::vector<Node> nodes_;
   /// Gains of the current step, as in models/history/lag.h.
   struct Gains {
@@ -71,13 +70,13 @@ class HistoryState {
   };
   std::vector<double> taus_;  // distinct
   std::vector<Gains> gains_;
-  std::vector<Eigen::Index> form_sources_;
+  std::vector<Index> form_sources_;
   std::vector<data::ColumnInfo> form_columns_;
   bool started_ = false;
-  Eigen::VectorXd values_;    // (columns + derived inputs)
-  Eigen::VectorXd previous_;  // the same before the current step
-  Eigen::VectorXd memory_;    // (derived inputs) filter or zero
-  Eigen::VectorXd form_inputs_;
+  VectorXd values_;    // (columns + derived inputs)
+  VectorXd previous_;  // the same before the current step
+  VectorXd memory_;    // (derived inputs) filter or zero
+  VectorXd form_inputs_;
 };
 
 }  // namespace errmap::models

@@ -10,7 +10,6 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_match.h"
 #include "data/measurements/joined_tables.h"
-#include "data/measurements/row_filters.h"
 #include "data/text.h"
 #include "models/trained_range.h"
 #include "stats/indices.h"
@@ -18,8 +17,6 @@
 
 namespace errmap::models {
 namespace {
-
-using Eigen::Index;
 
 data::DatasetSelection SelectionFor(const History& history,
                                     const data::CsvTable& table,
@@ -134,7 +131,7 @@ void WarnOfSessions(const History& history,
 void LeaveOutSpikes(const FittedModel& fitted,
                     const std::vector<Index>& sessions,
                     Index first_row,
-                    Eigen::MatrixXd* readings,
+                    MatrixXd* readings,
                     std::vector<std::string>* warnings) {
   for (const Spike& spike : FindSpikes(fitted.inputs, *readings)) {
     const auto row = static_cast<std::size_t>(spike.row);
@@ -163,7 +160,7 @@ void PassOverRowsNotMadeFor(const FittedModel& fitted,
                             const data::CsvTable& table,
                             const data::FoundSessions& found,
                             Index first_row,
-                            Eigen::MatrixXd* readings) {
+                            MatrixXd* readings) {
   const std::vector<bool> made_for = RowsMadeFor(fitted, table);
   const auto session_of = [&](Index row) {
     return found.sessions.codes[static_cast<std::size_t>(row)];
@@ -191,8 +188,7 @@ void PassOverRowsNotMadeFor(const FittedModel& fitted,
 // A table of rows before others.
 struct Earlier {
   data::CsvTable table;
-  Eigen::MatrixXd
-      readings;  // (rows x inputs); NaN where nothing remembers them
+  MatrixXd readings;  // (rows x inputs); NaN where nothing remembers them
   std::vector<std::string> remarks;
 };
 
@@ -207,7 +203,7 @@ Earlier ReadEarlier(const FittedModel& fitted, const std::string& file) {
   const std::vector<Index> rows =
       stats::AllIndices(static_cast<Index>(read.table.num_rows));
   Earlier earlier{.table = std::move(read.table),
-                  .readings = Eigen::MatrixXd::Constant(
+                  .readings = MatrixXd::Constant(
                       std::ssize(rows), std::ssize(fitted.inputs), stats::kNaN),
                   .remarks = std::move(read.remarks)};
   for (std::size_t i = 0; i < needed.size(); ++i) {
@@ -245,12 +241,10 @@ data::FoundSessions FindSessionsFor(const History& history,
   return FindAll(history, table, SelectionFor(history, table, arguments));
 }
 
-Eigen::MatrixXd ReadingsOf(const FittedModel& fitted,
-                           const data::CsvTable& table) {
+MatrixXd ReadingsOf(const FittedModel& fitted, const data::CsvTable& table) {
   const std::vector<Index> rows =
       stats::AllIndices(static_cast<Index>(table.num_rows));
-  Eigen::MatrixXd readings(static_cast<Index>(rows.size()),
-                           static_cast<Index>(fitted.inputs.size()));
+  MatrixXd readings(std::ssize(rows), std::ssize(fitted.inputs));
   Index column = 0;
   for (const TrainedInput& input : fitted.inputs) {
     const std::size_t at =
@@ -260,10 +254,9 @@ Eigen::MatrixXd ReadingsOf(const FittedModel& fitted,
   return readings;
 }
 
-Eigen::MatrixXd InputsOf(const FittedModel& fitted,
-                         const data::CsvTable& table) {
-  Eigen::MatrixXd inputs(static_cast<Index>(table.num_rows),
-                         static_cast<Index>(fitted.inputs.size()));
+MatrixXd InputsOf(const FittedModel& fitted, const data::CsvTable& table) {
+  MatrixXd inputs(static_cast<Index>(table.num_rows),
+                  std::ssize(fitted.inputs));
   Index column = 0;
   for (const TrainedInput& input : fitted.inputs) {
     inputs.col(column++) = data::NumericColumn(
@@ -309,8 +302,8 @@ MapLog MakeMapLog(const FittedModel& fitted,
     found = FindAll(
         history, data::AppendedTable(earlier.table, table, columns), selection);
     map.first_row = static_cast<Index>(earlier.table.num_rows);
-    Eigen::MatrixXd all(map.first_row + log->input_values.rows(),
-                        log->input_values.cols());
+    MatrixXd all(map.first_row + log->input_values.rows(),
+                 log->input_values.cols());
     all << earlier.readings, log->input_values;
     log->input_values = std::move(all);
   }

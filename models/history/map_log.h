@@ -4,13 +4,12 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
 #include "data/measurements/sessions.h"
 #include "models/error_model.h"
 #include "models/history/history.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -39,19 +38,17 @@ std::vector<bool> RowsMadeFor(const FittedModel& fitted,
 /// Rows for the filters of a map: those of a file, after any earlier rows.
 struct MapLog {
   std::shared_ptr<const data::SessionLog> log;  // null: the map has no memory
-  Eigen::Index first_row = 0;                   // of the file, in the log
+  Index first_row = 0;                          // of the file, in the log
   std::vector<Missing> missing;                 // (rows of the log)
   std::vector<std::string> warnings;            // one line each
 };
 
 /// Returns the map's inputs in every row of a table (rows x inputs); NaN if a
 /// cell is not a number. Throws data::InputError if a column is missing.
-Eigen::MatrixXd ReadingsOf(const FittedModel& fitted,
-                           const data::CsvTable& table);
+MatrixXd ReadingsOf(const FittedModel& fitted, const data::CsvTable& table);
 
 /// Returns the same, but throws data::InputError if a cell is not a number.
-Eigen::MatrixXd InputsOf(const FittedModel& fitted,
-                         const data::CsvTable& table);
+MatrixXd InputsOf(const FittedModel& fitted, const data::CsvTable& table);
 
 /// Uses every row of the table, with or without a target; of earlier rows only
 /// the columns that the map remembers. Throws data::InputError if the tables

@@ -10,8 +10,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-
 // A row of the log or of the points.
 struct Row {
   Index session = 0;  // into the labels
@@ -60,7 +58,7 @@ class Timeline {
     const auto found = std::ranges::find(labels_, label);
     if (found == labels_.end()) {
       labels_.push_back(label);
-      return static_cast<Index>(labels_.size()) - 1;
+      return std::ssize(labels_) - 1;
     }
     return found - labels_.begin();
   }
@@ -71,7 +69,7 @@ class Timeline {
     for (const Row& row : rows_) {
       Index& code = kept[static_cast<std::size_t>(row.session)];
       if (!row.is_point || code >= 0) continue;
-      code = static_cast<Index>(labels.size());
+      code = std::ssize(labels);
       labels.push_back(labels_[static_cast<std::size_t>(row.session)]);
     }
     labels_ = std::move(labels);
@@ -92,7 +90,7 @@ class Timeline {
       if (steps[i - 1] > leap) {
         labels_.push_back(std::to_string(labels_.size() + 1));
       }
-      rows_[i].session = static_cast<Index>(labels_.size()) - 1;
+      rows_[i].session = std::ssize(labels_) - 1;
     }
   }
 
@@ -129,7 +127,7 @@ PointLog MakePointLog(const History& history,
                       const MapLogArguments& arguments) {
   const Timeline timeline = TimelineOf(history, points, log, arguments);
   const std::vector<Row>& rows = timeline.rows();
-  const auto n = static_cast<Index>(rows.size());
+  const auto n = std::ssize(rows);
   auto merged = std::make_shared<data::SessionLog>();
   merged->sessions = timeline.sessions();
   merged->time_unit = history.time_unit;

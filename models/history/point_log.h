@@ -3,19 +3,18 @@
 #include <memory>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
 #include "models/history/history.h"
 #include "models/history/map_log.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
 /// A table and a map's inputs in its rows; NaN if unknown.
 struct RowsForMap {
   const data::CsvTable& table;
-  const Eigen::MatrixXd& inputs;  // (rows x inputs of the map)
+  const MatrixXd& inputs;  // (rows x inputs of the map)
 };
 
 /// Rows for the filters of a map if points lie between the rows of a log:
@@ -23,8 +22,8 @@ struct RowsForMap {
 /// first.
 struct PointLog {
   std::shared_ptr<const data::SessionLog> log;
-  std::vector<Eigen::Index> rows;  // (points) index in the log
-  std::vector<Missing> missing;    // (points)
+  std::vector<Index> rows;       // (points) index in the log
+  std::vector<Missing> missing;  // (points)
 };
 
 /// `log` may be null. Sessions of the log without points are omitted. The zero

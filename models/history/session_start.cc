@@ -6,16 +6,11 @@
 #include <map>
 #include <set>
 #include <utility>
-#include <vector>
 
 #include "stats/distributions.h"
 
 namespace errmap::models {
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 constexpr double kDay = 86400.0;
 constexpr std::size_t kFewestSessions = 4;

@@ -2,10 +2,9 @@
 
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/measurements/dataset.h"
 #include "models/history/history.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -19,8 +18,7 @@ namespace errmap::models {
 // The second indicator is the time of day.
 
 /// Returns the rows of the log of each session of these rows, which have one.
-std::vector<std::vector<Eigen::Index>> RowsOfSessions(
-    const data::Dataset& training);
+std::vector<std::vector<Index>> RowsOfSessions(const data::Dataset& training);
 
 /// Fills start_readings, start_limit, start_clock and start_clock_late of a
 /// history whose other members are set, from the sessions of these rows. Fewer
@@ -32,7 +30,7 @@ void LearnStarts(const data::Dataset& training, History* history);
 /// like none of training: later by its clock, or with thermometers as later in
 /// a session. The log's inputs are columns() of the history.
 bool BeginsInside(const data::SessionLog& log,
-                  Eigen::Index row,
+                  Index row,
                   const History& history);
 
 }  // namespace errmap::models

@@ -1,6 +1,5 @@
 #include "models/history/view.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -22,8 +21,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-
 bool Filters(View view) {
   return view == View::kHistory || view == View::kHistoryAndZero;
 }
@@ -182,7 +179,7 @@ std::vector<double> MakeTimeConstants(const Dataset& training) {
   const data::SessionLog& log = *training.log();
   std::vector<double> lengths;
   for (const std::vector<Index>& rows : RowsOfSessions(training)) {
-    const Eigen::VectorXd times = log.time(rows);
+    const VectorXd times = log.time(rows);
     lengths.push_back(times.maxCoeff() - times.minCoeff());
   }
   if (lengths.empty()) return {};

@@ -34,7 +34,7 @@ FittedModel WithHistory(FittedModel fitted,
   }
   read->row_changes = RowChanges(training, *read);
   LearnStarts(training, read.get());
-  std::vector<Eigen::Index> columns;
+  std::vector<Index> columns;
   for (const std::string& name : read->columns()) {
     columns.push_back(training.FindInput(name));
   }

@@ -14,13 +14,12 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixX3d;
 using Eigen::Vector3d;
 
 Approaches ApproachesOf(const std::vector<double>& deviations) {
-  const Eigen::Map<const Eigen::ArrayXd> values(
-      deviations.data(), static_cast<Index>(deviations.size()));
+  const Eigen::Map<const Eigen::ArrayXd> values(deviations.data(),
+                                                std::ssize(deviations));
   const auto n = static_cast<double>(values.size());
   const double mean = deviations.empty() ? stats::kNaN : values.mean();
   return {.runs = values.size(),
@@ -50,8 +49,7 @@ double LargerOrNaN(double a, double b) {
 
 void Check(const PositioningTest& test) {
   const Index n = test.deviations.size();
-  if (n == 0 || test.positions.size() != n ||
-      static_cast<Index>(test.upwards.size()) != n) {
+  if (n == 0 || test.positions.size() != n || std::ssize(test.upwards) != n) {
     throw std::invalid_argument(
         "PositioningPointsOf: " + std::to_string(test.positions.size()) +
         " positions, " + std::to_string(n) + " deviations and " +
@@ -126,7 +124,7 @@ PositioningFigures PositioningFiguresOf(
   return figures;
 }
 
-std::vector<bool> ApproachedUpwards(const Eigen::VectorXd& positions) {
+std::vector<bool> ApproachedUpwards(const VectorXd& positions) {
   const Index n = positions.size();
   std::vector<bool> upwards(static_cast<std::size_t>(n), true);
   if (n < 2) return upwards;

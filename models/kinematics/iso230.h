@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -12,14 +12,14 @@ namespace errmap::models {
 
 /// Deviations of one axis along itself, one per approach to a target position.
 struct PositioningTest {
-  Eigen::VectorXd positions;   // (n) target positions
-  Eigen::VectorXd deviations;  // (n)
-  std::vector<bool> upwards;   // (n) approached in the positive direction
+  VectorXd positions;         // (n) target positions
+  VectorXd deviations;        // (n)
+  std::vector<bool> upwards;  // (n) approached in the positive direction
 };
 
 /// Deviations of the approaches to one position from one side.
 struct Approaches {
-  Eigen::Index runs = 0;
+  Index runs = 0;
   double mean = 0.0;
   double sd = 0.0;  // divisor n - 1; NaN for fewer than two runs
 };
@@ -72,7 +72,7 @@ PositioningFigures PositioningFiguresOf(
 /// Whether each row approached its position upwards, from the order of
 /// `positions` (n). The step before tells, or the step after where a sweep
 /// begins: at a step of 0 or of more than half the travel.
-std::vector<bool> ApproachedUpwards(const Eigen::VectorXd& positions);
+std::vector<bool> ApproachedUpwards(const VectorXd& positions);
 
 /// The test of positions along a diagonal, from runs both ways. The name has
 /// the signs of X, Y and Z along it: "ppp", or "p0n" if Y does not move.

@@ -7,13 +7,10 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
-using Eigen::VectorXd;
-
 [[noreturn]] void Refuse(const std::string& what) {
   throw std::invalid_argument("KinematicChain: " + what);
 }
@@ -74,7 +71,7 @@ KinematicChain::KinematicChain(std::vector<KinematicLink> links)
       ++num_coordinates_;
     }
     has_tool = has_tool || link.branch == Branch::kTool;
-    const auto index = static_cast<Index>(names.size()) - 1;
+    const auto index = std::ssize(names) - 1;
     for (const ErrorDirection direction : link.errors) {
       errors_.push_back({index, direction});
     }

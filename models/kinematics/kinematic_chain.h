@@ -3,8 +3,9 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
+
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -62,31 +63,29 @@ class KinematicChain {
 
   /// An error of a link.
   struct ErrorPlace {
-    Eigen::Index link = 0;
+    Index link = 0;
     ErrorDirection direction = ErrorDirection::kX;
   };
 
   const std::vector<KinematicLink>& links() const { return links_; }
   const std::vector<ErrorPlace>& errors() const { return errors_; }
-  Eigen::Index num_coordinates() const { return num_coordinates_; }
-  Eigen::Index num_errors() const {
-    return static_cast<Eigen::Index>(errors_.size());
-  }
+  Index num_coordinates() const { return num_coordinates_; }
+  Index num_errors() const { return std::ssize(errors_); }
 
   /// The tip less the work's origin (3), without errors, along the axes of the
   /// base: the place of the tool on the work. Throws std::invalid_argument for
   /// another number of coordinates or errors, as all functions below do.
-  Eigen::Vector3d NominalReach(const Eigen::VectorXd& coordinates) const;
+  Eigen::Vector3d NominalReach(const VectorXd& coordinates) const;
 
   /// Tool less work (3) by the product of the matrices.
-  Eigen::Vector3d ExactError(const Eigen::VectorXd& coordinates,
-                             const Eigen::VectorXd& errors) const;
+  Eigen::Vector3d ExactError(const VectorXd& coordinates,
+                             const VectorXd& errors) const;
 
   /// Its derivatives (3 x errors) at errors of 0. A length has its unit vector,
   /// an angle its rotation axis times the arm, with minus on the work's branch.
   /// Times errors they are what remains of ExactError by the algebra of
   /// infinitesimals (section 3.1), without products of errors.
-  Eigen::Matrix3Xd Sensitivities(const Eigen::VectorXd& coordinates) const;
+  Eigen::Matrix3Xd Sensitivities(const VectorXd& coordinates) const;
 
  private:
   struct Ends {
@@ -94,17 +93,15 @@ class KinematicChain {
     Eigen::Isometry3d work;
   };
 
-  void CheckSizes(const Eigen::VectorXd& coordinates,
-                  const Eigen::VectorXd* errors) const;
+  void CheckSizes(const VectorXd& coordinates, const VectorXd* errors) const;
   Eigen::Isometry3d StepOf(const KinematicLink& link,
                            double coordinate,
                            const double* errors) const;
-  Ends EndsOf(const Eigen::VectorXd& coordinates,
-              const Eigen::VectorXd* errors) const;
+  Ends EndsOf(const VectorXd& coordinates, const VectorXd* errors) const;
 
   std::vector<KinematicLink> links_;
   std::vector<ErrorPlace> errors_;
-  Eigen::Index num_coordinates_ = 0;
+  Index num_coordinates_ = 0;
 };
 
 }  // namespace errmap::models

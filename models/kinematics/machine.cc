@@ -8,12 +8,12 @@ data::Unit UnitOf(const Machine& machine, ErrorDirection direction) {
   return IsRotation(direction) ? data::UnitOfSymbol("rad") : machine.length;
 }
 
-Eigen::VectorXd SensitiveLengths(const Machine& machine,
-                                 const Eigen::MatrixX3d& errors) {
-  Eigen::VectorXd squares = Eigen::VectorXd::Zero(errors.rows());
+VectorXd SensitiveLengths(const Machine& machine,
+                          const Eigen::MatrixX3d& errors) {
+  VectorXd squares = VectorXd::Zero(errors.rows());
   for (std::size_t d = 0; d < machine.sensitive.size(); ++d) {
     if (!machine.sensitive[d]) continue;
-    squares += errors.col(static_cast<Eigen::Index>(d)).cwiseAbs2();
+    squares += errors.col(static_cast<Index>(d)).cwiseAbs2();
   }
   return squares.cwiseSqrt();
 }

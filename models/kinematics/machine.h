@@ -6,11 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/units.h"
 #include "models/error_model.h"
 #include "models/kinematics/kinematic_chain.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -43,8 +42,8 @@ struct Machine {
 data::Unit UnitOf(const Machine& machine, ErrorDirection direction);
 
 /// Lengths (m) of errors (m x 3) in the sensitive directions.
-Eigen::VectorXd SensitiveLengths(const Machine& machine,
-                                 const Eigen::MatrixX3d& errors);
+VectorXd SensitiveLengths(const Machine& machine,
+                          const Eigen::MatrixX3d& errors);
 
 /// "X" ... "C".
 std::string_view LetterOf(ErrorDirection direction);

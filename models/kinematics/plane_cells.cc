@@ -10,10 +10,7 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixX3d;
-using Eigen::VectorXd;
-
 // Parts of equal width between the least and the largest of some values.
 class Parts {
  public:

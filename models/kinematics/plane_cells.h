@@ -4,16 +4,15 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include "stats/eigen.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::models {
 
 /// The plane that a machine works in, as it is drawn: 0 X, 1 Y, 2 Z.
 struct WorkingPlane {
-  Eigen::Index across = 0;
-  Eigen::Index up = 1;
+  Index across = 0;
+  Index up = 1;
 };
 
 /// That of the sensitive directions: of X and Z with Z across, as lathes are
@@ -25,7 +24,7 @@ std::optional<WorkingPlane> WorkingPlaneOf(
 struct PlaneCell {
   double across = stats::kNaN;  // its middle
   double up = stats::kNaN;
-  Eigen::Index points = 0;
+  Index points = 0;
   double mean_across = stats::kNaN;  // of the errors along both
   double mean_up = stats::kNaN;
   double rms = stats::kNaN;  // of their lengths in the plane

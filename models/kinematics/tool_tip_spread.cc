@@ -10,10 +10,7 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixX3d;
-using Eigen::VectorXd;
-
 void CheckSpread(const std::vector<HeldOutToolTip>& sessions, double coverage) {
   if (sessions.size() < 2 || !(coverage > 0.0 && coverage < 1.0)) {
     throw std::invalid_argument(
@@ -54,7 +51,7 @@ MatrixX3d ToolTipHalfWidths(const std::vector<HeldOutToolTip>& sessions,
         std::ranges::all_of(sessions, [&](const HeldOutToolTip& session) {
           return IsKnown(session.half_widths, d);
         });
-    VectorXd mean_squares(static_cast<Index>(sessions.size()));
+    VectorXd mean_squares(std::ssize(sessions));
     Index s = 0;
     for (const HeldOutToolTip& session : sessions) {
       VectorXd errors = session.errors.col(d);

@@ -13,13 +13,9 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
 using Eigen::Matrix3Xd;
 using Eigen::MatrixX3d;
-using Eigen::MatrixXd;
 using Eigen::Vector3d;
-using Eigen::VectorXd;
-
 [[noreturn]] void RefuseVolumetric(const std::string& what) {
   throw std::invalid_argument("CombineErrors: " + what);
 }
@@ -33,8 +29,7 @@ void CheckShapes(const KinematicChain& chain,
                      std::to_string(expected));
   };
   check("columns of coordinates", coordinates.cols(), chain.num_coordinates());
-  check(
-      "components", static_cast<Index>(components.size()), chain.num_errors());
+  check("components", std::ssize(components), chain.num_errors());
   for (const ComponentAtPoints& component : components) {
     check("values of a component", component.values.size(), coordinates.rows());
     check("half-widths of a component",
@@ -74,7 +69,7 @@ struct Spreads {
   double normal = 0.0;  // its quantile, where deviations are known
 
   Spreads(const std::vector<ComponentAtPoints>& components, double coverage)
-      : degrees_of_freedom(static_cast<Index>(components.size())),
+      : degrees_of_freedom(std::ssize(components)),
         deviations_per_half_width(degrees_of_freedom.size()),
         upper(0.5 * (1.0 + coverage)),
         normal(stats::NormalQuantile(upper)) {
@@ -97,7 +92,7 @@ struct Point {
 Point PointOf(const MatrixXd& coordinates,
               const std::vector<ComponentAtPoints>& components,
               Index row) {
-  const auto n = static_cast<Index>(components.size());
+  const auto n = std::ssize(components);
   Point point{coordinates.row(row), VectorXd(n), VectorXd(n)};
   for (Index k = 0; k < n; ++k) {
     const ComponentAtPoints& component =

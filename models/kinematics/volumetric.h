@@ -4,26 +4,25 @@
 #include <limits>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "models/kinematics/kinematic_chain.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
 /// An error of a chain at m points, and how far it may be off.
 struct ComponentAtPoints {
-  Eigen::VectorXd values;  // (m) the chain's length unit, or rad
+  VectorXd values;  // (m) the chain's length unit, or rad
   /// (m) A share `coverage` of errors lies within it of `values`. 0: exact;
   /// NaN: not known.
-  Eigen::VectorXd half_widths;
+  VectorXd half_widths;
   /// Of the standard deviation behind half_widths, which are it times Student's
   /// t. Infinite if it is known.
   double degrees_of_freedom = std::numeric_limits<double>::infinity();
 };
 
 struct VolumetricOptions {
-  double coverage = 0.9;     // of half_widths and of the bounds, in (0, 1)
-  Eigen::Index draws = 500;  // of Monte Carlo, at least 0: no bounds
+  double coverage = 0.9;  // of half_widths and of the bounds, in (0, 1)
+  Index draws = 500;      // of Monte Carlo, at least 0: no bounds
   std::uint64_t seed = 1;
 
   /// Throws std::invalid_argument naming field, value and range.
@@ -57,7 +56,7 @@ struct VolumetricErrors {
 /// the same bounds; the draws are shared by all points, as the maps are. Throws
 /// std::invalid_argument if the shapes do not agree.
 VolumetricErrors CombineErrors(const KinematicChain& chain,
-                               const Eigen::MatrixXd& coordinates,
+                               const MatrixXd& coordinates,
                                const std::vector<ComponentAtPoints>& components,
                                const VolumetricOptions& options);
 

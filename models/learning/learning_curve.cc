@@ -17,9 +17,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 constexpr Index kMostFolds = 5;
 constexpr std::size_t kMostSizes = 7;
 
@@ -128,7 +125,7 @@ VectorXd UnitMeanSquares(const std::vector<Index>& codes,
     sum += std::pow(residuals[static_cast<Index>(i)], 2);
     count += 1.0;
   }
-  VectorXd squares(static_cast<Index>(sums.size()));
+  VectorXd squares(std::ssize(sums));
   Index at = 0;
   for (const auto& [code, sum] : sums) squares[at++] = sum.first / sum.second;
   return squares;

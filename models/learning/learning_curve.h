@@ -5,11 +5,10 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/measurements/dataset.h"
 #include "models/learning/power_law.h"
 #include "models/study/study.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -19,7 +18,7 @@ namespace errmap::models {
 /// kMostForBlend input values.
 inline constexpr const char* kLearningModels =
     "mean,poly:temperature,poly:full:degree=1,poly:ridge:view=auto,blend";
-inline constexpr Eigen::Index kMostForBlend = 20000;
+inline constexpr Index kMostForBlend = 20000;
 
 /// The units that a map learns from, one after another.
 enum class LearnBy { kSessions, kGroups };
@@ -28,9 +27,9 @@ enum class LearnBy { kSessions, kGroups };
 /// train on that many, drawn from the units that the fold does not test.
 struct LearningPlan {
   std::string unit;  // "day", "cycle"; "session" if cut by time
-  Eigen::Index num_units = 0;
-  std::vector<Eigen::Index> sizes;  // ascending, at least 2
-  std::vector<Holdout> holdouts;    // one per size
+  Index num_units = 0;
+  std::vector<Index> sizes;       // ascending, at least 2
+  std::vector<Holdout> holdouts;  // one per size
 };
 
 /// Tests each of at most five runs of whole units after training on each size,
@@ -38,13 +37,13 @@ struct LearningPlan {
 /// std::invalid_argument if there are fewer than four units.
 LearningPlan PlanLearning(const data::Dataset& dataset,
                           LearnBy by,
-                          Eigen::Index repeats,
+                          Index repeats,
                           std::uint64_t seed);
 
 /// One model's error on unseen units as a function of the training units.
 struct LearningCurve {
   struct Point {
-    Eigen::Index size = 0;
+    Index size = 0;
     double rmse = 0.0;  // geometric mean over draws, target's unit
     double low = 0.0;   // 90 % interval over units; NaN below 3 of them
     double high = 0.0;

@@ -10,10 +10,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // Whitened inputs of measured rows and candidates, by the measured ones.
 struct Whitened {
   MatrixXd measured;
@@ -96,8 +92,7 @@ std::vector<NextState> ChooseNext(const data::Dataset& measured,
   const MatrixXd all_wanted = wanted.transpose();
   std::vector<NextState> chosen;
   std::vector<bool> is_chosen(static_cast<std::size_t>(wanted.rows()));
-  while (static_cast<Index>(chosen.size()) <
-         std::min(most, candidates.rows())) {
+  while (std::ssize(chosen) < std::min(most, candidates.rows())) {
     // Adding r rows phi to M lowers trace(M^-1 P) by
     // r phi' M^-1 P M^-1 phi / (1 + r phi' M^-1 phi) (Sherman-Morrison).
     const MatrixXd solved = information.ldlt().solve(all_wanted);

@@ -2,15 +2,14 @@
 
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/measurements/dataset.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
 /// A candidate state to measure next.
 struct NextState {
-  Eigen::Index row = 0;  // of the candidates
+  Index row = 0;  // of the candidates
   /// Mean prediction variance over all rows, measured and candidate, after this
   /// and all earlier choices, relative to that before any of them.
   double variance_left = 1.0;
@@ -27,8 +26,8 @@ struct NextState {
 /// since a visit lasts some rows. Throws std::invalid_argument if the numbers
 /// of inputs differ.
 std::vector<NextState> ChooseNext(const data::Dataset& measured,
-                                  const Eigen::MatrixXd& candidates,
-                                  Eigen::Index most,
+                                  const MatrixXd& candidates,
+                                  Index most,
                                   double rows_per_candidate = 10.0);
 
 }  // namespace errmap::models

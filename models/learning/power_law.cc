@@ -5,16 +5,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include <Eigen/Core>
-
 #include "fitting/least_squares/decompositions.h"
 
 namespace errmap::models {
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 // The grid: exponents, the error at the last size, and how much of its square
 // is floor.
@@ -38,7 +32,7 @@ constexpr double kMisfit = 1.0;
 
 // Inverse covariance of the logarithms of the points' errors.
 MatrixXd PrecisionOf(const std::vector<LearningPoint>& points, double last) {
-  const auto count = static_cast<Index>(points.size());
+  const auto count = std::ssize(points);
   VectorXd spread(count);
   VectorXd misfit(count);
   for (Index i = 0; i < count; ++i) {

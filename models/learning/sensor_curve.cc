@@ -23,10 +23,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // Shares of the mean diagonal of the normal equations.
 constexpr std::array<double, 5> kPenalties = {1e-7, 1e-5, 1e-3, 1e-2, 1e-1};
 
@@ -281,8 +277,7 @@ class ChoiceSearch {
   // The sensor at `place` becomes the one that does best there.
   void ImprovePlace(std::size_t place, Choice* choice) {
     std::vector<Index> trial = choice->sensors;
-    for (Index other = 0; other < static_cast<Index>(design_.names.size());
-         ++other) {
+    for (Index other = 0; other < std::ssize(design_.names); ++other) {
       if (std::ranges::find(choice->sensors, other) != choice->sensors.end()) {
         continue;
       }
@@ -323,7 +318,7 @@ class ChoiceSearch {
   // Two sensors may do together what neither begins.
   void OfferPairs() {
     Choice& best = best_[2];
-    const auto p = static_cast<Index>(design_.names.size());
+    const auto p = std::ssize(design_.names);
     for (Index one = 0; one < p; ++one) {
       for (Index other = one + 1; other < p; ++other) {
         const double squares = Squares({one, other});
@@ -371,8 +366,7 @@ void LookForSubstitutes(const Design& design,
   const double squares = JudgeSensors(design, training, chosen).squares;
   double least = std::numeric_limits<double>::infinity();
   std::vector<std::pair<double, std::string>> alike;
-  for (Index other = 0; other < static_cast<Index>(design.names.size());
-       ++other) {
+  for (Index other = 0; other < std::ssize(design.names); ++other) {
     if (std::ranges::find(chosen, other) != chosen.end()) continue;
     std::vector<Index> swapped = chosen;
     swapped[place] = other;
@@ -438,7 +432,7 @@ SensorCurve LearnSensors(const data::Dataset& dataset,
   SensorCurve curve;
   curve.view = ToString(design.view);
   curve.held_out = outer.text;
-  curve.all.sensors = static_cast<Index>(design.names.size());
+  curve.all.sensors = std::ssize(design.names);
   const Index most = std::min(search.most_sensors, curve.all.sensors);
   const std::vector<Index> all_rows = stats::AllIndices(dataset.num_rows());
   const Training of_all = TrainingOf(design, all_rows, outer.folds);

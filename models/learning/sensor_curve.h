@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/measurements/dataset.h"
+#include "stats/eigen.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::models {
@@ -20,7 +19,7 @@ namespace errmap::models {
 /// all sensors: raw, filtered, less the session's first value, or both.
 struct SensorCurve {
   struct Point {
-    Eigen::Index sensors = 0;
+    Index sensors = 0;
     double rmse = stats::kNaN;  // held out, target's unit
   };
   struct Chosen {
@@ -43,14 +42,14 @@ struct SensorCurve {
   Point all;
   /// Fewest sensors with at most kTolerance times the error of all; empty if no
   /// point reaches it.
-  std::optional<Eigen::Index> enough;
+  std::optional<Index> enough;
   /// As many sensors as `enough`, or else as `points` has, chosen from all
   /// rows.
   std::vector<Chosen> chosen;
 };
 
 struct SensorSearch {
-  Eigen::Index most_sensors = 8;
+  Index most_sensors = 8;
   int jobs = 1;  // does not change results
   const std::atomic<bool>* stop = nullptr;
   /// Called by any thread after each of `all` searches.

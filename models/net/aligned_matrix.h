@@ -2,11 +2,9 @@
 
 #include <cstddef>
 #include <memory>
-#include <new>
-
-#include <Eigen/Core>
 
 #include "models/net/net_kernels.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -18,7 +16,7 @@ class AlignedMatrix {
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
   AlignedMatrix() = default;
-  AlignedMatrix(Eigen::Index rows, Eigen::Index cols)
+  AlignedMatrix(Index rows, Index cols)
       : rows_(rows),
         cols_(cols),
         memory_(static_cast<Scalar*>(::operator new(
@@ -27,15 +25,15 @@ class AlignedMatrix {
     all().setZero();
   }
 
-  Eigen::Index rows() const { return rows_; }
-  Eigen::Index cols() const { return cols_; }
+  Index rows() const { return rows_; }
+  Index cols() const { return cols_; }
   Scalar* data() { return memory_.get(); }
   const Scalar* data() const { return memory_.get(); }
-  Scalar* column(Eigen::Index j) { return data() + j * rows_; }
-  const Scalar* column(Eigen::Index j) const { return data() + j * rows_; }
+  Scalar* column(Index j) { return data() + j * rows_; }
+  const Scalar* column(Index j) const { return data() + j * rows_; }
   Eigen::Map<Matrix> all() { return {data(), rows_, cols_}; }
   Eigen::Map<const Matrix> all() const { return {data(), rows_, cols_}; }
-  Eigen::Map<Matrix> columns(Eigen::Index begin, Eigen::Index count) {
+  Eigen::Map<Matrix> columns(Index begin, Index count) {
     return {column(begin), rows_, count};
   }
 
@@ -48,8 +46,8 @@ class AlignedMatrix {
     }
   };
 
-  Eigen::Index rows_ = 0;
-  Eigen::Index cols_ = 0;
+  Index rows_ = 0;
+  Index cols_ = 0;
   std::unique_ptr<Scalar, Free> memory_;
 };
 

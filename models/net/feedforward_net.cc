@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,8 +11,6 @@
 
 namespace errmap::models {
 namespace {
-
-using Eigen::Index;
 
 double Sigmoid(double s) { return 1.0 / (1.0 + std::exp(-s)); }
 
@@ -68,9 +65,9 @@ double FeedforwardNet::DoPredictRow(const double* inputs) const {
   return (output - form_.target_offset[0]) / form_.target_slope[0];
 }
 
-Eigen::VectorXd InitialWeights(const NetShape& shape, std::uint64_t seed) {
+VectorXd InitialWeights(const NetShape& shape, std::uint64_t seed) {
   stats::Random random(seed);
-  Eigen::VectorXd w(shape.num_weights());
+  VectorXd w(shape.num_weights());
   const auto draw = [&](Index offset, Index nodes, Index inputs) {
     for (Index to = 0; to < nodes; ++to) {
       for (Index from = 0; from < inputs; ++from) {
@@ -83,32 +80,31 @@ Eigen::VectorXd InitialWeights(const NetShape& shape, std::uint64_t seed) {
   return w;
 }
 
-Eigen::MatrixXd FirstLayer(const NetShape& shape, const Eigen::VectorXd& w) {
-  return Eigen::Map<const Eigen::MatrixXd>(
-      w.data(), shape.hidden, shape.inputs + 1);
+MatrixXd FirstLayer(const NetShape& shape, const VectorXd& w) {
+  return Eigen::Map<const MatrixXd>(w.data(), shape.hidden, shape.inputs + 1);
 }
 
-Eigen::MatrixXd SecondLayer(const NetShape& shape, const Eigen::VectorXd& w) {
-  return Eigen::Map<const Eigen::MatrixXd>(
+MatrixXd SecondLayer(const NetShape& shape, const VectorXd& w) {
+  return Eigen::Map<const MatrixXd>(
       w.data() + shape.num_weights1(), shape.outputs, shape.hidden + 1);
 }
 
 NetForm FormOfWeights(const NetShape& shape,
-                      const Eigen::VectorXd& w,
+                      const VectorXd& w,
                       const ColumnScaling& inputs,
                       const TargetScaling& target) {
   // A slope c multiplies every sum that a sigmoid sees: so may the weights.
   return {.output = shape.output,
           .input_offset = inputs.offset,
           .input_scale = inputs.scale,
-          .target_slope = Eigen::VectorXd::Constant(1, target.slope),
-          .target_offset = Eigen::VectorXd::Constant(1, target.offset),
+          .target_slope = VectorXd::Constant(1, target.slope),
+          .target_offset = VectorXd::Constant(1, target.offset),
           .w1 = shape.slope * FirstLayer(shape, w),
           .w2 = OutputSlope(shape) * SecondLayer(shape, w)};
 }
 
 FittedModel MapOfWeights(const NetShape& shape,
-                         const Eigen::VectorXd& w,
+                         const VectorXd& w,
                          const ColumnScaling& inputs,
                          const TargetScaling& target,
                          const data::Dataset& training,
@@ -121,8 +117,7 @@ FittedModel MapOfWeights(const NetShape& shape,
         " weights, found " + std::to_string(w.size()) + " and " +
         std::to_string(training.num_inputs()) + " inputs");
   }
-  const std::vector<Eigen::Index> columns =
-      stats::AllIndices(training.num_inputs());
+  const std::vector<Index> columns = stats::AllIndices(training.num_inputs());
   FittedModel map;
   map.name = name;
   map.kind = ModelKind::kNet;

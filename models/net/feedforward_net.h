@@ -16,8 +16,8 @@ class FeedforwardNet final : public ErrorModel {
   /// finite, a target slope is 0, or the number of outputs is not one.
   explicit FeedforwardNet(NetForm form);
 
-  Eigen::Index num_inputs() const override { return form_.input_offset.size(); }
-  Eigen::Index num_parameters() const override {
+  Index num_inputs() const override { return form_.input_offset.size(); }
+  Index num_parameters() const override {
     return form_.w1.size() + form_.w2.size();
   }
   ModelDescription Describe() const override { return form_; }
@@ -31,15 +31,15 @@ class FeedforwardNet final : public ErrorModel {
 
 /// Returns initial weights (N) of a net: uniform in +-0.5, drawn node by node
 /// (to outer, from inner, bias last) as in the report's program.
-Eigen::VectorXd InitialWeights(const NetShape& shape, std::uint64_t seed);
+VectorXd InitialWeights(const NetShape& shape, std::uint64_t seed);
 
 /// Returns the two weight matrices of a weight vector (N).
-Eigen::MatrixXd FirstLayer(const NetShape& shape, const Eigen::VectorXd& w);
-Eigen::MatrixXd SecondLayer(const NetShape& shape, const Eigen::VectorXd& w);
+MatrixXd FirstLayer(const NetShape& shape, const VectorXd& w);
+MatrixXd SecondLayer(const NetShape& shape, const VectorXd& w);
 
 /// Returns the net with weights w (N), trained on inputs and targets so scaled.
 NetForm FormOfWeights(const NetShape& shape,
-                      const Eigen::VectorXd& w,
+                      const VectorXd& w,
                       const ColumnScaling& inputs,
                       const TargetScaling& target);
 
@@ -47,7 +47,7 @@ NetForm FormOfWeights(const NetShape& shape,
 /// rows. It is for training loops of your own, such as with early stopping.
 /// Throws std::invalid_argument as FeedforwardNet does.
 FittedModel MapOfWeights(const NetShape& shape,
-                         const Eigen::VectorXd& w,
+                         const VectorXd& w,
                          const ColumnScaling& inputs,
                          const TargetScaling& target,
                          const data::Dataset& training,

@@ -13,10 +13,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr Index kMostDimensions = 3000;
 constexpr double kMostProducts = 5e11;
 

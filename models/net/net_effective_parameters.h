@@ -18,7 +18,6 @@ namespace errmap::models {
 /// of the spaces of patterns and weights, or in that of the weights if biases
 /// have no decay. NaN if that has more than 3000 dimensions or the products
 /// would take more than about a minute.
-double EffectiveParameters(const NetTraining& training,
-                           const Eigen::VectorXd& w);
+double EffectiveParameters(const NetTraining& training, const VectorXd& w);
 
 }  // namespace errmap::models

@@ -7,16 +7,13 @@
 
 #include "fitting/parallel_for.h"
 #include "models/net/feedforward_net.h"
-#include "models/net/training_sample.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-
-ColumnScaling ScalingOf(InputScaling kind, const Eigen::MatrixXd& inputs) {
+ColumnScaling ScalingOf(InputScaling kind, const MatrixXd& inputs) {
   switch (kind) {
     case InputScaling::kStandard:
       return StandardScaling(inputs);
@@ -31,7 +28,7 @@ ColumnScaling ScalingOf(InputScaling kind, const Eigen::MatrixXd& inputs) {
 // Sum of squared errors of the net of these weights on `test`.
 double SquaresOn(const Dataset& test,
                  const NetRows& rows,
-                 const Eigen::VectorXd& weights) {
+                 const VectorXd& weights) {
   return (test.target_values() -
           FeedforwardNet(rows.FormOf(weights)).Predict(test.input_values()))
       .squaredNorm();
@@ -75,8 +72,8 @@ NetTraining RowsOf(const NetTraining& all, const std::vector<Index>& taken) {
           .inputs = all.inputs(taken, Eigen::all),
           .targets = all.targets(taken, Eigen::all),
           .row_weights = all.row_weights.size() == 0
-                             ? Eigen::VectorXd()
-                             : Eigen::VectorXd(all.row_weights(taken)),
+                             ? VectorXd()
+                             : VectorXd(all.row_weights(taken)),
           .wfactor = all.wfactor,
           .initial_weights = all.initial_weights,
           .seed = all.seed};
@@ -106,7 +103,7 @@ NetTraining NetRows::From(std::uint64_t seed, double wfactor) const {
   return from;
 }
 
-double NetRows::TrainingRms(const Eigen::VectorXd& w) const {
+double NetRows::TrainingRms(const VectorXd& w) const {
   constexpr double kNoDecay = 0.0;
   const NetObjective misfit(training.shape,
                             training.inputs,
@@ -116,13 +113,13 @@ double NetRows::TrainingRms(const Eigen::VectorXd& w) const {
   return std::sqrt(2.0 * misfit.Evaluate(w, nullptr)) / std::abs(target.slope);
 }
 
-NetForm NetRows::FormOf(const Eigen::VectorXd& w) const {
+NetForm NetRows::FormOf(const VectorXd& w) const {
   return FormOfWeights(training.shape, w, scaling, target);
 }
 
-Eigen::VectorXd NetRows::WeightsOf(const NetForm& form) const {
+VectorXd NetRows::WeightsOf(const NetForm& form) const {
   const NetShape& shape = training.shape;
-  Eigen::VectorXd w(shape.num_weights());
+  VectorXd w(shape.num_weights());
   w << form.w1.reshaped() / shape.slope,
       form.w2.reshaped() / OutputSlope(shape);
   return w;
@@ -215,13 +212,13 @@ std::vector<double> InnerHoldoutRmse(const NetDesign& design,
                                      const std::vector<NetTrial>& trials,
                                      const FitContext& context) {
   const std::vector<fitting::FoldCodes::Rows> split = folds.folds.Splits();
-  const auto count = static_cast<Index>(split.size());
-  Eigen::VectorXd rows(count);
+  const auto count = std::ssize(split);
+  VectorXd rows(count);
   for (Index fold = 0; fold < count; ++fold) {
     rows[fold] =
         static_cast<double>(split[static_cast<std::size_t>(fold)].test.size());
   }
-  Eigen::MatrixXd squares(count, static_cast<Index>(trials.size()));
+  MatrixXd squares(count, std::ssize(trials));
   fitting::ParallelFor(
       context.threads, trials.size() * split.size(), [&](std::size_t job) {
         squares.reshaped()[static_cast<Index>(job)] =
@@ -243,7 +240,7 @@ std::vector<double> InnerHoldoutRmse(const NetDesign& design,
 struct WfactorWalk::Fold {
   std::optional<NetRows> rows;  // none where they cannot be fitted
   Dataset test;
-  Eigen::VectorXd weights;       // of the last step
+  VectorXd weights;              // of the last step
   double squares = stats::kNaN;  // of the last step
 };
 
@@ -291,8 +288,8 @@ double WfactorWalk::Step(double wfactor) {
     fold.squares = SquaresOn(fold.test, *fold.rows, minimum.x);
     fold.weights = std::move(minimum.x);
   });
-  Eigen::VectorXd squares(static_cast<Index>(folds_.size()));
-  Eigen::VectorXd rows(squares.size());
+  VectorXd squares(std::ssize(folds_));
+  VectorXd rows(squares.size());
   for (Index fold = 0; fold < squares.size(); ++fold) {
     const Fold& from = folds_[static_cast<std::size_t>(fold)];
     squares[fold] = from.squares;

@@ -11,8 +11,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-
 // Data of a block stay in the second-level cache, those of a strip in the
 // first-level one: its patterns and a hidden quantity.
 constexpr Index kBlockBytes = Index{128} << 10;
@@ -58,10 +56,10 @@ void SetBlockAndStrip(NetArithmetic arithmetic, NetProblem<Scalar>* problem) {
 
 template <typename Scalar>
 NetProblem<Scalar> MakeProblem(const NetShape& shape,
-                               const Eigen::MatrixXd& inputs,
-                               const Eigen::MatrixXd& targets,
+                               const MatrixXd& inputs,
+                               const MatrixXd& targets,
                                double wfactor,
-                               const Eigen::VectorXd& weights,
+                               const VectorXd& weights,
                                NetArithmetic arithmetic) {
   const auto refuse = [](const std::string& why) {
     throw std::invalid_argument("NetObjective: " + why);
@@ -129,10 +127,10 @@ void BasicNetObjective<Scalar>::FreeScratch::operator()(
 
 template <typename Scalar>
 BasicNetObjective<Scalar>::BasicNetObjective(const NetShape& shape,
-                                             const Eigen::MatrixXd& inputs,
-                                             const Eigen::MatrixXd& targets,
+                                             const MatrixXd& inputs,
+                                             const MatrixXd& targets,
                                              double wfactor,
-                                             const Eigen::VectorXd& weights,
+                                             const VectorXd& weights,
                                              NetArithmetic arithmetic)
     : problem_(MakeProblem<Scalar>(
           shape, inputs, targets, wfactor, weights, arithmetic)),

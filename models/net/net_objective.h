@@ -2,10 +2,9 @@
 
 #include <memory>
 
-#include <Eigen/Core>
-
 #include "fitting/minimisers/objective.h"
 #include "models/net/net_problem.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -25,15 +24,13 @@ class BasicNetObjective final : public fitting::BasicObjective<Scalar> {
   /// std::invalid_argument if shapes do not agree, P < 1, a value is not
   /// finite, wfactor < 0 or slope <= 0.
   BasicNetObjective(const NetShape& shape,
-                    const Eigen::MatrixXd& inputs,
-                    const Eigen::MatrixXd& targets,
+                    const MatrixXd& inputs,
+                    const MatrixXd& targets,
                     double wfactor,
-                    const Eigen::VectorXd& weights = {},
+                    const VectorXd& weights = {},
                     NetArithmetic arithmetic = NetArithmetic::kFast);
 
-  Eigen::Index num_parameters() const override {
-    return problem_.shape.num_weights();
-  }
+  Index num_parameters() const override { return problem_.shape.num_weights(); }
   Scalar Evaluate(const Vector& w, Vector* gradient) const override;
   std::unique_ptr<fitting::Path<Scalar>> NewPath(
       const Vector& w) const override;

@@ -15,7 +15,6 @@
 #include "fitting/minimisers/scaled_conjugate_gradient.h"
 #include "models/error_model.h"
 #include "models/history/view.h"
-#include "models/model_options.h"
 #include "models/net/net_design.h"
 
 namespace errmap::models {

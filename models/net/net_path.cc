@@ -8,8 +8,6 @@
 
 namespace errmap::models {
 
-using Eigen::Index;
-
 namespace {
 
 // A hidden quantity of all patterns may take this much: all that is kept then

@@ -38,12 +38,12 @@ class NetPath final : public fitting::Path<Scalar> {
     const Scalar* y;
     const Scalar* z;
   };
-  Block At(Eigen::Index begin, Eigen::Index columns);
+  Block At(Index begin, Index columns);
   // From S: hidden outputs and outputs at the point itself, if stored.
   void ReturnToPoint();
-  void Forward(Eigen::Index begin, Eigen::Index columns);
+  void Forward(Index begin, Index columns);
   // S at the point and T of a strip, if stored; done once all strips are.
-  void Prepare(Eigen::Index begin, Eigen::Index columns);
+  void Prepare(Index begin, Index columns);
   void EndPreparation();
   // Renews everything stored from the weights.
   void Renew();

@@ -1,12 +1,8 @@
 #include "models/net/net_problem.h"
 
-#include <algorithm>
-
 #include "fitting/multiversion.h"
 
 namespace errmap::models {
-
-using Eigen::Index;
 
 namespace {
 

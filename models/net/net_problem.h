@@ -4,12 +4,11 @@
 #include <array>
 #include <utility>
 
-#include <Eigen/Core>
-
 #include "fitting/minimisers/objective.h"
 #include "models/error_model.h"
 #include "models/net/aligned_matrix.h"
 #include "models/net/net_kernels.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -23,19 +22,17 @@ enum class NetArithmetic {
 /// x (I+1)) by columns, then w2 (J x (H+1)) likewise. The last column of each
 /// is the bias (NISTIR 5367, Eq. 14-17).
 struct NetShape {
-  Eigen::Index inputs = 0;   // I
-  Eigen::Index hidden = 0;   // H
-  Eigen::Index outputs = 1;  // J
+  Index inputs = 0;   // I
+  Index hidden = 0;   // H
+  Index outputs = 1;  // J
   OutputFunction output = OutputFunction::kSigmoid;
   double slope = 1.0;        // c of f(s) = 1 / (1 + e^(-c s)), Eq. 12; above 0
   bool free_biases = false;  // true: wfactor excludes biases
 
-  Eigen::Index num_weights1() const { return hidden * (inputs + 1); }
-  Eigen::Index num_weights() const {
-    return num_weights1() + outputs * (hidden + 1);
-  }
+  Index num_weights1() const { return hidden * (inputs + 1); }
+  Index num_weights() const { return num_weights1() + outputs * (hidden + 1); }
   /// First index and number of the biases of each layer.
-  std::array<std::pair<Eigen::Index, Eigen::Index>, 2> biases() const {
+  std::array<std::pair<Index, Index>, 2> biases() const {
     return {{{hidden * inputs, hidden}, {num_weights() - outputs, outputs}}};
   }
 };
@@ -68,28 +65,28 @@ struct NetProblem {
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
   NetShape shape;
-  Matrix patterns;          // ((I+1) x P) c x, last row c
-  Matrix targets;           // (J x P)
-  Vector weights;           // (P) of mean 1, or (0)
-  Scalar decay = 0;         // wfactor / N
-  Eigen::Index height = 0;  // H, padded
-  Eigen::Index block = 0;   // patterns summed at a time
-  Eigen::Index strip = 0;   // patterns of a block handled at a time
+  Matrix patterns;   // ((I+1) x P) c x, last row c
+  Matrix targets;    // (J x P)
+  Vector weights;    // (P) of mean 1, or (0)
+  Scalar decay = 0;  // wfactor / N
+  Index height = 0;  // H, padded
+  Index block = 0;   // patterns summed at a time
+  Index strip = 0;   // patterns of a block handled at a time
   const NetKernels<Scalar>* kernels = nullptr;
 
-  Eigen::Index num_patterns() const { return patterns.cols(); }
-  BlockSize Size(Eigen::Index columns) const {
+  Index num_patterns() const { return patterns.cols(); }
+  BlockSize Size(Index columns) const {
     return {height, columns, shape.outputs};
   }
   /// Computes s = w1 X from pattern `begin` on, s (height x columns).
   void Activate(const AlignedMatrix<Scalar>& w1,
-                Eigen::Index begin,
-                Eigen::Index columns,
+                Index begin,
+                Index columns,
                 Scalar* s) const;
   /// Calls work(begin, columns) for each strip of patterns from `begin` on.
   template <typename Work>
-  void ForEachStrip(Eigen::Index begin, Eigen::Index columns, Work work) const {
-    const Eigen::Index end = begin + columns;
+  void ForEachStrip(Index begin, Index columns, Work work) const {
+    const Index end = begin + columns;
     for (; begin < end; begin += strip) {
       work(begin, std::min(strip, end - begin));
     }
@@ -125,16 +122,16 @@ struct PackedWeights {
 /// the sum of squared, weighted residuals.
 template <typename Scalar>
 double Outputs(const NetProblem<Scalar>& problem,
-               Eigen::Index begin,
-               Eigen::Index columns,
+               Index begin,
+               Index columns,
                const fitting::VectorOf<Scalar>& bias,
                Scalar* o);
 
 /// Computes dE/do (J x columns) at the outputs z, without the decay.
 template <typename Scalar>
 void OutputSlopes(const NetProblem<Scalar>& problem,
-                  Eigen::Index begin,
-                  Eigen::Index columns,
+                  Index begin,
+                  Index columns,
                   const Scalar* z,
                   Scalar* d_output);
 
@@ -143,8 +140,8 @@ void OutputSlopes(const NetProblem<Scalar>& problem,
 /// columns). `bias_step` (J) is yet to be added to the first.
 template <typename Scalar>
 double OutputCurvature(const NetProblem<Scalar>& problem,
-                       Eigen::Index begin,
-                       Eigen::Index columns,
+                       Index begin,
+                       Index columns,
                        const Scalar* z,
                        const fitting::VectorOf<Scalar>& bias_step,
                        const Scalar* first,
@@ -158,8 +155,8 @@ class GradientSum {
   void Clear();
   /// Adds the patterns from `begin` on, given their y (height x columns) and
   /// outputs z (J x columns).
-  void Add(Eigen::Index begin,
-           Eigen::Index columns,
+  void Add(Index begin,
+           Index columns,
            const Scalar* y,
            const Scalar* z,
            const PackedWeights<Scalar>& weights);

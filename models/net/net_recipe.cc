@@ -14,10 +14,7 @@
 #include "models/net/feedforward_net.h"
 #include "models/net/net_effective_parameters.h"
 #include "models/net/net_fit.h"
-#include "models/net/net_options.h"
 #include "models/net/net_trainer.h"
-#include "models/net/net_tuning.h"
-#include "models/net/training_sample.h"
 #include "models/option_list.h"
 #include "models/shared_work.h"
 #include "stats/indices.h"
@@ -26,8 +23,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-
 // The first of the lowest; one that is not a number loses.
 std::size_t IndexOfLowest(const std::vector<double>& values) {
   std::size_t best = 0;
@@ -66,8 +61,7 @@ NetTrainers TrainersOf(const NetOptions& options) {
   fitting::StoppingRules rules = options.stopping();
   NetTrainers trainers;
   if (*options.path) {  // the steps of a path share the iterations of a fit
-    rules.iterations = Share(rules.iterations,
-                             static_cast<std::int64_t>(WfactorPath().size()));
+    rules.iterations = Share(rules.iterations, std::ssize(WfactorPath()));
   }
   trainers.full_iterations = rules.iterations;
   trainers.full = MakeNetTrainer(options.method, rules);
@@ -300,7 +294,7 @@ class OneLayerRecipe final : public NetRecipe {
                              rows.FormOf(minima[i].x))});
     }
     fitted->model = std::make_shared<AveragedModel>(
-        static_cast<Index>(columns.size()), "equal", std::move(members));
+        std::ssize(columns), "equal", std::move(members));
     // The summary is that of the first start; each is in `starts`.
     fitted->summary = std::move(minima.front().summary);
   }

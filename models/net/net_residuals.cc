@@ -10,10 +10,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // sqrt(row weight / (P J)) of a pattern.
 double RootShare(const NetProblem<double>& problem, Index pattern) {
   const double share =

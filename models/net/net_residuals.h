@@ -2,10 +2,9 @@
 
 #include <memory>
 
-#include <Eigen/Core>
-
 #include "fitting/minimisers/objective.h"
 #include "models/net/net_problem.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -24,13 +23,13 @@ class NetResiduals final : public fitting::ResidualFunction {
   /// `problem` must outlive this object and all that it makes.
   explicit NetResiduals(const NetProblem<double>& problem);
 
-  Eigen::Index num_residuals() const override {
+  Index num_residuals() const override {
     return problem_.num_patterns() * problem_.shape.outputs;
   }
   double ridge() const override { return problem_.decay; }
-  void Evaluate(const Eigen::VectorXd& w,
-                Eigen::VectorXd* residuals,
-                Eigen::MatrixXd* jacobian) const override;
+  void Evaluate(const VectorXd& w,
+                VectorXd* residuals,
+                MatrixXd* jacobian) const override;
   std::unique_ptr<fitting::Linearization> NewLinearization() const override;
 
  private:
@@ -40,7 +39,7 @@ class NetResiduals final : public fitting::ResidualFunction {
   mutable AlignedMatrix<double> hidden_;
   mutable AlignedMatrix<double> outputs_;
   // X'X (P x P), once needed.
-  mutable std::shared_ptr<const Eigen::MatrixXd> inner_products_;
+  mutable std::shared_ptr<const MatrixXd> inner_products_;
 };
 
 }  // namespace errmap::models

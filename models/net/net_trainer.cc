@@ -1,6 +1,5 @@
 #include "models/net/net_trainer.h"
 
-#include <cstdint>
 #include <functional>
 #include <utility>
 

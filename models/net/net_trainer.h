@@ -13,11 +13,11 @@ namespace errmap::models {
 /// weights (P) or (0), and the initial weights of the net (N).
 struct NetTraining {
   NetShape shape;
-  Eigen::MatrixXd inputs;
-  Eigen::MatrixXd targets;
-  Eigen::VectorXd row_weights;
+  MatrixXd inputs;
+  MatrixXd targets;
+  VectorXd row_weights;
   double wfactor = 0.0;
-  Eigen::VectorXd initial_weights;
+  VectorXd initial_weights;
   std::uint64_t seed = 1;  // for methods that draw at random
 };
 

@@ -1,22 +1,17 @@
-#include "models/net/net_tuning.h"
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <stdexcept>
 #include <tuple>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "models/inner_folds.h"
+#include "models/net/net_fit.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
-
-using Eigen::Index;
 
 // Values tried and their held-out errors, simplest first: by rising number of
 // nodes, or by falling wfactor.
@@ -81,7 +76,7 @@ class Tuner {
         hopeless_(kOutOfReach * tuning.rival) {
     Index rows = training.num_rows();
     for (const fitting::FoldCodes::Rows& split : inner_.folds.Splits()) {
-      rows = std::min(rows, static_cast<Index>(split.train.size()));
+      rows = std::min(rows, std::ssize(split.train));
     }
     hidden_to_try_ = HiddenToTry(rows);
   }
@@ -292,16 +287,16 @@ fitting::DiscrepancyChoice ChooseWfactorByDiscrepancy(
   const fitting::RunControl run{.stop = context.stop,
                                 .keep_trace = context.keep_trace};
   NetTraining training = rows.From(context.seed, 0.0);
-  const Eigen::VectorXd start = training.initial_weights;
+  const VectorXd start = training.initial_weights;
   return fitting::ChooseByDiscrepancy(
       {.delta = delta},
       start,
-      [&](double wfactor, const Eigen::VectorXd& from) {
+      [&](double wfactor, const VectorXd& from) {
         training.wfactor = wfactor;
         training.initial_weights = from;
         return TrainUntilSettled(trainer, run, &training);
       },
-      [&](const Eigen::VectorXd& w) { return rows.TrainingRms(w); });
+      [&](const VectorXd& w) { return rows.TrainingRms(w); });
 }
 
 }  // namespace errmap::models

@@ -1,16 +1,13 @@
-#include "models/net/training_sample.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <stdexcept>
 
+#include "models/net/net_fit.h"
 #include "stats/indices.h"
 #include "stats/random.h"
 
 namespace errmap::models {
 namespace {
-
-using Eigen::Index;
 
 constexpr std::uint64_t kSeed = 1;
 
@@ -58,7 +55,7 @@ std::vector<Index> StratifiedRows(const data::Dataset& training, Index most) {
   if (most > 0 && count > most && training.has_groups()) {
     std::vector<Index> rows;
     const auto groups = RowsByGroup(training.groups());
-    const auto num_groups = static_cast<Index>(groups.size());
+    const auto num_groups = std::ssize(groups);
     for (Index draws = num_groups * most / count; draws >= kFewestGroups;
          --draws) {
       rows.clear();
@@ -66,7 +63,7 @@ std::vector<Index> StratifiedRows(const data::Dataset& training, Index most) {
         const auto& all = groups[static_cast<std::size_t>(group)];
         rows.insert(rows.end(), all.begin(), all.end());
       }
-      if (static_cast<Index>(rows.size()) > most) continue;
+      if (std::ssize(rows) > most) continue;
       std::ranges::sort(rows);
       return rows;
     }

@@ -17,7 +17,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
 using fitting::Criterion;
 
 constexpr Index kPracticalTerms = 40;

@@ -14,8 +14,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-
 // The terms as written: products of the inputs as they are, centred only if
 // that leaves the set of maps the same.
 class FormulaRecipe final : public PolynomialRecipe {
@@ -51,7 +49,7 @@ class FormulaRecipe final : public PolynomialRecipe {
   }
 
   std::optional<Index> NumCoefficients(const Dataset&) const override {
-    return static_cast<Index>(terms_.size()) + (form_.intercept ? 1 : 0);
+    return std::ssize(terms_) + (form_.intercept ? 1 : 0);
   }
 
   FittedModel Fit(const Dataset& training,

@@ -1,5 +1,3 @@
-#include "models/polynomial/penalized_basis.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -8,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "fitting/least_squares/cross_products.h"
 #include "fitting/matrix_product.h"
+#include "models/polynomial/penalized_fit.h"
 #include "models/polynomial/polynomial_fit.h"
 #include "models/polynomial/polynomial_model.h"
 #include "stats/not_a_number.h"
@@ -18,9 +16,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using fitting::CrossProducts;
 using fitting::Penalty;
 
@@ -140,8 +135,8 @@ SummedBasis::SummedBasis(std::shared_ptr<const ViewedRows> viewed,
       stop_(context.stop) {
   if (folds != nullptr) folds_ = *folds;
   const Index n = design_.rows();
-  if (folds_ && (static_cast<Index>(folds_->folds.codes.size()) != n ||
-                 folds_->folds.count() < 2)) {
+  if (folds_ &&
+      (std::ssize(folds_->folds.codes) != n || folds_->folds.count() < 2)) {
     throw std::invalid_argument(
         "the penalty is chosen by cross-validation, which needs a fold for "
         "each row and at least 2 folds");
@@ -163,7 +158,7 @@ SummedBasis::SummedBasis(std::shared_ptr<const ViewedRows> viewed,
   }
   for (const Rows& rows : members_) {
     sums_.push_back(fitting::NoRows(design_.num_terms()));
-    ranges_.emplace_back(static_cast<Index>(design_.inputs().size()));
+    ranges_.emplace_back(std::ssize(design_.inputs()));
     ForBlocks(rows, [&](const Rows& block) {
       ranges_.back().Include(Inputs(block), Targets(block));
       const TermRows fitted = RowsAsFitted(block);
@@ -180,14 +175,14 @@ fitting::PenalizedPath SummedBasis::PathOf(Penalty penalty,
   const CrossProducts sums = fold ? TrainingOf(*fold) : all_;
   const bool intercept = viewed_->intercept;
   Rows rows;
-  for (Index f = 0; f < static_cast<Index>(members_.size()); ++f) {
+  for (Index f = 0; f < std::ssize(members_); ++f) {
     if (fold && !Predicts(f, *fold)) continue;
     const Rows& more = members_[static_cast<std::size_t>(f)];
     rows.insert(rows.end(), more.begin(), more.end());
   }
   // The space of the rows is the smaller one of many filtered sensors.
   if (penalty != Penalty::kRidge || rows.empty() ||
-      static_cast<Index>(rows.size()) >= design_.num_terms()) {
+      std::ssize(rows) >= design_.num_terms()) {
     return {penalty, sums, intercept};
   }
   const TermRows fitted = RowsAsFitted(rows);
@@ -229,7 +224,7 @@ void SummedBasis::PredictFold(
     const fitting::PenalizedPath::Solutions& solutions,
     const std::function<void(const Rows&, const MatrixXd&)>& take) const {
   const Guards margins;
-  RowRanges trained(static_cast<Index>(design_.inputs().size()));
+  RowRanges trained(std::ssize(design_.inputs()));
   for (Index f = 0; f < folds_->folds.count(); ++f) {
     if (Predicts(f, fold)) {
       trained.Include(ranges_[static_cast<std::size_t>(f)]);

@@ -1,5 +1,3 @@
-#include "models/polynomial/penalized_candidates.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 
 #include "models/history/view_options.h"
 #include "models/inner_folds.h"
+#include "models/polynomial/penalized_fit.h"
 #include "models/polynomial/term_dictionary.h"
 #include "models/shared_work.h"
 
@@ -16,7 +15,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
 using fitting::Penalty;
 
 using FitsByPenalty = std::map<Penalty, std::shared_ptr<const PenalizedFit>>;
@@ -37,7 +35,7 @@ std::vector<SetToTry> ServingTerms(const std::vector<bool>& is_position,
   constexpr Index kFewForSquares = 12;
   const bool has_position = std::ranges::count(is_position, true) > 0;
   const bool has_others = std::ranges::count(is_position, false) > 0;
-  const auto inputs = static_cast<Index>(is_position.size());
+  const auto inputs = std::ssize(is_position);
   std::vector<SetToTry> serving;
   const auto add = [&](TermSet set, int most) {
     const int taken = degree.value_or(most);
@@ -72,7 +70,7 @@ class BasisJudge {
       return ServingTerms(viewed.is_position, options_.degree);
     }
     const TermSet set = options_.terms.value_or(TermSet::kFull);
-    const auto inputs = static_cast<Index>(viewed.is_position.size());
+    const auto inputs = std::ssize(viewed.is_position);
     return {{set, options_.degree.value_or(DefaultDegreeOf(set, inputs))}};
   }
 
@@ -89,17 +87,16 @@ class BasisJudge {
                                .between = BetweenIn(*viewed)};
     const auto fits = FitsOf(viewed, basis, penalties);
     for (const Penalty penalty : penalties) {
-      judged->push_back(
-          {.viewed = viewed,
-           .fit = fits->at(penalty),
-           .terms = basis.terms,
-           .degree = basis.degree,
-           .num_excluded = static_cast<Index>(options_.exclude.size()),
-           .guarded = basis.guarded,
-           .label = fmt::format("{}, {}, {}",
-                                fitting::ToString(penalty),
-                                viewed->label(),
-                                ToString(basis.terms))});
+      judged->push_back({.viewed = viewed,
+                         .fit = fits->at(penalty),
+                         .terms = basis.terms,
+                         .degree = basis.degree,
+                         .num_excluded = std::ssize(options_.exclude),
+                         .guarded = basis.guarded,
+                         .label = fmt::format("{}, {}, {}",
+                                              fitting::ToString(penalty),
+                                              viewed->label(),
+                                              ToString(basis.terms))});
     }
     const auto ridge = fits->find(Penalty::kRidge);
     if (ridge == fits->end()) return;

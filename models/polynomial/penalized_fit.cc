@@ -17,9 +17,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using fitting::Penalty;
 
 // Results of the inner hold-outs for each strength tried.
@@ -35,8 +32,8 @@ class StrengthSearch {
 
   // Judges `strengths`, falling.
   void Judge(const std::vector<double>& strengths) {
-    const auto count = static_cast<Index>(strengths.size());
-    const auto judged = static_cast<Index>(paths_.size());
+    const auto count = std::ssize(strengths);
+    const auto judged = std::ssize(paths_);
     MatrixXd errors = MatrixXd::Zero(judged, count);  // sums of squares
     VectorXd weights = VectorXd::Zero(judged);
     for (Index i = 0; i < judged; ++i) {
@@ -216,7 +213,7 @@ FittedModel MapOfCandidate(const std::string& name,
     form.bends_within =
         BendsWithin(viewed, columns, fitted.inputs, form.input_offset);
   }
-  const Index parameters = static_cast<Index>(chosen.size()) + 1;
+  const Index parameters = std::ssize(chosen) + 1;
   fitted.model = std::make_shared<PolynomialModel>(form, parameters);
   const VectorXd residual = rows.target_values() - fitted.Predict(rows);
   fitted.equation = EquationText(

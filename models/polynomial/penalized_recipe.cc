@@ -7,7 +7,7 @@
 #include "models/history/view_options.h"
 #include "models/inner_folds.h"
 #include "models/option_list.h"
-#include "models/polynomial/penalized_candidates.h"
+#include "models/polynomial/penalized_fit.h"
 #include "models/polynomial/polynomial_fit.h"
 #include "models/polynomial/polynomial_options.h"
 #include "models/polynomial/term_dictionary.h"
@@ -17,7 +17,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
 using fitting::Penalty;
 
 // Over rows as they were measured there is only to choose how far to shrink,

@@ -11,8 +11,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-
 int OrderOf(const TermPowers& powers) {
   return std::accumulate(powers.begin(), powers.end(), 0);
 }
@@ -90,10 +88,9 @@ std::vector<TermPowers> AllTerms(Index num_inputs, int degree) {
   return terms;
 }
 
-Eigen::MatrixXd TermMatrix(const Eigen::MatrixXd& scaled_inputs,
-                           const std::vector<TermPowers>& terms) {
-  Eigen::MatrixXd matrix(scaled_inputs.rows(),
-                         static_cast<Index>(terms.size()));
+MatrixXd TermMatrix(const MatrixXd& scaled_inputs,
+                    const std::vector<TermPowers>& terms) {
+  MatrixXd matrix(scaled_inputs.rows(), std::ssize(terms));
   for (Index column = 0; column < matrix.cols(); ++column) {
     const TermPowers& powers = terms[static_cast<std::size_t>(column)];
     bool has_factor = false;

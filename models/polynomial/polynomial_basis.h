@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "models/error_model.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -15,15 +14,15 @@ using TermPowers = std::vector<int>;
 
 /// Returns the number of terms of order 1 .. degree, without the intercept:
 /// C(num_inputs + degree, degree) - 1; empty if it overflows.
-std::optional<Eigen::Index> CountTerms(Eigen::Index num_inputs, int degree);
+std::optional<Index> CountTerms(Index num_inputs, int degree);
 
 /// Returns all terms of order 1 .. degree, by order, then earlier inputs first
 /// (for two inputs and degree 2: x, y, x^2, xy, y^2).
-std::vector<TermPowers> AllTerms(Eigen::Index num_inputs, int degree);
+std::vector<TermPowers> AllTerms(Index num_inputs, int degree);
 
 /// Returns the values of the terms (m x terms) at scaled inputs (m x p).
-Eigen::MatrixXd TermMatrix(const Eigen::MatrixXd& scaled_inputs,
-                           const std::vector<TermPowers>& terms);
+MatrixXd TermMatrix(const MatrixXd& scaled_inputs,
+                    const std::vector<TermPowers>& terms);
 
 /// Returns the name of a term: "position_mm^2*t12_degC".
 std::string TermName(const TermPowers& term,

@@ -15,10 +15,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // Moving input i keeps the span of the terms if with each term the same term
 // with one power of i less is there (the intercept always is).
 bool IsClosedUnder(const std::set<TermPowers>& terms, std::size_t input) {
@@ -63,7 +59,7 @@ ColumnScaling PolynomialScaling(const Dataset& training,
   if (centring == Centring::kStandardised) {
     return StandardScaling(training.input_values()(Eigen::all, inputs));
   }
-  const auto count = static_cast<Index>(inputs.size());
+  const auto count = std::ssize(inputs);
   ColumnScaling scaling{VectorXd(count), VectorXd(count)};
   // With very many terms the set alone would take seconds.
   const std::set<TermPowers> set =
@@ -129,7 +125,7 @@ MatrixXd PolynomialDesign::Rows(Index first, Index count) const {
 
 fitting::ExtendedSystem PolynomialDesign::Exact() const {
   using stats::DoubleDouble;
-  fitting::ExtendedMatrix inputs(rows(), static_cast<Index>(inputs_.size()));
+  fitting::ExtendedMatrix inputs(rows(), std::ssize(inputs_));
   fitting::ExtendedSystem system{
       fitting::ExtendedMatrix::Constant(rows(), num_terms() + 1, 1.0),
       fitting::ExtendedVector(rows())};
@@ -181,8 +177,7 @@ double PolynomialDesign::Noise(const VectorXd& combination) const {
       }
       const VectorXd slope =
           TermMatrix(scaled, slopes) *
-          Eigen::Map<const VectorXd>(factors.data(),
-                                     static_cast<Index>(factors.size()));
+          Eigen::Map<const VectorXd>(factors.data(), std::ssize(factors));
       const auto column = static_cast<Index>(k);
       noise += slope.cwiseAbs().cwiseProduct(
           inputs.col(column).cwiseAbs() * (kHalfUnit * scaling_.scale[column]));
@@ -264,9 +259,8 @@ DesignRows CollectRows(const PolynomialDesign& design,
         block.array().colwise() *= roots.array();
       }
     };
-    const Index count = members.empty()
-                            ? design.rows()
-                            : static_cast<Index>(members[part].size());
+    const Index count =
+        members.empty() ? design.rows() : std::ssize(members[part]);
     const MatrixXd triangle =
         fitting::ReduceToTriangle(count, columns, fill, {.threads = threads});
     const Index first = static_cast<Index>(part) * columns;

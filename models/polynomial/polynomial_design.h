@@ -4,13 +4,12 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/measurements/dataset.h"
 #include "fitting/least_squares/linear_least_squares.h"
 #include "models/polynomial/polynomial_basis.h"
 #include "models/polynomial/term_set.h"
 #include "models/scaling.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -20,7 +19,7 @@ struct FitContext;
 /// makes each input's largest size, after any centring, 1 (its sd, if it is
 /// standardised).
 ColumnScaling PolynomialScaling(const data::Dataset& training,
-                                const std::vector<Eigen::Index>& inputs,
+                                const std::vector<Index>& inputs,
                                 const std::vector<TermPowers>& terms,
                                 Centring centring);
 
@@ -29,38 +28,36 @@ ColumnScaling PolynomialScaling(const data::Dataset& training,
 class PolynomialDesign {
  public:
   PolynomialDesign(const data::Dataset& dataset,
-                   std::vector<Eigen::Index> inputs,
+                   std::vector<Index> inputs,
                    ColumnScaling scaling,
                    std::vector<TermPowers> terms);
 
-  Eigen::Index rows() const { return dataset_.num_rows(); }
-  Eigen::Index num_terms() const {
-    return static_cast<Eigen::Index>(terms_.size());
-  }
+  Index rows() const { return dataset_.num_rows(); }
+  Index num_terms() const { return std::ssize(terms_); }
   const data::Dataset& dataset() const { return dataset_; }
-  const std::vector<Eigen::Index>& inputs() const { return inputs_; }
+  const std::vector<Index>& inputs() const { return inputs_; }
   const ColumnScaling& scaling() const { return scaling_; }
   const std::vector<TermPowers>& terms() const { return terms_; }
   std::vector<std::string> TermNames() const;
   /// Returns one of them; with very many terms, all take a second.
-  std::string NameOf(Eigen::Index term) const;
+  std::string NameOf(Index term) const;
 
   /// Return the terms (b x k) of these rows.
-  Eigen::MatrixXd Rows(const std::vector<Eigen::Index>& rows) const;
-  Eigen::MatrixXd Rows(Eigen::Index first, Eigen::Index count) const;
+  MatrixXd Rows(const std::vector<Index>& rows) const;
+  MatrixXd Rows(Index first, Index count) const;
 
   /// Returns intercept's column and terms (n x (k + 1)) and response (n) in 106
   /// bits, from the decimals that the data are roundings of.
   fitting::ExtendedSystem Exact() const;
   /// Returns the length of the effect of rounding the data to double on a
   /// combination (k + 1) of the intercept's column and the terms, with weights.
-  double Noise(const Eigen::VectorXd& combination) const;
+  double Noise(const VectorXd& combination) const;
 
  private:
   std::vector<std::string> InputNames() const;
 
   const data::Dataset& dataset_;
-  std::vector<Eigen::Index> inputs_;
+  std::vector<Index> inputs_;
   ColumnScaling scaling_;
   std::vector<TermPowers> terms_;
 };
@@ -68,13 +65,13 @@ class PolynomialDesign {
 /// Input of least squares from a design: its rows, or triangles that represent
 /// them (fitting/least_squares/triangular_reduction.h).
 struct DesignRows {
-  Eigen::MatrixXd terms;      // (r x k)
-  Eigen::VectorXd response;   // (r)
-  Eigen::VectorXd weights;    // (r) or (0)
-  Eigen::VectorXd intercept;  // (r); (0) if rows are observations
+  MatrixXd terms;      // (r x k)
+  VectorXd response;   // (r)
+  VectorXd weights;    // (r) or (0)
+  VectorXd intercept;  // (r); (0) if rows are observations
   double observations = 0.0;
   /// (r) part of each row; (0) if no parts were requested.
-  std::vector<Eigen::Index> parts;
+  std::vector<Index> parts;
 
   bool are_observations() const { return intercept.size() == 0; }
 };
@@ -85,7 +82,7 @@ struct DesignRows {
 /// std::invalid_argument ("interrupted") if `stop` becomes true while a
 /// triangle is computed.
 DesignRows CollectRows(const PolynomialDesign& design,
-                       const std::vector<Eigen::Index>& parts,
+                       const std::vector<Index>& parts,
                        double most_values,
                        int threads,
                        const std::atomic<bool>* stop = nullptr);
@@ -93,11 +90,11 @@ DesignRows CollectRows(const PolynomialDesign& design,
 /// Returns the same with the limits of `context`. The triangle of all rows is
 /// computed once for the recipes that share these rows.
 DesignRows CollectRows(const PolynomialDesign& design,
-                       const std::vector<Eigen::Index>& parts,
+                       const std::vector<Index>& parts,
                        const FitContext& context);
 
 /// Returns true if CollectRows makes triangles of such a design.
-bool NeedsTriangle(Eigen::Index rows, Eigen::Index terms, double most_values);
+bool NeedsTriangle(Index rows, Index terms, double most_values);
 
 /// Returns `context`, but preferring a triangle if the design has more than
 /// `most_values` numbers and few columns. One pass then costs less than the

@@ -19,10 +19,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr Index kRowsAtATime = 4096;
 
 // The terms that the solution left out, with a word on why for the first.
@@ -310,7 +306,7 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
                                        const FormOptions& form_options,
                                        RegressionRecord* report) const {
   const Index coefficients =
-      static_cast<Index>(terms.size()) + (form_options.intercept ? 1 : 0);
+      std::ssize(terms) + (form_options.intercept ? 1 : 0);
   if (training.num_rows() < coefficients) {
     throw std::invalid_argument(
         fmt::format("{} coefficients cannot be fitted to {} rows",

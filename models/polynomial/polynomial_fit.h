@@ -11,7 +11,7 @@
 namespace errmap::models {
 
 /// Returns the columns 0 .. p-1.
-std::vector<Eigen::Index> AllColumns(const data::Dataset& dataset);
+std::vector<Index> AllColumns(const data::Dataset& dataset);
 
 /// Returns the form in which terms are fitted.
 struct FormOptions {
@@ -39,7 +39,7 @@ class PolynomialRecipe : public ModelRecipe {
   /// that chose the terms completes; the map is the same. Throws
   /// std::invalid_argument if there are fewer rows than coefficients.
   FittedModel FitTerms(const data::Dataset& training,
-                       const std::vector<Eigen::Index>& inputs,
+                       const std::vector<Index>& inputs,
                        const std::vector<TermPowers>& terms,
                        const FitContext& context,
                        const FormOptions& form_options = {},
@@ -53,19 +53,19 @@ class PolynomialRecipe : public ModelRecipe {
 /// Returns the terms `chosen` of a design, over only those inputs that one of
 /// them has.
 struct UsedTerms {
-  std::vector<Eigen::Index> inputs;
+  std::vector<Index> inputs;
   std::vector<TermPowers> terms;
 };
 UsedTerms KeepUsedInputs(const std::vector<TermPowers>& terms,
-                         const std::vector<Eigen::Index>& chosen);
+                         const std::vector<Index>& chosen);
 
 /// Returns why `column` (n) adds nothing to `intercept` (n; 0: ones) and
 /// `others` (n x k), terms with these names: "is constant", "repeats t1_degC",
 /// "follows from ...".
-std::string WhyAliased(const Eigen::VectorXd& column,
-                       const Eigen::MatrixXd& others,
+std::string WhyAliased(const VectorXd& column,
+                       const MatrixXd& others,
                        const std::vector<std::string>& names,
-                       const Eigen::VectorXd& intercept);
+                       const VectorXd& intercept);
 
 /// Fills the lines of the coefficient table in the inputs' own units, and
 /// their centres; `fit` is in scaled terms. Keeps the bootstrap inclusions of

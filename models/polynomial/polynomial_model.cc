@@ -10,8 +10,6 @@
 
 namespace errmap::models {
 
-using Eigen::Index;
-
 bool Bends(const std::vector<BendRange>& within,
            const std::vector<int>& powers) {
   int degree = 0;
@@ -35,13 +33,13 @@ PolynomialModel::PolynomialModel(PolynomialForm form, Index num_parameters)
       !std::isfinite(form_.intercept)) {
     refuse("offsets, scales and intercept must be finite");
   }
-  const Index num_terms = static_cast<Index>(form_.terms.size());
+  const Index num_terms = std::ssize(form_.terms);
   if (num_parameters_ < num_terms || num_parameters_ > num_terms + 1) {
     refuse(std::to_string(num_parameters_) + " parameters do not go with " +
            std::to_string(num_terms) + " terms and an intercept");
   }
   for (const PolynomialTerm& term : form_.terms) {
-    if (static_cast<Index>(term.powers.size()) != p) {
+    if (std::ssize(term.powers) != p) {
       refuse("a term has " + std::to_string(term.powers.size()) +
              " powers for " + std::to_string(p) + " inputs");
     }
@@ -68,8 +66,7 @@ PolynomialModel::PolynomialModel(PolynomialForm form, Index num_parameters)
     };
     const auto [lowest, highest] =
         std::minmax({scaled(range.min), scaled(range.max)});
-    held_at[static_cast<std::size_t>(input)] =
-        p + static_cast<Index>(held_.size());
+    held_at[static_cast<std::size_t>(input)] = p + std::ssize(held_);
     held_.push_back({input, lowest, highest});
   }
   for (const PolynomialTerm& term : form_.terms) {
@@ -88,7 +85,7 @@ PolynomialModel::PolynomialModel(PolynomialForm form, Index num_parameters)
 
 double PolynomialModel::DoPredictRow(const double* inputs) const {
   const Index num_inputs = form_.input_offset.size();
-  const auto num_held = static_cast<Index>(held_.size());
+  const auto num_held = std::ssize(held_);
   // powers[i * highest + k - 1] = k-th power of scaled input i; after all of
   // them those of the inputs that are held.
   RowScratch powers(
@@ -123,8 +120,8 @@ double PolynomialModel::DoPredictRow(const double* inputs) const {
 PredictionCost CostOf(const PolynomialForm& form) {
   PredictionCost cost;
   for (const PolynomialTerm& term : form.terms) {
-    cost.multiplications += std::accumulate(
-        term.powers.begin(), term.powers.end(), Eigen::Index{0});
+    cost.multiplications +=
+        std::accumulate(term.powers.begin(), term.powers.end(), Index{0});
   }
   return cost;
 }

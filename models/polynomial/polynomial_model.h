@@ -18,17 +18,17 @@ class PolynomialModel final : public ErrorModel {
   /// it is fixed (the zero map has none). Throws std::invalid_argument if
   /// shapes do not agree, a power is negative or above 64, or a number is not
   /// finite.
-  PolynomialModel(PolynomialForm form, Eigen::Index num_parameters);
+  PolynomialModel(PolynomialForm form, Index num_parameters);
 
-  Eigen::Index num_inputs() const override { return form_.input_offset.size(); }
-  Eigen::Index num_parameters() const override { return num_parameters_; }
+  Index num_inputs() const override { return form_.input_offset.size(); }
+  Index num_parameters() const override { return num_parameters_; }
   ModelDescription Describe() const override { return form_; }
   const PolynomialForm& form() const { return form_; }
 
  private:
   // A term as a list of factors, each an index into the row's powers.
   struct SparseTerm {
-    std::vector<Eigen::Index> factors;
+    std::vector<Index> factors;
     double coefficient;
   };
 
@@ -36,12 +36,12 @@ class PolynomialModel final : public ErrorModel {
 
   PolynomialForm form_;
   struct HeldInput {
-    Eigen::Index input;
+    Index input;
     double lowest;  // scaled
     double highest;
   };
 
-  Eigen::Index num_parameters_;
+  Index num_parameters_;
   int highest_power_ = 0;
   std::vector<HeldInput> held_;
   std::vector<SparseTerm> sparse_terms_;

@@ -12,7 +12,6 @@
 #include "fitting/selection/stepwise_selection.h"
 #include "models/error_model.h"
 #include "models/history/view.h"
-#include "models/model_options.h"
 #include "models/polynomial/formula.h"
 #include "models/polynomial/term_set.h"
 

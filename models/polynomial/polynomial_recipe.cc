@@ -14,8 +14,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-
 // `zero` (no compensation at all) and `mean`.
 class ConstantRecipe final : public PolynomialRecipe {
  public:
@@ -113,7 +111,7 @@ class PositionTemperatureRecipe final : public PolynomialRecipe {
   }
 
   std::optional<Index> NumCoefficients(const Dataset&) const override {
-    return static_cast<Index>(form_.terms.size()) + 1;
+    return std::ssize(form_.terms) + 1;
   }
 
   // T is the candidate that leaves the smallest residual sum of squares in

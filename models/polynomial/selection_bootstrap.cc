@@ -12,9 +12,6 @@ namespace errmap::models {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 // The share of repetitions in which each candidate (m) is chosen.
 VectorXd BootstrapInclusion(const DesignRows& rows,
                             const std::vector<Index>& units,
@@ -27,8 +24,7 @@ VectorXd BootstrapInclusion(const DesignRows& rows,
   std::vector<Index> unit_of(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < unit_of.size(); ++i) {
     const Index code = units.empty() ? static_cast<Index>(i) : units[i];
-    unit_of[i] =
-        number.emplace(code, static_cast<Index>(number.size())).first->second;
+    unit_of[i] = number.emplace(code, std::ssize(number)).first->second;
   }
   const auto num_units = static_cast<std::uint64_t>(number.size());
   // Draws are made in order, so that threads change nothing.

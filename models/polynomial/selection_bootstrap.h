@@ -9,8 +9,8 @@
 namespace errmap::models {
 
 /// Chooses terms of a problem (columns).
-using ChooseTerms = std::function<std::vector<Eigen::Index>(
-    const fitting::SelectionProblem& problem)>;
+using ChooseTerms =
+    std::function<std::vector<Index>(const fitting::SelectionProblem& problem)>;
 
 /// Reports the share of `repetitions` in which each candidate is chosen, for
 /// `chosen` (as lines of the coefficient table) and for the excluded ones. Each
@@ -18,8 +18,8 @@ using ChooseTerms = std::function<std::vector<Eigen::Index>(
 /// groups: those of `units` (r); draws enter as weights. NaN if interrupted.
 void ReportInclusion(const TermDictionary& dictionary,
                      const DesignRows& rows,
-                     const std::vector<Eigen::Index>& units,
-                     const std::vector<Eigen::Index>& chosen,
+                     const std::vector<Index>& units,
+                     const std::vector<Index>& chosen,
                      int repetitions,
                      const ChooseTerms& choose,
                      const FitContext& context,

@@ -1,14 +1,10 @@
-#include "models/polynomial/session_offsets.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace errmap::models {
+#include "models/polynomial/penalized_fit.h"
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
+namespace errmap::models {
 
 SessionOffsets::SessionOffsets(std::vector<Index> sessions,
                                Index num_terms,

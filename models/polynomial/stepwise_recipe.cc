@@ -20,7 +20,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
 using fitting::Criterion;
 
 constexpr std::int64_t kDefaultBootstrap = 200;
@@ -211,7 +210,7 @@ class StepwiseRecipe final : public PolynomialRecipe {
     if (options_.max_terms) return how;
     constexpr Index kRowsPerTerm = 5;
     how.max_terms = std::max({training.num_rows() / kRowsPerTerm,
-                              static_cast<Index>(rules.include.size()),
+                              std::ssize(rules.include),
                               Index{1}});
     return how;
   }

@@ -17,9 +17,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-using Eigen::MatrixXd;
-
 constexpr double kMostValues = 1.25e8;  // 1 GB
 constexpr Index kMostTriangle = 4000;   // columns; four triangles of 128 MB
 

@@ -29,13 +29,13 @@ struct TermDictionary {
 
   int degree;
   PolynomialDesign design;
-  std::vector<Eigen::Index> include;
+  std::vector<Index> include;
   std::vector<bool> excluded;
 
   /// Returns, for heredity, the terms with one power less of each.
-  std::vector<std::vector<Eigen::Index>> Parents() const;
+  std::vector<std::vector<Index>> Parents() const;
   /// Returns the candidates that may be chosen.
-  Eigen::Index NumOpen() const;
+  Index NumOpen() const;
 };
 
 struct LeastSquaresRecord;
@@ -44,17 +44,17 @@ struct LeastSquaresRecord;
 fitting::SelectionProblem SelectionOf(const DesignRows& rows);
 
 /// Returns the default degree: 3 up to 8 inputs, else 2.
-int DefaultDegree(Eigen::Index num_inputs);
+int DefaultDegree(Index num_inputs);
 
 /// Returns a fold's choice, part of its result: "chosen: x, x*t".
 std::string ChosenTerms(const TermDictionary& dictionary,
-                        const std::vector<Eigen::Index>& chosen);
+                        const std::vector<Index>& chosen);
 
 /// Adds to `record` why candidates that are not in a model add nothing to it,
 /// and the F of the others. Stops where it is if context.stop becomes true.
 void ReportExcluded(const TermDictionary& dictionary,
                     const DesignRows& rows,
-                    const std::vector<Eigen::Index>& chosen,
+                    const std::vector<Index>& chosen,
                     double collinearity,
                     const FitContext& context,
                     LeastSquaresRecord* record);

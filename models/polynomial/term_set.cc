@@ -6,8 +6,6 @@
 
 namespace errmap::models {
 
-using Eigen::Index;
-
 const std::vector<std::string>& TermSetWords() {
   static const std::vector<std::string> words = {
       "linear", "squares", "axis", "full"};
@@ -37,7 +35,7 @@ int DefaultDegreeOf(TermSet set, Index num_inputs) {
 std::optional<Index> CountTerms(TermSet set,
                                 const std::vector<bool>& is_position,
                                 int degree) {
-  const auto inputs = static_cast<Index>(is_position.size());
+  const auto inputs = std::ssize(is_position);
   const auto positions =
       static_cast<Index>(std::ranges::count(is_position, true));
   const Index others = inputs - positions;

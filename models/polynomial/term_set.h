@@ -5,9 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "models/polynomial/polynomial_basis.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -33,12 +32,12 @@ enum class Centring {
 
 /// Returns the highest power of a set if no degree is given: 1, 2, 3, and for
 /// full by the number of inputs (DefaultDegree).
-int DefaultDegreeOf(TermSet set, Eigen::Index num_inputs);
+int DefaultDegreeOf(TermSet set, Index num_inputs);
 
 /// Returns the number of terms; empty on overflow.
-std::optional<Eigen::Index> CountTerms(TermSet set,
-                                       const std::vector<bool>& is_position,
-                                       int degree);
+std::optional<Index> CountTerms(TermSet set,
+                                const std::vector<bool>& is_position,
+                                int degree);
 
 /// Returns the terms over inputs, given which are positions. An axis set
 /// without positions is linear.

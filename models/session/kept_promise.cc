@@ -1,20 +1,15 @@
 #include "models/session/kept_promise.h"
 
 #include <array>
-#include <cmath>
 #include <stdexcept>
 
 #include "data/text.h"
 #include "models/map_experience.h"
 #include "models/session/session_check.h"
 #include "stats/error_metrics.h"
-#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
-
-using Eigen::Index;
-using Eigen::VectorXd;
 
 double ShareWithin(const FittedModel& fitted,
                    std::size_t level,

@@ -6,10 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "models/error_model.h"
 #include "models/sensors/applicability.h"
+#include "stats/eigen.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::models {
@@ -48,8 +47,8 @@ struct KeptPromise {
 /// Takes `targets` and `predicted` (m, at least 1). A flag for each (FlagRows)
 /// chooses the interval of the row; without flags, all rows are inside.
 KeptPromise HoldToPromise(const FittedModel& fitted,
-                          const Eigen::VectorXd& targets,
-                          const Eigen::VectorXd& predicted,
+                          const VectorXd& targets,
+                          const VectorXd& predicted,
                           const std::vector<RowFlag>& flags = {});
 
 }  // namespace errmap::models

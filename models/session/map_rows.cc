@@ -11,7 +11,6 @@
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/measured_files.h"
 #include "data/measurements/reading/derived_columns.h"
-#include "data/measurements/reading/directions.h"
 #include "data/measurements/reading/read_table.h"
 #include "data/measurements/row_filters.h"
 #include "data/measurements/sessions.h"
@@ -19,8 +18,6 @@
 
 namespace errmap::models {
 namespace {
-
-using Eigen::Index;
 
 data::DatasetSelection SelectionFor(const FittedModel& fitted,
                                     const data::CsvTable& table,
@@ -181,9 +178,9 @@ MomentsOfRows MomentsOf(const FittedModel& fitted,
   return moments;
 }
 
-Eigen::VectorXd ElapsedSinceStart(const FittedModel& fitted,
-                                  const MapRows& rows,
-                                  const MapLogArguments& arguments) {
+VectorXd ElapsedSinceStart(const FittedModel& fitted,
+                           const MapRows& rows,
+                           const MapLogArguments& arguments) {
   const std::vector<Index> all =
       stats::AllIndices(static_cast<Index>(rows.table.num_rows));
   const std::vector<Moment> moments =
@@ -204,7 +201,7 @@ Eigen::VectorXd ElapsedSinceStart(const FittedModel& fitted,
       begin(log->sessions.labels[session], log->time[static_cast<Index>(row)]);
     }
   }
-  Eigen::VectorXd elapsed(rows.dataset.num_rows());
+  VectorXd elapsed(rows.dataset.num_rows());
   for (Index i = 0; i < elapsed.size(); ++i) {
     const Index row = rows.dataset.rows()[static_cast<std::size_t>(i)];
     const Moment& moment = moments[static_cast<std::size_t>(row)];
@@ -213,14 +210,14 @@ Eigen::VectorXd ElapsedSinceStart(const FittedModel& fitted,
   return elapsed;
 }
 
-Eigen::VectorXd PositionsOf(const FittedModel& fitted, const MapRows& rows) {
+VectorXd PositionsOf(const FittedModel& fitted, const MapRows& rows) {
   if (fitted.held_out == nullptr) return {};
   const std::string& name = fitted.held_out->position;
   const std::ptrdiff_t column = name.empty() ? -1 : rows.table.Find(name);
   if (column < 0) return {};
-  const Eigen::VectorXd positions =
+  const VectorXd positions =
       data::ValuesOfRows(rows.table.At(column), rows.dataset.rows());
-  return positions.allFinite() ? positions : Eigen::VectorXd{};
+  return positions.allFinite() ? positions : VectorXd{};
 }
 
 MapRows MakeMapRows(const FittedModel& fitted,

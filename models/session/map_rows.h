@@ -3,8 +3,6 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/csv.h"
 #include "data/measurements/column_match.h"
 #include "data/measurements/dataset.h"
@@ -12,6 +10,7 @@
 #include "models/history/history.h"
 #include "models/history/map_log.h"
 #include "models/session/session_offset.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -68,18 +67,18 @@ struct MomentsOfRows {
 };
 MomentsOfRows MomentsOf(const FittedModel& fitted,
                         const data::CsvTable& table,
-                        const std::vector<Eigen::Index>& rows,
+                        const std::vector<Index>& rows,
                         const MapLogArguments& arguments);
 
 /// (rows of the data set) Time since the first row of the session in the
 /// table, or in the rows before it; 0 where there are no times.
-Eigen::VectorXd ElapsedSinceStart(const FittedModel& fitted,
-                                  const MapRows& rows,
-                                  const MapLogArguments& arguments);
+VectorXd ElapsedSinceStart(const FittedModel& fitted,
+                           const MapRows& rows,
+                           const MapLogArguments& arguments);
 
 /// (rows of the data set) Positions, as the map's held-out errors have them,
 /// from the table: the map itself need not read them. (0) where the table has
 /// none, or not for every row.
-Eigen::VectorXd PositionsOf(const FittedModel& fitted, const MapRows& rows);
+VectorXd PositionsOf(const FittedModel& fitted, const MapRows& rows);
 
 }  // namespace errmap::models

@@ -8,8 +8,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-
 // Rows before all others go on into the probes by themselves.
 bool RunsBetweenProbes(const FittedModel& fitted, const MapLogArguments& log) {
   return fitted.history != nullptr && fitted.history->needs_sessions() &&
@@ -22,7 +20,7 @@ data::Dataset WithRowsBetween(const FittedModel& fitted,
                               const MapRows& measured,
                               const RowsForMap& today,
                               const MapLogArguments& log) {
-  const Eigen::MatrixXd inputs = ReadingsOf(fitted, measured.table);
+  const MatrixXd inputs = ReadingsOf(fitted, measured.table);
   const PointLog merged =
       MakePointLog(*fitted.history, {measured.table, inputs}, &today, log);
   std::vector<Index> log_rows;
@@ -45,7 +43,7 @@ ProbeCorrection CorrectByProbes(const FittedModel& fitted,
                                 const MapRows& probes,
                                 const RowsForMap& today,
                                 const MapLogArguments& log) {
-  const Eigen::VectorXd predicted =
+  const VectorXd predicted =
       fitted.Predict(RunsBetweenProbes(fitted, log)
                          ? WithRowsBetween(fitted, probes, today, log)
                          : probes.dataset);

@@ -1,18 +1,17 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include "models/error_model.h"
 #include "models/history/map_log.h"
 #include "models/history/point_log.h"
 #include "models/session/map_rows.h"
 #include "models/session/session_offset.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
 /// What probes of a session say of the rows that a map predicts.
 struct ProbeCorrection {
-  Eigen::Index num_probes = 0;
+  Index num_probes = 0;
   OffsetModel model;
   OffsetTrack track;  // of the rows; its offset is to be added, target's unit
 };

@@ -16,10 +16,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // What more of them change is less than what sessions differ by.
 constexpr Index kMostProbes = 96;
 constexpr Index kSites = 72;

@@ -2,18 +2,17 @@
 
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "models/map_experience.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
 /// Measured errors of a session: where, when, and what the map made of them.
 struct SessionProbes {
-  Eigen::VectorXd elapsed;    // (n) s since the session began
-  Eigen::VectorXd position;   // (n), or (0) where none is known
-  Eigen::VectorXd predicted;  // (n) target's unit
-  Eigen::VectorXd residuals;  // (n) target less prediction, target's unit
+  VectorXd elapsed;    // (n) s since the session began
+  VectorXd position;   // (n), or (0) where none is known
+  VectorXd predicted;  // (n) target's unit
+  VectorXd residuals;  // (n) target less prediction, target's unit
 };
 
 /// What the errors of a session may be, by probes: draws that are alike likely.
@@ -29,12 +28,12 @@ struct SessionProbes {
 /// (Rasmussen & Williams 2006, Eqs. 2.22 to 2.30).
 struct SessionForecast {
   // Sites: times and places of held-out errors, spread evenly, by rising time.
-  Eigen::VectorXd elapsed;           // (m)
-  Eigen::VectorXd position;          // (m), or (0)
-  Eigen::VectorXd predicted;         // (m), or (0)
-  std::vector<Eigen::Index> so_far;  // sites up to the last probe
-  std::vector<Eigen::Index> later;   // those after it
-  Eigen::MatrixXd errors;            // (draws x m) target's unit
+  VectorXd elapsed;           // (m)
+  VectorXd position;          // (m), or (0)
+  VectorXd predicted;         // (m), or (0)
+  std::vector<Index> so_far;  // sites up to the last probe
+  std::vector<Index> later;   // those after it
+  MatrixXd errors;            // (draws x m) target's unit
 };
 
 /// `errors` has a positive RMSE; `probes` at least one row, all finite. Where

@@ -11,9 +11,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 // Three standard deviations, squared: no probe of an offset as the model's.
 constexpr double kSurprise = 9.0;
@@ -197,9 +194,9 @@ OffsetTrack TrackOffset(const OffsetModel& model,
   std::ranges::stable_sort(order, {}, [&](Index i) {
     return probe_moments[static_cast<std::size_t>(i)].time;
   });
-  OffsetTrack track{.offset = VectorXd(static_cast<Index>(moments.size())),
-                    .variance = VectorXd(static_cast<Index>(moments.size())),
-                    .widening = VectorXd(static_cast<Index>(moments.size())),
+  OffsetTrack track{.offset = VectorXd(std::ssize(moments)),
+                    .variance = VectorXd(std::ssize(moments)),
+                    .widening = VectorXd(std::ssize(moments)),
                     .contradicted = {},
                     .used = {}};
   for (std::size_t row = 0; row < moments.size(); ++row) {

@@ -3,9 +3,8 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "models/map_experience.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -85,15 +84,15 @@ struct Moment {
 /// The offset at each of `moments` (m) and its variance, from the probes of the
 /// same session up to then.
 struct OffsetTrack {
-  Eigen::VectorXd offset;          // (m) target's unit
-  Eigen::VectorXd variance;        // (m)
-  Eigen::VectorXd widening;        // (m) OffsetFilter::Widening
+  VectorXd offset;                 // (m) target's unit
+  VectorXd variance;               // (m)
+  VectorXd widening;               // (m) OffsetFilter::Widening
   std::vector<bool> contradicted;  // (m)
-  std::vector<Eigen::Index> used;  // (m) number of probes behind it
+  std::vector<Index> used;         // (m) number of probes behind it
 };
 OffsetTrack TrackOffset(const OffsetModel& model,
                         const std::vector<Moment>& probe_moments,
-                        const Eigen::VectorXd& probe_residuals,
+                        const VectorXd& probe_residuals,
                         const std::vector<Moment>& moments);
 
 }  // namespace errmap::models

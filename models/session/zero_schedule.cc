@@ -14,8 +14,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
 using ProbedSession = HeldOutErrors::Unit;
 using ProbedSessions = std::vector<const ProbedSession*>;
 
@@ -271,7 +269,7 @@ ZeroSchedule ScheduleZeros(const HeldOutErrors& errors, double goal) {
   return schedule;
 }
 
-Index TellingTemperature(const Eigen::MatrixXd& temperatures,
+Index TellingTemperature(const MatrixXd& temperatures,
                          const VectorXd& residuals,
                          const std::vector<std::vector<Index>>& sessions) {
   Index best = -1;

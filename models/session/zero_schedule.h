@@ -4,10 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "models/error_model.h"
 #include "models/map_experience.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -70,9 +69,8 @@ ZeroSchedule ScheduleZeros(const HeldOutErrors& errors, double goal);
 /// The temperature (n x columns) whose changes go best with those of the
 /// residuals (n) of the same session, -1: none. `sessions`: the rows of each in
 /// order of time.
-Eigen::Index TellingTemperature(
-    const Eigen::MatrixXd& temperatures,
-    const Eigen::VectorXd& residuals,
-    const std::vector<std::vector<Eigen::Index>>& sessions);
+Index TellingTemperature(const MatrixXd& temperatures,
+                         const VectorXd& residuals,
+                         const std::vector<std::vector<Index>>& sessions);
 
 }  // namespace errmap::models

@@ -4,10 +4,9 @@
 #include <optional>
 #include <string>
 
-#include <Eigen/Core>
-
 #include "models/error_model.h"
 #include "models/study/memorisation.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -16,8 +15,8 @@ struct FitOutcome {
   std::optional<FittedModel> fitted;  // empty: failed
   std::string why_failed;
   double seconds = 0.0;
-  Eigen::VectorXd train_predictions;  // target's unit; empty if failed
-  Eigen::VectorXd test_predictions;   // the same; empty for a fit to all rows
+  VectorXd train_predictions;  // target's unit; empty if failed
+  VectorXd test_predictions;   // the same; empty for a fit to all rows
   std::optional<Memorisation> memorisation;  // of a net fitted to all rows
   /// True if memory ran out: another try may succeed, so it is not kept.
   bool try_again = false;

@@ -10,16 +10,13 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-using Eigen::VectorXd;
-
 stats::ErrorMetrics AverageMetrics(
     const std::vector<stats::ErrorMetrics>& folds) {
   using Metrics = stats::ErrorMetrics;
   const double count = static_cast<double>(folds.size());
   Metrics average;
   for (const Metrics& fold : folds) average.n += fold.n;
-  average.n /= static_cast<Index>(folds.size());
+  average.n /= std::ssize(folds);
   for (double Metrics::*const figure : {&Metrics::mean,
                                         &Metrics::sd,
                                         &Metrics::rmse,

@@ -49,6 +49,6 @@ void PoolTest(const data::Dataset& dataset,
 /// Returns metrics of `predicted` (m) against the targets of `dataset`; R2 is
 /// about their mean.
 stats::ErrorMetrics Judge(const data::Dataset& dataset,
-                          const Eigen::VectorXd& predicted);
+                          const VectorXd& predicted);
 
 }  // namespace errmap::models

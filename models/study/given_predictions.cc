@@ -11,8 +11,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
 using ByRow = std::map<Index, double>;
 
 // Predictions of every row of `rows`; stops at the first row without one.

@@ -17,10 +17,9 @@ struct GivenPredictions {
   std::string file;
   /// By 0-based data row, from a file with row,predicted. They serve every
   /// hold-out of the data file itself.
-  std::map<Eigen::Index, double> by_row;
+  std::map<Index, double> by_row;
   /// By (hold-out, fold) and data row, from row,holdout,fold,predicted.
-  std::map<std::pair<std::string, Eigen::Index>, std::map<Eigen::Index, double>>
-      by_fold;
+  std::map<std::pair<std::string, Index>, std::map<Index, double>> by_fold;
 };
 
 /// Reads CSV row,predicted or row,holdout,fold,predicted. Throws

@@ -14,8 +14,6 @@ namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-
 // The stream of the shuffle is not that of the folds and weights.
 constexpr std::uint64_t kShuffleStream = 0x6D656D6F72697365ULL;
 

@@ -9,10 +9,8 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-
-std::uint64_t HashOf(const Eigen::MatrixXd& inputs,
-                     const Eigen::VectorXd* targets,
+std::uint64_t HashOf(const MatrixXd& inputs,
+                     const VectorXd* targets,
                      Index row) {
   std::uint64_t hash = 0;
   const auto mix = [&](double value) {
@@ -28,8 +26,8 @@ std::uint64_t HashOf(const Eigen::MatrixXd& inputs,
 
 }  // namespace
 
-std::vector<std::uint64_t> RowHashes(const Eigen::MatrixXd& inputs,
-                                     const Eigen::VectorXd* targets) {
+std::vector<std::uint64_t> RowHashes(const MatrixXd& inputs,
+                                     const VectorXd* targets) {
   std::vector<std::uint64_t> hashes;
   for (Index row = 0; row < inputs.rows(); ++row) {
     hashes.push_back(HashOf(inputs, targets, row));

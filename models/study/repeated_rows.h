@@ -3,16 +3,15 @@
 #include <cstdint>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/measurements/dataset.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
 /// Returns a hash of each row of `inputs` and, unless null, its target. It uses
 /// single precision, since unit conversions change the last digits.
-std::vector<std::uint64_t> RowHashes(const Eigen::MatrixXd& inputs,
-                                     const Eigen::VectorXd* targets);
+std::vector<std::uint64_t> RowHashes(const MatrixXd& inputs,
+                                     const VectorXd* targets);
 
 /// Returns the share of rows expected to occur again by chance: those whose
 /// hash is also in another session, or in another group if there is one
@@ -26,7 +25,6 @@ bool AreMoreThanChance(double found, double looked, double share_by_chance);
 /// Returns how many rows of `judged` also occur in `training` (inputs and
 /// target); 0 if chance explains them. `judged` must have the inputs of
 /// `training`.
-Eigen::Index CountRowsOf(const data::Dataset& training,
-                         const data::Dataset& judged);
+Index CountRowsOf(const data::Dataset& training, const data::Dataset& judged);
 
 }  // namespace errmap::models

@@ -8,11 +8,10 @@
 
 namespace errmap::models {
 
-std::unordered_map<Eigen::Index, Eigen::Index> IndexByRow(
-    const data::Dataset& dataset) {
-  std::unordered_map<Eigen::Index, Eigen::Index> index;
+std::unordered_map<Index, Index> IndexByRow(const data::Dataset& dataset) {
+  std::unordered_map<Index, Index> index;
   for (std::size_t i = 0; i < dataset.rows().size(); ++i) {
-    index.emplace(dataset.rows()[i], static_cast<Eigen::Index>(i));
+    index.emplace(dataset.rows()[i], static_cast<Index>(i));
   }
   return index;
 }
@@ -52,8 +51,7 @@ double RowTable::Number(std::size_t line, const std::string& column) const {
   return value;
 }
 
-Eigen::Index RowTable::Whole(std::size_t line,
-                             const std::string& column) const {
+Index RowTable::Whole(std::size_t line, const std::string& column) const {
   constexpr double kMost = 1e15;  // exact in a double
   const double value = Column(column).values[line];
   if (!(value >= 0.0) || value > kMost || value != std::floor(value)) {
@@ -61,7 +59,7 @@ Eigen::Index RowTable::Whole(std::size_t line,
            column,
            fmt::format("'{}' is no whole number from 0", Text(line, column)));
   }
-  return static_cast<Eigen::Index>(value);
+  return static_cast<Index>(value);
 }
 
 }  // namespace errmap::models

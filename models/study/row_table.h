@@ -6,12 +6,12 @@
 
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
 /// Returns the index into `dataset` of each data row that it holds.
-std::unordered_map<Eigen::Index, Eigen::Index> IndexByRow(
-    const data::Dataset& dataset);
+std::unordered_map<Index, Index> IndexByRow(const data::Dataset& dataset);
 
 /// Reads users' tables with one line for each row of a data set. Each accessor
 /// throws data::InputError naming file, line and column.
@@ -23,7 +23,7 @@ class RowTable {
   std::size_t num_lines() const { return table_.num_rows; }
   bool Has(const std::string& column) const { return table_.Find(column) >= 0; }
   /// Returns a whole number, at least 0.
-  Eigen::Index Whole(std::size_t line, const std::string& column) const;
+  Index Whole(std::size_t line, const std::string& column) const;
   double Number(std::size_t line, const std::string& column) const;
   std::string Text(std::size_t line, const std::string& column) const;
   /// Throws that `why` is wrong with a line.

@@ -13,8 +13,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-
 // Lines of one hold-out, by fold.
 struct RawHoldout {
   std::string name;
@@ -28,7 +26,7 @@ Holdout FinishHoldout(RawHoldout raw,
   Holdout holdout;
   holdout.name = raw.name;
   for (auto& [number, fold] : raw.folds) {
-    if (number != static_cast<Index>(holdout.folds.size())) {
+    if (number != std::ssize(holdout.folds)) {
       throw data::InputError(
           fmt::format("{}: hold-out '{}' has a fold {} but no fold {}; number "
                       "them 0, 1, ...",

@@ -18,14 +18,11 @@
 #include "models/shared_work.h"
 #include "models/study/fold_pool.h"
 #include "models/study/repeated_rows.h"
-#include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-using Eigen::VectorXd;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kNotBegun = "interrupted before it began";
@@ -359,8 +356,7 @@ std::string ModelResult::why() const {
 bool IsOfSessions(const Holdout& holdout, const Dataset& dataset) {
   const bool groups_are_coarser =
       holdout.whole_groups &&
-      static_cast<Index>(dataset.groups().labels.size()) <
-          dataset.num_sessions();
+      std::ssize(dataset.groups().labels) < dataset.num_sessions();
   return holdout.whole_sessions && !groups_are_coarser;
 }
 

@@ -24,14 +24,14 @@ struct Holdout {
   bool whole_sessions = false;  // likewise for at least two sessions
   /// True if training rows lie around the test rows: interpolation.
   bool among_neighbours = false;
-  bool forward = false;      // earlier rows predict later ones
-  Eigen::Index repeats = 1;  // different splits of the same rows, in order
+  bool forward = false;  // earlier rows predict later ones
+  Index repeats = 1;     // different splits of the same rows, in order
   std::vector<stats::Fold> folds;  // indices into the data set
   /// Rows of file:TEST.csv, judged instead of the folds' own; or null.
   std::shared_ptr<const data::Dataset> test_data;
   /// Number of those rows that the data set also contains. They were learnt, so
   /// their errors say nothing of another day; among_neighbours is then set.
-  Eigen::Index rows_of_training = 0;
+  Index rows_of_training = 0;
   /// The inner hold-out for choices inside the training rows of a fold.
   InnerHoldout inner = InnerHoldout::kDecisive;
 };
@@ -56,7 +56,7 @@ struct FoldResult {
   std::vector<std::string> remarks;
   std::vector<EffectiveOption> choices;  // of the fit, such as wfactor=cv
   std::vector<StartResult> starts;       // empty if there was only one
-  Eigen::VectorXd test_predictions;      // one per test row of the fold
+  VectorXd test_predictions;             // one per test row of the fold
   /// The fitted map, without what is stored above; null for predictions by
   /// other programs.
   std::shared_ptr<const FittedModel> map;

@@ -8,10 +8,10 @@
 namespace errmap::models {
 
 std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset) {
-  constexpr Eigen::Index kFolds = 5;
+  constexpr Index kFolds = 5;
   std::vector<std::string> specs{"every:3"};
-  const auto groups = static_cast<Eigen::Index>(dataset.groups().labels.size());
-  const Eigen::Index sessions = dataset.num_sessions();
+  const auto groups = std::ssize(dataset.groups().labels);
+  const Index sessions = dataset.num_sessions();
   if (groups >= 2) {
     std::string spec = fmt::format("groups:{}", std::min(groups, kFolds));
     constexpr std::uint64_t kAnySeed = 1;  // nothing is shuffled
@@ -28,7 +28,7 @@ std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset) {
         fmt::format("blocks:{}", std::min(dataset.num_rows(), kFolds)));
   }
   if (sessions >= kFewestSessionsToDecide) {
-    constexpr Eigen::Index kForwardFolds = 3;
+    constexpr Index kForwardFolds = 3;
     specs.push_back(fmt::format("forward:{}", kForwardFolds));
   }
   return specs;

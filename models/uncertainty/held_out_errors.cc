@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "models/error_model.h"
 #include "models/session/zero_schedule.h"
 #include "models/study/judgement/units_of_analysis.h"
 #include "stats/error_metrics.h"
@@ -11,9 +10,6 @@
 
 namespace errmap::models {
 namespace {
-
-using Eigen::Index;
-using Eigen::VectorXd;
 
 // A day at every tenth minute; twice as many units as the 95 % interval needs.
 constexpr Index kMostRows = 48;
@@ -49,8 +45,7 @@ void AddTemperature(const HeldOutRows& held,
     const Index column = held.source->FindInput(input.column.name);
     if (column >= 0) columns.push_back(column);
   }
-  const Eigen::MatrixXd temperatures =
-      held.source->input_values()(held.rows, columns);
+  const MatrixXd temperatures = held.source->input_values()(held.rows, columns);
   const Index telling = TellingTemperature(temperatures, residuals, kept);
   if (telling < 0) return;
   const Index column = columns[static_cast<std::size_t>(telling)];
@@ -99,8 +94,7 @@ std::optional<HeldOutErrors> HeldOutErrorsOf(
   }
   const auto places = PlacesOfUnits(codes, units.labels.size(), elapsed);
   KeptRows kept_of;
-  for (const Index u :
-       stats::SpreadSample(static_cast<Index>(places.size()), kMostUnits)) {
+  for (const Index u : stats::SpreadSample(std::ssize(places), kMostUnits)) {
     const std::vector<Index>& all = places[static_cast<std::size_t>(u)];
     const std::vector<Index>& kept =
         kept_of.emplace_back(stats::SpreadSample(all, kMostRows));

@@ -3,12 +3,11 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/map_experience.h"
 #include "models/study/study.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -24,6 +23,6 @@ std::optional<HeldOutErrors> HeldOutErrorsOf(
     const std::vector<TrainedInput>& inputs);
 
 /// Time since the first row of its session, for each row; zeros without a log.
-Eigen::VectorXd ElapsedOf(const data::Dataset& dataset);
+VectorXd ElapsedOf(const data::Dataset& dataset);
 
 }  // namespace errmap::models

@@ -10,8 +10,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-
 // 16 bits a row and 11 hashes: (1 - exp(-11 / 16))^11 of other rows seem known.
 constexpr std::uint64_t kBitsPerRow = 16;
 constexpr std::uint64_t kHashes = 11;
@@ -72,7 +70,7 @@ std::optional<LearntRows> MakeLearntRows(const FittedModel& fitted,
                                          const data::Dataset& training) {
   LearntRows learnt;
   learnt.every = 1 + (training.num_rows() - 1) / kMostRowsHashed;
-  Eigen::MatrixXd inputs(training.num_rows(), std::ssize(fitted.inputs));
+  MatrixXd inputs(training.num_rows(), std::ssize(fitted.inputs));
   bool has_sensor = false;
   for (Index i = 0; i < inputs.cols(); ++i) {
     const data::ColumnInfo& column =
@@ -93,8 +91,8 @@ std::optional<LearntRows> MakeLearntRows(const FittedModel& fitted,
 }
 
 Index CountLearntRows(const FittedModel& fitted,
-                      const Eigen::MatrixXd& inputs,
-                      const Eigen::VectorXd* targets) {
+                      const MatrixXd& inputs,
+                      const VectorXd* targets) {
   if (fitted.learnt == nullptr) return 0;
   const LearntRows& learnt = *fitted.learnt;
   const auto& filter = targets != nullptr ? learnt.measured : learnt.readings;

@@ -2,11 +2,10 @@
 
 #include <optional>
 
-#include <Eigen/Core>
-
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/map_experience.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -20,8 +19,8 @@ std::optional<LearntRows> MakeLearntRows(const FittedModel& fitted,
 /// units. 0 where they are no more than chance and the filter's false hits
 /// (LearntRows) would make, or one or two readings alone; of a long training an
 /// estimate from some of them.
-Eigen::Index CountLearntRows(const FittedModel& fitted,
-                             const Eigen::MatrixXd& inputs,
-                             const Eigen::VectorXd* targets);
+Index CountLearntRows(const FittedModel& fitted,
+                      const MatrixXd& inputs,
+                      const VectorXd* targets);
 
 }  // namespace errmap::models

@@ -10,10 +10,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 MatrixXd Stacked(const MatrixXd& above, const MatrixXd& below) {
   MatrixXd all(above.rows() + below.rows(), above.cols());
   all << above, below;
@@ -38,7 +34,7 @@ std::shared_ptr<const data::SessionLog> JoinedLog(
     throw std::invalid_argument("the files have times in different units");
   }
   auto log = std::make_shared<data::SessionLog>(first);
-  const auto sessions = static_cast<Index>(first.sessions.labels.size());
+  const auto sessions = std::ssize(first.sessions.labels);
   const Index rows = first.time.size();
   Append(second.sessions.codes, sessions, &log->sessions.codes);
   for (const std::string& label : second.sessions.labels) {

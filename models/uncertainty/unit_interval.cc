@@ -14,9 +14,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 // What adds up to a share but for rounding does.
 constexpr double kRounding = 1e-9;
 
@@ -52,11 +49,11 @@ double QuantileOverUnits(const std::map<Index, std::vector<double>>& sizes,
 // Student's t over the normal's quantile.
 double Widening(const std::map<Index, std::vector<double>>& sizes,
                 double coverage) {
-  VectorXd mean_squares(static_cast<Index>(sizes.size()));
+  VectorXd mean_squares(std::ssize(sizes));
   Index u = 0;
   for (const auto& [unit, of_unit] : sizes) {
     const Eigen::Map<const VectorXd> values(of_unit.data(),
-                                            static_cast<Index>(of_unit.size()));
+                                            std::ssize(of_unit));
     mean_squares[u++] =
         values.squaredNorm() / static_cast<double>(values.size());
   }
@@ -195,7 +192,7 @@ std::optional<PredictionInterval> PromiseOf(
   UnitsOfAnalysis units;
   const std::vector<Index> codes = AssignUnits(holdout, held, &units);
   interval.unit = units.name;
-  interval.units = static_cast<Index>(units.labels.size());
+  interval.units = std::ssize(units.labels);
   interval.of_sessions = units.are_sessions;
   if (interval.units < 2) return std::nullopt;
   const VectorXd residuals = ResidualsOf(held, result);

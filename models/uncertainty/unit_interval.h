@@ -4,11 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/measurements/dataset.h"
 #include "models/prediction_interval.h"
 #include "models/study/study.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -24,10 +23,9 @@ namespace errmap::models {
 /// Wasserman & Ramdas 2022): the level is then marked at_least. `units` (n)
 /// number the unit of each residual from 0, in any order. NaN residuals and
 /// fewer than two units make NaN.
-PredictionInterval::Level UnitIntervalLevel(
-    const Eigen::VectorXd& residuals,
-    const std::vector<Eigen::Index>& units,
-    double coverage);
+PredictionInterval::Level UnitIntervalLevel(const VectorXd& residuals,
+                                            const std::vector<Index>& units,
+                                            double coverage);
 
 /// The promise of a model from its predictions of `holdout`'s held-out rows;
 /// nothing where they fall into fewer than two units, or lie between rows that

@@ -9,9 +9,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 // Why no t can be made of `d`, or "".
 std::string WhyNot(const VectorXd& d, Index fewest, const std::string& what) {
   if (d.size() < fewest) {

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
-
+#include "stats/eigen.h"
 #include "stats/not_a_number.h"
 #include "stats/test_result.h"
 
@@ -20,14 +19,13 @@ struct MeanDifferenceTest {
 /// differences are 0. Throws std::invalid_argument if test_to_train is negative
 /// or not finite.
 MeanDifferenceTest CorrectedResampledT(
-    const Eigen::Ref<const Eigen::VectorXd>& fold_differences,
-    double test_to_train);
+    const Eigen::Ref<const VectorXd>& fold_differences, double test_to_train);
 
 /// Test of Diebold & Mariano (1995) on loss differences in time order, of
 /// forecasts one step ahead. Corrected for small samples (Harvey, Leybourne &
 /// Newbold 1997): t with n - 1 degrees of freedom. Needs n >= 2. p = 1 if all
 /// differences are 0.
 MeanDifferenceTest DieboldMariano(
-    const Eigen::Ref<const Eigen::VectorXd>& differences);
+    const Eigen::Ref<const VectorXd>& differences);
 
 }  // namespace errmap::stats

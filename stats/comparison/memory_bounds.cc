@@ -8,9 +8,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 constexpr Index kFewestUnits = 4;  // n - 3 divides
 
 constexpr double kMostMemorable = 0.98;

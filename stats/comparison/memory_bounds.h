@@ -1,9 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include "stats/comparison/unit_bootstrap.h"
 #include "stats/comparison/unit_losses.h"
+#include "stats/eigen.h"
 #include "stats/not_a_number.h"
 #include "stats/test_result.h"
 
@@ -18,7 +17,7 @@ inline constexpr double kMostMemory = 1.6448536269514722;  // a 95 % bound
 /// to 0.98. It is the lag-1 correlation r, corrected for bias (Marriott & Pope
 /// 1954: E r = rho - (1 + 3 rho) / n), plus `margin` standard errors. 0 if the
 /// series does not vary.
-double MemoryOf(const Eigen::Ref<const Eigen::VectorXd>& series, double margin);
+double MemoryOf(const Eigen::Ref<const VectorXd>& series, double margin);
 
 /// Memory assumed between sessions that are known to be separate. So few
 /// sessions cannot show their memory, and with its upper bound ten sessions
@@ -33,12 +32,12 @@ inline constexpr double kSessionMemory = 0.5;
 /// tests/stats/comparison/paired_comparison_null_test.cc.
 inline constexpr double kShows = 0.9;
 inline constexpr double kSuspected = 0.6;
-double ShownMemory(const Eigen::Ref<const Eigen::VectorXd>& series,
+double ShownMemory(const Eigen::Ref<const VectorXd>& series,
                    double above = kShows);
 
 /// Returns the number of independent units that would determine a mean as well:
 /// n (1 - memory) / (1 + memory), at least 2.
-double EffectiveUnits(Eigen::Index units, double memory);
+double EffectiveUnits(Index units, double memory);
 
 /// How the mean of n normal values, a first-order autoregression of coefficient
 /// `memory`, is distributed: over s / sqrt(n) it is Student's t times
@@ -50,7 +49,7 @@ struct MeanWithMemory {
   double degrees_of_freedom = 0.0;
 };
 /// Returns that of at least 2 units, memory 0 to 0.98.
-MeanWithMemory OfMean(Eigen::Index units, double memory);
+MeanWithMemory OfMean(Index units, double memory);
 
 /// Test of a difference of pooled RMSE, for a given memory from unit to unit.
 struct MemoryTest {
@@ -73,20 +72,20 @@ class MemoryBounds {
 
   /// Tests the RMSE of model `a` less that of `b`, given `memory` (0 to 0.98).
   /// Not applicable below 4 units.
-  MemoryTest OfDifference(Eigen::Index a, Eigen::Index b, double memory) const;
+  MemoryTest OfDifference(Index a, Index b, double memory) const;
   /// Return MemoryOf and ShownMemory of the units' contributions to that
   /// difference; 0 below 4 units.
-  double InDifference(Eigen::Index a, Eigen::Index b, double margin) const;
-  double ShownInDifference(Eigen::Index a, Eigen::Index b) const;
+  double InDifference(Index a, Index b, double margin) const;
+  double ShownInDifference(Index a, Index b) const;
   /// Returns ShownMemory, by kSuspected, of the model's mean errors if they are
   /// known. Returns that of its losses if they are not, or if it is larger and
   /// there are at least 20 units. 0 below 4 units.
-  double ShownInLosses(Eigen::Index model) const;
+  double ShownInLosses(Index model) const;
 
  private:
-  Eigen::VectorXd rmse_;       // (models)
-  Eigen::MatrixXd influence_;  // (units x models)
-  Eigen::MatrixXd means_;      // (units x models), or empty
+  VectorXd rmse_;       // (models)
+  MatrixXd influence_;  // (units x models)
+  MatrixXd means_;      // (units x models), or empty
 };
 
 }  // namespace errmap::stats

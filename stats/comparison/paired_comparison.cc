@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "stats/comparison/holm.h"
 #include "stats/not_a_number.h"
@@ -12,10 +11,6 @@
 
 namespace errmap::stats {
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 // The place of pair a < b of `models` in (0,1), (0,2), ..., (1,2), ...
 Index PairIndex(Index a, Index b, Index models) {
@@ -177,7 +172,7 @@ void AdjustTogether(const std::vector<PairComparison*>& pairs,
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     pairs[i]->p_holm = std::max(adjusted[i], gates.p);
     pairs[i]->p_memory_holm = std::max(memory_adjusted[i], gates.p_memory);
-    pairs[i]->num_adjusted = static_cast<Index>(pairs.size());
+    pairs[i]->num_adjusted = std::ssize(pairs);
   }
 }
 

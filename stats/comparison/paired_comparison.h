@@ -4,8 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "stats/comparison/mean_difference.h"
 #include "stats/comparison/memory_bounds.h"
 #include "stats/comparison/sign_flip.h"
@@ -13,6 +11,7 @@
 #include "stats/comparison/tiers.h"
 #include "stats/comparison/unit_bootstrap.h"
 #include "stats/comparison/unit_losses.h"
+#include "stats/eigen.h"
 
 namespace errmap::stats {
 
@@ -20,23 +19,23 @@ namespace errmap::stats {
 inline constexpr double kSignificance = 0.05;
 
 /// Number of runs of neighbouring units, as equal as can be, longer first.
-inline constexpr Eigen::Index kBlocksOfUnits = 5;
+inline constexpr Index kBlocksOfUnits = 5;
 
 /// Below this many effective units no RMSE has bounds.
 inline constexpr double kFewestForBounds = 4.0;
 
 /// Mean held-out losses by fold, for the corrected resampled t.
 struct FoldLosses {
-  Eigen::MatrixXd mean_squares;  // (folds, of all repeats, x models)
-  Eigen::VectorXd test_rows;     // (folds), above 0
-  Eigen::VectorXd train_rows;    // (folds), above 0
+  MatrixXd mean_squares;  // (folds, of all repeats, x models)
+  VectorXd test_rows;     // (folds), above 0
+  VectorXd train_rows;    // (folds), above 0
 };
 
 struct ComparisonOptions {
   std::uint64_t seed = 1;
-  Eigen::Index flips = 9999;      // drawn if not all are counted; >= 1
-  Eigen::Index resamples = 4999;  // of the bootstrap; >= 99
-  Margin margin = {};             // between tiers
+  Index flips = 9999;      // drawn if not all are counted; >= 1
+  Index resamples = 4999;  // of the bootstrap; >= 99
+  Margin margin = {};      // between tiers
   /// True if the units are known to be separate sessions. `p` then allows for
   /// memory between them only if it exceeds chance. The `memory` test uses
   /// kSessionMemory instead of the upper bound of the memory.
@@ -48,8 +47,8 @@ struct ComparisonOptions {
   /// correction. The chance of any false rejection among all pairs is at most
   /// the level (a fixed sequence, then a gate: Maurer, Hothorn & Lehmacher
   /// 1995). If unset, all pairs are adjusted together.
-  std::optional<Eigen::Index> first = {};
-  std::vector<Eigen::Index> yardsticks = {};
+  std::optional<Index> first = {};
+  std::vector<Index> yardsticks = {};
 
   /// Throws std::invalid_argument naming field, value and range.
   void Validate() const;
@@ -61,8 +60,8 @@ struct ComparisonOptions {
 /// Only models/study/judgement/confidence.h decides what these figures
 /// establish.
 struct PairComparison {
-  Eigen::Index a = 0;
-  Eigen::Index b = 0;
+  Index a = 0;
+  Index b = 0;
   double difference = 0.0;  // pooled RMSE of a less that of b
   /// True if no unit's losses differ by more than rounding: the same map twice.
   /// Nothing is tested, every p is NaN, and Holm's correction omits it.
@@ -79,7 +78,7 @@ struct PairComparison {
   /// True if p_holm and p_memory_holm are one-sided: that `first` is better.
   bool one_sided = false;
   /// Number of pairs in its Holm correction; 1 if it was tested in turn.
-  Eigen::Index num_adjusted = 0;
+  Index num_adjusted = 0;
   /// t test of `difference` with the upper bound of the memory between units
   /// (or kSessionMemory), and its p adjusted like `p_holm`.
   MemoryTest memory;
@@ -101,23 +100,23 @@ struct PairComparison {
 
 /// All models against each other on the same units.
 struct Comparison {
-  Eigen::Index num_units = 0;
-  Eigen::VectorXd rmse;  // (models) pooled over rows
+  Index num_units = 0;
+  VectorXd rmse;  // (models) pooled over rows
   /// (models) NaN if neighbouring units resemble each other so much that they
   /// count for fewer than kFewestForBounds: the units measured are then too
   /// few.
   std::vector<Bounds95> rmse_bounds;
-  std::vector<PairComparison> pairs;  // (0,1), (0,2), ..., (1,2), ...
-  std::vector<std::vector<Eigen::Index>> tiers;  // see FormTiers
+  std::vector<PairComparison> pairs;      // (0,1), (0,2), ..., (1,2), ...
+  std::vector<std::vector<Index>> tiers;  // see FormTiers
 
   /// Number of pairs in Holm's correction, and that number if none were tied,
   /// which does not depend on the results. 0 if only yardstick pairs remain.
-  Eigen::Index num_tested = 0;
-  Eigen::Index num_asked = 0;
+  Index num_tested = 0;
+  Index num_asked = 0;
 
   /// Returns the pair of two different models, in either order. Throws
   /// std::out_of_range if there is no such pair.
-  const PairComparison& Pair(Eigen::Index one, Eigen::Index other) const;
+  const PairComparison& Pair(Index one, Index other) const;
 };
 
 /// Compares all models of `losses` by every test that applies; `folds` (the

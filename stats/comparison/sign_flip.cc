@@ -3,17 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 
 #include "stats/random.h"
 #include "stats/require.h"
 
 namespace errmap::stats {
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 // Sums that are equal in exact arithmetic must count as equal: a share of the
 // sum of all magnitudes, far above rounding and far below any real difference.
@@ -142,7 +137,7 @@ std::vector<SignFlipTest> TestBySignFlips(const MatrixXd& differences,
     }
     const std::vector<double> magnitudes =
         NonzeroMagnitudes(differences.col(pair));
-    if (static_cast<Index>(magnitudes.size()) > kMostForExactFlips) {
+    if (std::ssize(magnitudes) > kMostForExactFlips) {
       many.push_back(pair);
     } else {
       test = TestExactly(differences.col(pair), magnitudes);

@@ -3,8 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include "stats/eigen.h"
 #include "stats/test_result.h"
 
 namespace errmap::stats {
@@ -27,11 +26,11 @@ struct SignFlipTest {
 /// merging the sums of two halves (Horowitz & Sahni 1974). Otherwise p = (1 +
 /// #{as extreme}) / (draws + 1) from seeded draws. Throws std::invalid_argument
 /// if draws < 1 or a difference is not finite.
-std::vector<SignFlipTest> TestBySignFlips(const Eigen::MatrixXd& differences,
-                                          Eigen::Index draws,
+std::vector<SignFlipTest> TestBySignFlips(const MatrixXd& differences,
+                                          Index draws,
                                           std::uint64_t seed);
 
 /// Above this the sums of all patterns take longer than 10 000 draws.
-inline constexpr Eigen::Index kMostForExactFlips = 24;
+inline constexpr Index kMostForExactFlips = 24;
 
 }  // namespace errmap::stats

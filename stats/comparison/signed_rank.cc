@@ -9,8 +9,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-
 struct Ranking {
   double positive = 0.0;  // sum of ranks of positive differences
   double ties = 0.0;      // sum of t^3 - t over groups of t equal magnitudes
@@ -73,8 +71,7 @@ double NormalP(const Ranking& ranking, Index num) {
 
 }  // namespace
 
-SignedRankTest TestSignedRanks(
-    const Eigen::Ref<const Eigen::VectorXd>& differences) {
+SignedRankTest TestSignedRanks(const Eigen::Ref<const VectorXd>& differences) {
   SignedRankTest result;
   if (differences.size() == 0) {
     result.test = NotApplicable("no units");
@@ -92,7 +89,7 @@ SignedRankTest TestSignedRanks(
     return std::abs(a) < std::abs(b);
   });
   const Ranking ranking = Rank(sorted);
-  const Index n = static_cast<Index>(sorted.size());
+  const Index n = std::ssize(sorted);
   constexpr Index kFewestForNormal = 50;
   result.exact =
       n == differences.size() && ranking.ties == 0.0 && n < kFewestForNormal;

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
-
+#include "stats/eigen.h"
 #include "stats/test_result.h"
 
 namespace errmap::stats {
@@ -18,7 +17,6 @@ struct SignedRankTest {
 };
 
 /// Tests finite `differences`; needs at least one.
-SignedRankTest TestSignedRanks(
-    const Eigen::Ref<const Eigen::VectorXd>& differences);
+SignedRankTest TestSignedRanks(const Eigen::Ref<const VectorXd>& differences);
 
 }  // namespace errmap::stats

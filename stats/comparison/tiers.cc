@@ -11,9 +11,7 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-
-void Check(const Eigen::VectorXd& rmse, const Eigen::MatrixXd& bounds) {
+void Check(const VectorXd& rmse, const MatrixXd& bounds) {
   if (bounds.rows() != rmse.size() || bounds.cols() != rmse.size()) {
     throw std::invalid_argument("FormTiers: bounds of " +
                                 std::to_string(bounds.rows()) + " x " +
@@ -45,8 +43,8 @@ void Margin::Validate() const {
           indifference);
 }
 
-std::vector<std::vector<Index>> FormTiers(const Eigen::VectorXd& rmse,
-                                          const Eigen::MatrixXd& excess_at_most,
+std::vector<std::vector<Index>> FormTiers(const VectorXd& rmse,
+                                          const MatrixXd& excess_at_most,
                                           const Margin& margin) {
   Check(rmse, excess_at_most);
   margin.Validate();

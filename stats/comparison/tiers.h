@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::stats {
 
@@ -27,9 +27,8 @@ struct Margin {
 ///
 /// `rmse` (models), `excess_at_most` (models x models). Throws
 /// std::invalid_argument for other shapes or an RMSE that is not finite.
-std::vector<std::vector<Eigen::Index>> FormTiers(
-    const Eigen::VectorXd& rmse,
-    const Eigen::MatrixXd& excess_at_most,
-    const Margin& margin);
+std::vector<std::vector<Index>> FormTiers(const VectorXd& rmse,
+                                          const MatrixXd& excess_at_most,
+                                          const Margin& margin);
 
 }  // namespace errmap::stats

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <string>
 
 #include "stats/distributions.h"
 #include "stats/random.h"
@@ -12,10 +11,6 @@
 
 namespace errmap::stats {
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 constexpr Index kFewestForBootstrap = 2;
 

@@ -2,9 +2,8 @@
 
 #include <cstdint>
 
-#include <Eigen/Core>
-
 #include "stats/comparison/unit_losses.h"
+#include "stats/eigen.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::stats {
@@ -39,23 +38,21 @@ struct Bounds95 {
 class UnitBootstrap {
  public:
   /// Throws std::invalid_argument if resamples < 99 or `losses` are invalid.
-  UnitBootstrap(const UnitLosses& losses,
-                Eigen::Index resamples,
-                std::uint64_t seed);
+  UnitBootstrap(const UnitLosses& losses, Index resamples, std::uint64_t seed);
 
   /// Returns bounds of the RMSE of `model`; NaN below 2 units. They are at
   /// least as wide as for a mean square with `worth` times the units' degrees
   /// of freedom (unit_freedom.h). `worth` is effective units over units: 1
   /// unless neighbours resemble each other.
-  Bounds95 OfRmse(Eigen::Index model, double worth = 1.0) const;
+  Bounds95 OfRmse(Index model, double worth = 1.0) const;
   /// Returns bounds of RMSE(a) - RMSE(b); NaN below 2 units.
-  Bounds95 OfDifference(Eigen::Index a, Eigen::Index b) const;
+  Bounds95 OfDifference(Index a, Index b) const;
 
  private:
-  Eigen::Index units_;
-  Eigen::VectorXd rmse_;       // (models)
-  Eigen::MatrixXd influence_;  // (units x models) of each unit on the RMSE
-  Eigen::MatrixXd resampled_;  // (resamples x models)
+  Index units_;
+  VectorXd rmse_;       // (models)
+  MatrixXd influence_;  // (units x models) of each unit on the RMSE
+  MatrixXd resampled_;  // (resamples x models)
 };
 
 }  // namespace errmap::stats

@@ -9,10 +9,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 [[noreturn]] void Refuse(const std::string& why) {
   throw std::invalid_argument("UnitLosses: " + why);
 }
@@ -32,7 +28,7 @@ void UnitLosses::Validate() const {
     Refuse(std::to_string(rows.size()) + " numbers of rows for " +
            std::to_string(num_units()) + " units");
   }
-  if (!codes.empty() && static_cast<Index>(codes.size()) != num_units()) {
+  if (!codes.empty() && std::ssize(codes) != num_units()) {
     Refuse(std::to_string(codes.size()) + " codes for " +
            std::to_string(num_units()) + " units");
   }
@@ -60,7 +56,7 @@ void UnitLosses::Validate() const {
 
 MatrixXd UnitLosses::Differences(const std::vector<Index>& first,
                                  const std::vector<Index>& second) const {
-  if (num_units() == 0) return MatrixXd(0, static_cast<Index>(first.size()));
+  if (num_units() == 0) return MatrixXd(0, std::ssize(first));
   const VectorXd share = rows / rows.mean();
   return share.asDiagonal() *
          (mean_squares(Eigen::all, first) - mean_squares(Eigen::all, second));
@@ -68,7 +64,7 @@ MatrixXd UnitLosses::Differences(const std::vector<Index>& first,
 
 UnitLosses GatherByUnit(const MatrixXd& residuals,
                         const std::vector<Index>& unit_codes) {
-  if (static_cast<Index>(unit_codes.size()) != residuals.rows()) {
+  if (std::ssize(unit_codes) != residuals.rows()) {
     throw std::invalid_argument(
         "GatherByUnit: " + std::to_string(unit_codes.size()) +
         " unit codes for " + std::to_string(residuals.rows()) + " rows");
@@ -83,10 +79,10 @@ UnitLosses GatherByUnit(const MatrixXd& residuals,
   }
   UnitLosses losses;
   for (auto& [code, unit] : unit_of) {
-    unit = static_cast<Index>(losses.codes.size());
+    unit = std::ssize(losses.codes);
     losses.codes.push_back(code);
   }
-  const Index units = static_cast<Index>(losses.codes.size());
+  const Index units = std::ssize(losses.codes);
   losses.rows = VectorXd::Zero(units);
   losses.mean_squares = MatrixXd::Zero(units, residuals.cols());
   losses.means = losses.mean_squares;

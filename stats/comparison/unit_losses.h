@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::stats {
 
@@ -10,20 +10,20 @@ namespace errmap::stats {
 /// analysis: a cycle, day, segment or block of rows. Neighbouring rows resemble
 /// each other, so tests count units, never rows.
 struct UnitLosses {
-  Eigen::MatrixXd mean_squares;  // (units x models), squared target units
-  Eigen::VectorXd rows;          // (units) rows, or sums of weights, above 0
-  Eigen::MatrixXd means = {};    // (units x models) residual, or empty
-  std::vector<Eigen::Index> codes = {};  // (units) group code, or empty
-  bool time_ordered = false;             // true: units are in time order
+  MatrixXd mean_squares;          // (units x models), squared target units
+  VectorXd rows;                  // (units) rows, or sums of weights, above 0
+  MatrixXd means = {};            // (units x models) residual, or empty
+  std::vector<Index> codes = {};  // (units) group code, or empty
+  bool time_ordered = false;      // true: units are in time order
 
-  Eigen::Index num_units() const { return mean_squares.rows(); }
-  Eigen::Index num_models() const { return mean_squares.cols(); }
+  Index num_units() const { return mean_squares.rows(); }
+  Index num_models() const { return mean_squares.cols(); }
 
   /// Returns (units x pairs) each unit's contribution to the difference of
   /// pooled mean squares of models first[i] and second[i]. This is its loss
   /// difference times its share of the rows, scaled to mean 1.
-  Eigen::MatrixXd Differences(const std::vector<Eigen::Index>& first,
-                              const std::vector<Eigen::Index>& second) const;
+  MatrixXd Differences(const std::vector<Index>& first,
+                       const std::vector<Index>& second) const;
 
   /// Throws std::invalid_argument unless the shapes agree, every mean square is
   /// finite and at least 0, and every unit has rows.
@@ -34,22 +34,21 @@ struct UnitLosses {
 /// in ascending order of code; codes without rows are skipped. Throws
 /// std::invalid_argument if the number of codes differs from that of rows, a
 /// code is negative or a residual is not finite.
-UnitLosses GatherByUnit(const Eigen::MatrixXd& residuals,
-                        const std::vector<Eigen::Index>& unit_codes);
+UnitLosses GatherByUnit(const MatrixXd& residuals,
+                        const std::vector<Index>& unit_codes);
 
 /// Returns a code per row, 0, 0, ..., 1, 1, ..., for data without groups. The
 /// rows, in order, are cut into min(20, num_rows / 5) blocks (at least one) of
 /// equal length or one row longer, the longer ones first.
-std::vector<Eigen::Index> BlocksInOrder(Eigen::Index num_rows);
+std::vector<Index> BlocksInOrder(Index num_rows);
 
 /// Returns the RMSE of each model (models), pooled over all rows: sqrt(sum(rows
 /// * mean_square) / sum(rows)). NaN if there are no units.
-Eigen::VectorXd PooledRmse(const UnitLosses& losses);
+VectorXd PooledRmse(const UnitLosses& losses);
 
 /// Returns each unit's contribution to the pooled `rmse` (models), to first
 /// order (units x models): w (L - M) / (2 sqrt(M) mean(w)) for rows w, loss L
 /// and pooled mean square M. Each column has mean 0.
-Eigen::MatrixXd InfluenceOnRmse(const UnitLosses& losses,
-                                const Eigen::VectorXd& rmse);
+MatrixXd InfluenceOnRmse(const UnitLosses& losses, const VectorXd& rmse);
 
 }  // namespace errmap::stats

@@ -8,8 +8,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
 using Vertices = std::vector<Index>;
 
 // Slope of the chord between two values' steps; 0 for a vertical one, whose

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::stats {
 
@@ -9,13 +9,13 @@ namespace errmap::stats {
 /// A. Hartigan & P. M. Hartigan, Annals of Statistics 13, 1985; the steps of AS
 /// 217, but minorant and majorant are computed anew for each interval). At
 /// least 1/(2n); 0 if n = 0.
-double DipStatistic(const Eigen::Ref<const Eigen::VectorXd>& ascending);
+double DipStatistic(const Eigen::Ref<const VectorXd>& ascending);
 
 /// Returns the probability of a dip of at least `dip` in n uniform values. No
 /// unimodal distribution has larger dips than the uniform. For others, such as
 /// the normal, p is too large, so a small p is safe evidence of two modes. From
 /// simulated quantiles (simulated_quantiles.h): 0.001 means at most 0.001. 1 if
 /// n < 4, since any such sample is unimodal enough.
-double DipProbability(double dip, Eigen::Index n);
+double DipProbability(double dip, Index n);
 
 }  // namespace errmap::stats

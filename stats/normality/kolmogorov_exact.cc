@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include "stats/distributions.h"
 #include "stats/require.h"
 
 namespace errmap::stats {
 namespace {
-
-using Eigen::Index;
-using Eigen::VectorXd;
 
 // P(D+ >= d) = d sum_j C(n, j) (d + j/n)^(j-1) (1 - d - j/n)^(n-j), the sum
 // over j = 0 .. floor(n (1 - d)) (Smirnov 1944; Birnbaum & Tingey 1951).

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::stats {
 
 /// Largest n for which KsProbabilityExact uses the finite distribution in the
 /// body. Above it, it uses Pelz and Good's expansion.
-inline constexpr Eigen::Index kMostForExactKs = 20000;
+inline constexpr Index kMostForExactKs = 20000;
 
 /// Returns the probability of a one-sample K-S distance of at least `d` in n >=
 /// 1 values, exact for finite n, under the null hypothesis with the
@@ -22,6 +22,6 @@ inline constexpr Eigen::Index kMostForExactKs = 20000;
 ///   B 38, 1976); absolute error below 2e-10.
 ///
 /// Returns NaN if d is NaN. Throws std::invalid_argument if n < 1.
-double KsProbabilityExact(double d, Eigen::Index n);
+double KsProbabilityExact(double d, Index n);
 
 }  // namespace errmap::stats

@@ -9,8 +9,6 @@
 
 namespace errmap::stats {
 
-using Eigen::Index;
-
 TestResult Lilliefors(const OrderedSample& sample) {
   const std::string why_not = sample.WhyNotWith(kFewestSimulated);
   if (!why_not.empty()) return NotApplicable(why_not);

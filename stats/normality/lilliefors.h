@@ -1,7 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
-
+#include "stats/eigen.h"
 #include "stats/normality/ordered_sample.h"
 #include "stats/test_result.h"
 
@@ -17,11 +16,11 @@ TestResult Lilliefors(const OrderedSample& sample);
 /// simulated quantiles (simulated_quantiles.h), accurate to 0.004 for every p.
 /// Below 0.001 it is the smaller of 0.001 and DallalWilkinsonProbability.
 /// Throws std::invalid_argument if n < 4.
-double LillieforsProbability(double d, Eigen::Index n);
+double LillieforsProbability(double d, Index n);
 
 /// Returns the same from a published formula, as R's nortest does: G. E. Dallal
 /// & L. Wilkinson, The American Statistician 40 (1986). For p <= 0.1, accurate
 /// to 0.005. Needs n >= 5.
-double DallalWilkinsonProbability(double d, Eigen::Index n);
+double DallalWilkinsonProbability(double d, Index n);
 
 }  // namespace errmap::stats

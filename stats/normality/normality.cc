@@ -3,13 +3,12 @@
 #include <cmath>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "stats/kolmogorov_smirnov.h"
 #include "stats/normality/bimodality.h"
-#include "stats/normality/grid.h"
 #include "stats/normality/kolmogorov_exact.h"
 #include "stats/normality/lilliefors.h"
+#include "stats/normality/ordered_sample.h"
 #include "stats/normality/simulated_quantiles.h"
 #include "stats/not_a_number.h"
 #include "stats/random.h"
@@ -17,8 +16,6 @@
 
 namespace errmap::stats {
 namespace {
-
-using Eigen::Index;
 
 // A test whose p can be simulated, and which of its ends is extreme.
 struct SimulatedTest {
@@ -87,7 +84,7 @@ class NormalSamples {
   // One that varies, as the observed one does.
   OrderedSample Draw() {
     for (;;) {
-      Eigen::VectorXd sample = NormalSample(n_, &random_);
+      VectorXd sample = NormalSample(n_, &random_);
       if (step_ > 0.0) {
         sample = origin_ +
                  step_ * ((sd_ * sample.array() - origin_) / step_).round();

@@ -3,8 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include "stats/eigen.h"
 #include "stats/normality/normality_tests.h"
 #include "stats/normality/ordered_sample.h"
 #include "stats/normality/probability_plot.h"
@@ -31,21 +30,21 @@ struct Normality {
   ShapeMoments shape;      // NaN if the values do not vary
   TukeyPpcc curve;         // empty if tukey_ppcc does not apply
   /// Rounding step of the readings, in their unit, if not small beside their
-  /// scatter (grid.h); else 0. Ties make distances from a continuous
+  /// scatter (FindStep); else 0. Ties make distances from a continuous
   /// distribution too large. Each p is then that among kGridDraws normal
   /// samples rounded alike; `ks` and `ks_exact` have no p.
   double step = 0.0;
 };
 
-inline constexpr Eigen::Index kGridDraws = 999;
+inline constexpr Index kGridDraws = 999;
 
 /// Fewest values with a shape: of three, two equal ones reject at any level.
-inline constexpr Eigen::Index kFewestForShape = 4;
+inline constexpr Index kFewestForShape = 4;
 
 /// p by simulating the null distribution for one size, mean and sd estimated:
 /// for tests whose own p is asymptotic or approximate.
 struct MonteCarloP {
-  Eigen::Index draws = 0;  // 0: not simulated
+  Index draws = 0;  // 0: not simulated
   double lilliefors = 0.0;
   double shapiro_wilk = 0.0;
   double anderson_darling = 0.0;
@@ -58,7 +57,7 @@ struct MonteCarloP {
 /// computed once, so simulating thousands of samples is quick.
 class NormalityTests {
  public:
-  explicit NormalityTests(Eigen::Index n);
+  explicit NormalityTests(Index n);
 
   /// Throws std::invalid_argument if `sample` has another size.
   Normality operator()(const OrderedSample& sample) const;
@@ -69,13 +68,13 @@ class NormalityTests {
   /// draws < 1.
   MonteCarloP Simulate(const OrderedSample& sample,
                        const Normality& observed,
-                       Eigen::Index draws,
+                       Index draws,
                        std::uint64_t seed) const;
 
  private:
-  Eigen::Index n_;
+  Index n_;
   ShapiroWilkTest shapiro_wilk_;
-  Eigen::VectorXd normal_medians_;
+  VectorXd normal_medians_;
   std::vector<TukeyPlot> tukey_plot_;  // one, or none for n < 4
 
   // Tests with a p of their own; only these are simulated on request.
@@ -94,7 +93,7 @@ Normality AssessNormality(const OrderedSample& sample);
 /// Returns the critical correlation of the normal probability plot, or of the
 /// best in Tukey's family. A `share` of normal samples of n >= 4 values lie
 /// below it. Simulated, see simulated_quantiles.h.
-double CriticalNormalPpcc(double share, Eigen::Index n);
-double CriticalTukeyPpcc(double share, Eigen::Index n);
+double CriticalNormalPpcc(double share, Index n);
+double CriticalTukeyPpcc(double share, Index n);
 
 }  // namespace errmap::stats

@@ -7,8 +7,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-
 double AndersonDarlingProbability(double a2, double n) {
   const double a = a2 * (1.0 + 0.75 / n + 2.25 / (n * n));
   constexpr double kLast = 10.0;  // the last quadratic turns up again later
@@ -64,7 +62,7 @@ TestResult AndersonDarling(const OrderedSample& sample) {
   constexpr Index kFewest = 8;
   const std::string why_not = sample.WhyNotWith(kFewest);
   if (!why_not.empty()) return NotApplicable(why_not);
-  const Eigen::VectorXd& z = sample.z();
+  const VectorXd& z = sample.z();
   const Index size = z.size();
   const double n = static_cast<double>(size);
   double sum = 0.0;

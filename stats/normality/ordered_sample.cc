@@ -5,7 +5,7 @@
 
 namespace errmap::stats {
 
-OrderedSample::OrderedSample(const Eigen::Ref<const Eigen::VectorXd>& sample)
+OrderedSample::OrderedSample(const Eigen::Ref<const VectorXd>& sample)
     : z_(sample), summary_(Summarize(sample)) {
   if (size() == 0) {
     why_not_ = "there are no values";
@@ -35,10 +35,31 @@ OrderedSample::OrderedSample(const Eigen::Ref<const Eigen::VectorXd>& sample)
   if (!z_.allFinite()) why_not_ = "the values do not vary beyond rounding";
 }
 
-std::string OrderedSample::WhyNotWith(Eigen::Index least) const {
+std::string OrderedSample::WhyNotWith(Index least) const {
   if (!why_not_.empty() || size() >= least) return why_not_;
   return "needs at least " + std::to_string(least) + " values, found " +
          std::to_string(size());
+}
+
+std::optional<double> FindStep(const Eigen::Ref<const VectorXd>& ascending) {
+  using Eigen::Index;
+  const double least =
+      kFinestStep / std::sqrt(static_cast<double>(ascending.size()));
+  // Standardising leaves 1e-10 if the mean is a million standard deviations.
+  constexpr double kRounding = 1e-6;
+  const double nothing = kRounding * least;
+  double step = 0.0;
+  for (Index i = 1; i < ascending.size(); ++i) {
+    // Euclid's algorithm, with the remainder of least magnitude.
+    double remainder = ascending[i] - ascending[i - 1];
+    while (remainder > nothing) {
+      const double next = std::abs(std::remainder(step, remainder));
+      step = remainder;
+      remainder = next;
+    }
+    if (step > 0.0 && step < least) return std::nullopt;
+  }
+  return step > 0.0 ? std::optional(step) : std::nullopt;
 }
 
 }  // namespace errmap::stats

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
-#include <Eigen/Core>
-
+#include "stats/eigen.h"
 #include "stats/summary.h"
 
 namespace errmap::stats {
@@ -14,24 +14,33 @@ namespace errmap::stats {
 class OrderedSample {
  public:
   /// Does not throw for any values; why_not() says why they cannot be tested.
-  explicit OrderedSample(const Eigen::Ref<const Eigen::VectorXd>& sample);
+  explicit OrderedSample(const Eigen::Ref<const VectorXd>& sample);
 
-  Eigen::Index size() const { return z_.size(); }
+  Index size() const { return z_.size(); }
   /// (x - mean) / sd with divisor n - 1 (NISTIR 5367, Eq. 137), ascending.
   /// Meaningful only if why_not() is empty.
-  const Eigen::VectorXd& z() const { return z_; }
+  const VectorXd& z() const { return z_; }
   /// Mean, sd and extremes of the values as given.
   const SampleSummary& summary() const { return summary_; }
   /// Returns "", or why nothing can be tested: no values, one value, values
   /// that are not finite, or all values equal.
   const std::string& why_not() const { return why_not_; }
   /// Returns why_not(), or that fewer than `least` values are too few.
-  std::string WhyNotWith(Eigen::Index least) const;
+  std::string WhyNotWith(Index least) const;
 
  private:
-  Eigen::VectorXd z_;
+  VectorXd z_;
   SampleSummary summary_;
   std::string why_not_;
 };
+
+/// Smallest rounding step that is looked for, in standard deviations over
+/// sqrt(n). Finer steps move the shape tests by less than their own scatter.
+inline constexpr double kFinestStep = 0.1;
+
+/// Returns the rounding step of `ascending` (n >= 2, finite, standard deviation
+/// 1): the greatest common divisor of their differences. Returns nothing if it
+/// is below kFinestStep / sqrt(n).
+std::optional<double> FindStep(const Eigen::Ref<const VectorXd>& ascending);
 
 }  // namespace errmap::stats

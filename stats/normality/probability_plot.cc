@@ -15,9 +15,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 constexpr Index kGridSize = 81;
 constexpr double kLowestLambda = -2.0;
 constexpr double kHighestLambda = 2.0;

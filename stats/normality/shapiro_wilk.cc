@@ -12,9 +12,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 template <std::size_t kTerms>
 double PolynomialOf(const std::array<double, kTerms>& coefficients, double x) {
   double value = 0.0;

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
-
+#include "stats/eigen.h"
 #include "stats/normality/ordered_sample.h"
 #include "stats/test_result.h"
 
@@ -12,18 +11,18 @@ namespace errmap::stats {
 /// are computed once for all samples of one size.
 class ShapiroWilkTest {
  public:
-  static constexpr Eigen::Index kFewest = 3;
-  static constexpr Eigen::Index kMost = 5000;  // above it p is not calibrated
+  static constexpr Index kFewest = 3;
+  static constexpr Index kMost = 5000;  // above it p is not calibrated
 
-  explicit ShapiroWilkTest(Eigen::Index n);
+  explicit ShapiroWilkTest(Index n);
 
   /// Returns W and p of a sample of n values; not applicable unless 3 <= n <=
   /// 5000. Throws std::invalid_argument if `sample` has another size.
   TestResult operator()(const OrderedSample& sample) const;
 
  private:
-  Eigen::Index n_;
-  Eigen::VectorXd upper_weights_;  // (n/2) weights of x_(n), x_(n-1), ...
+  Index n_;
+  VectorXd upper_weights_;  // (n/2) weights of x_(n), x_(n-1), ...
 };
 
 }  // namespace errmap::stats

@@ -11,8 +11,6 @@
 namespace errmap::stats {
 namespace {
 
-using Eigen::Index;
-
 // Returns a value that varies slowly with n and smoothly with p.
 double Scaled(SimulatedStatistic statistic, double value, double n) {
   switch (statistic) {
@@ -46,7 +44,7 @@ simulated::Quantiles ScaledQuantiles(SimulatedStatistic statistic, Index n) {
   const auto above = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
       std::lower_bound(sizes.begin(), sizes.end(), n) - sizes.begin(),
       1,
-      static_cast<std::ptrdiff_t>(sizes.size()) - 1));
+      std::ssize(sizes) - 1));
   const double low = sizes[above - 1];
   const double high = sizes[above];
   double weight = std::log(static_cast<double>(n) / low) / std::log(high / low);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "stats/eigen.h"
 
 namespace errmap::stats {
 
@@ -13,7 +13,7 @@ enum class SimulatedStatistic {
 };
 
 /// Smallest n that was simulated.
-inline constexpr Eigen::Index kFewestSimulated = 4;
+inline constexpr Index kFewestSimulated = 4;
 /// The largest and the smallest probability simulated.
 inline constexpr double kLargestSimulated = 0.999;
 inline constexpr double kSmallestSimulated = 0.001;
@@ -32,12 +32,12 @@ inline constexpr double kSmallestSimulated = 0.001;
 /// tests/stats/normality/simulate_null_tables.cc.
 double SimulatedProbability(SimulatedStatistic statistic,
                             double value,
-                            Eigen::Index n);
+                            Index n);
 
 /// Returns the value that is reached with this `probability`, clamped as above.
 /// Throws std::invalid_argument if n or the probability is outside the tables.
 double SimulatedCriticalValue(SimulatedStatistic statistic,
                               double probability,
-                              Eigen::Index n);
+                              Index n);
 
 }  // namespace errmap::stats

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/application.h"
-#include "cli/shell/interrupt.h"
+#include "cli/shell/standard_streams.h"
 #include "tests/fuzz/readers.h"
 #include "tests/fuzz/scratch_folder.h"
 

@@ -1,24 +1,21 @@
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "cli/command.h"
 #include "cli/commands/control/map_for_control.h"
-#include "cli/commands/format_option.h"
+#include "cli/commands/data_arguments.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/json_blocks.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "data/input_error.h"
 #include "data/text.h"
 #include "data/throwing_as.h"
 #include "models/export/export_map.h"
 #include "models/export/measured_cost.h"
 #include "models/export/program_cost.h"
-#include "models/model_file.h"
 
 namespace errmap::cli {
 namespace {

@@ -19,15 +19,11 @@
 #include "data/measurements/column_checks.h"
 #include "data/text.h"
 #include "data/throwing_as.h"
-#include "models/export/c_code.h"
 #include "models/export/compensation_table.h"
 #include "models/export/export_map.h"
-#include "models/export/hal_component.h"
-#include "models/export/program/failing_sensors.h"
+#include "models/export/program/controller.h"
 #include "models/export/program/safe_names.h"
-#include "models/export/python_code.h"
-#include "models/export/structured_text.h"
-#include "models/model_file.h"
+#include "models/export/program_text.h"
 
 namespace errmap::cli {
 namespace {

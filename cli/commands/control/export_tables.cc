@@ -17,7 +17,6 @@
 #include "models/export/compensation_table.h"
 #include "models/export/program/controller.h"
 #include "models/export/program/error_curve.h"
-#include "models/export/thermal_state.h"
 #include "models/model_file.h"
 
 namespace errmap::cli {

@@ -4,13 +4,11 @@
 #include <limits>
 #include <optional>
 #include <set>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/format_option.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
@@ -19,7 +17,6 @@
 #include "cli/report/words/commands/when_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "data/columns.h"
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
@@ -27,7 +24,6 @@
 #include "data/measurements/measured_files.h"
 #include "data/text.h"
 #include "models/history/map_log.h"
-#include "models/model_file.h"
 #include "models/sensors/sensor_check.h"
 #include "models/session/map_rows.h"
 #include "models/session/session_check.h"
@@ -100,18 +96,18 @@ Json CheckJson(const models::SessionCheck& check) {
 struct LastSession {
   std::string column;  // that names it; "" where none does
   std::string label;
-  std::size_t others = 0;                       // sessions with probes
-  std::vector<Eigen::Index> probes = {};        // rows of the data set
-  std::vector<Eigen::Index> rows_of_file = {};  // all of it, 0-based
+  std::size_t others = 0;                // sessions with probes
+  std::vector<Index> probes = {};        // rows of the data set
+  std::vector<Index> rows_of_file = {};  // all of it, 0-based
 };
 
 LastSession LastSessionOf(const models::FittedModel& fitted,
                           const models::MapRows& rows,
                           const models::MapLogArguments& log) {
-  const std::vector<Eigen::Index> all = data::AllRows(rows.table.num_rows);
+  const std::vector<Index> all = data::AllRows(rows.table.num_rows);
   const models::MomentsOfRows moments =
       models::MomentsOf(fitted, rows.table, all, log);
-  const auto session_of = [&](Eigen::Index row) -> const std::string& {
+  const auto session_of = [&](Index row) -> const std::string& {
     return moments.at[static_cast<std::size_t>(row)].session;
   };
   LastSession last{.column = moments.session_column,
@@ -120,14 +116,14 @@ LastSession LastSessionOf(const models::FittedModel& fitted,
   for (std::size_t i = 0; i < rows.dataset.rows().size(); ++i) {
     const std::string& session = session_of(rows.dataset.rows()[i]);
     if (session == last.label) {
-      last.probes.push_back(static_cast<Eigen::Index>(i));
+      last.probes.push_back(static_cast<Index>(i));
     } else {
       others.insert(session);
     }
   }
   last.others = others.size();
   std::ranges::copy_if(
-      all, std::back_inserter(last.rows_of_file), [&](Eigen::Index row) {
+      all, std::back_inserter(last.rows_of_file), [&](Index row) {
         return session_of(row) == last.label;
       });
   return last;
@@ -139,14 +135,14 @@ std::optional<models::SensorFaultFound> SensorFaultOfSession(
     const models::MapRows& rows,
     const LastSession& last,
     data::FaultPolicy policy) {
-  std::vector<Eigen::Index> judged = last.rows_of_file;
+  std::vector<Index> judged = last.rows_of_file;
   if (policy == data::FaultPolicy::kDropRows) {
     const auto left_out = data::RowsOfCellFaults(rows.prepared.faults);
-    std::erase_if(judged, [&](Eigen::Index row) {
+    std::erase_if(judged, [&](Index row) {
       return std::ranges::binary_search(left_out, row);
     });
   }
-  const Eigen::MatrixXd readings = models::ReadingsOf(fitted, rows.table);
+  const MatrixXd readings = models::ReadingsOf(fitted, rows.table);
   auto found = models::FindSensorFault(fitted, readings(judged, Eigen::all));
   if (found && found->row >= 0) {
     found->row = judged[static_cast<std::size_t>(found->row)];
@@ -164,17 +160,16 @@ std::string LastSessionText(const LastSession& last) {
       data::QuotedName(last.label));
 }
 
-models::Missing MissingBeforeProbe(const models::MapRows& rows,
-                                   Eigen::Index probe) {
+models::Missing MissingBeforeProbe(const models::MapRows& rows, Index probe) {
   return rows.missing_before[static_cast<std::size_t>(probe)];
 }
 
 // Probes since the map's memory is full, where the log began inside the
 // session; all where there are none.
-std::vector<Eigen::Index> ProbesWithMemory(
-    const models::MapRows& rows, const std::vector<Eigen::Index>& probes) {
-  std::vector<Eigen::Index> kept;
-  for (const Eigen::Index probe : probes) {
+std::vector<Index> ProbesWithMemory(const models::MapRows& rows,
+                                    const std::vector<Index>& probes) {
+  std::vector<Index> kept;
+  for (const Index probe : probes) {
     if (MissingBeforeProbe(rows, probe) != models::Missing::kStart) {
       kept.push_back(probe);
     }
@@ -184,9 +179,9 @@ std::vector<Eigen::Index> ProbesWithMemory(
 
 // What is missing before the probes that are judged.
 models::Missing MissingBefore(const models::MapRows& rows,
-                              const std::vector<Eigen::Index>& probes) {
+                              const std::vector<Index>& probes) {
   const auto lacks = [&](models::Missing missing) {
-    return [&rows, missing](Eigen::Index probe) {
+    return [&rows, missing](Index probe) {
       return MissingBeforeProbe(rows, probe) == missing;
     };
   };
@@ -201,16 +196,16 @@ models::Missing MissingBefore(const models::MapRows& rows,
 models::SessionProbes ProbesOf(const models::FittedModel& fitted,
                                const models::MapRows& rows,
                                const ProbeArguments& arguments,
-                               const std::vector<Eigen::Index>& probes_given,
-                               const Eigen::VectorXd& predicted) {
-  const std::vector<Eigen::Index> kept = ProbesWithMemory(rows, probes_given);
+                               const std::vector<Index>& probes_given,
+                               const VectorXd& predicted) {
+  const std::vector<Index> kept = ProbesWithMemory(rows, probes_given);
   models::SessionProbes probes{
       .elapsed =
           models::ElapsedSinceStart(fitted, rows, arguments.rows.log)(kept),
       .position = {},
       .predicted = predicted(kept),
       .residuals = (rows.dataset.target_values() - predicted)(kept)};
-  const Eigen::VectorXd positions = models::PositionsOf(fitted, rows);
+  const VectorXd positions = models::PositionsOf(fitted, rows);
   if (positions.size() > 0) probes.position = positions(kept);
   if (kept.size() < probes_given.size()) {
     SayUnless(arguments.quiet,
@@ -241,8 +236,7 @@ int RunCheck(const ProbeArguments& arguments, const std::string& command_line) {
   const models::MapRows rows =
       ReadMapRows(fitted, arguments.files, arguments.rows, arguments.quiet);
   const RowsJudged judged = JudgeMapRows(fitted, rows, arguments.quiet);
-  const Eigen::VectorXd predicted =
-      fitted.PredictForm(judged.form_inputs).errors;
+  const VectorXd predicted = fitted.PredictForm(judged.form_inputs).errors;
   if (SayNotFinite(predicted,
                    rows.dataset.rows(),
                    data::NamesOfFiles(arguments.files))) {

@@ -5,7 +5,6 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/format_option.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
@@ -16,10 +15,8 @@
 #include "cli/report/words/commands/kept_promise_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "data/measurements/measured_files.h"
 #include "data/text.h"
-#include "models/model_file.h"
 #include "models/sensors/sensor_check.h"
 #include "models/session/kept_promise.h"
 #include "models/session/map_rows.h"
@@ -43,9 +40,9 @@ struct EvaluateArguments {
 
 // Rows outside of the trained range, and the inputs that are so.
 Json OutsideJson(const std::vector<models::TrainedInput>& trained,
-                 const Eigen::MatrixXd& values) {
-  Eigen::Index rows = 0;
-  for (Eigen::Index row = 0; row < values.rows(); ++row) {
+                 const MatrixXd& values) {
+  Index rows = 0;
+  for (Index row = 0; row < values.rows(); ++row) {
     rows += models::IsInside(trained, values, row) ? 0 : 1;
   }
   Json inputs = Json::array();
@@ -68,7 +65,7 @@ Json OutsideJson(const std::vector<models::TrainedInput>& trained,
 
 // Rows unlike training, by what they are unlike in, and the worst.
 Json UnlikeJson(const std::vector<models::RowFlag>& flags,
-                const std::vector<Eigen::Index>& rows) {
+                const std::vector<Index>& rows) {
   Json json = {{"rows", 0},
                {"range", 0},
                {"relation", 0},
@@ -110,11 +107,11 @@ struct Evaluation {
   const models::FittedModel& fitted;
   const models::MapRows& rows;
   const RowsJudged& judged;
-  Eigen::Index clipped;  // rows
+  Index clipped;  // rows
   std::optional<models::SensorFaultFound> sensor;
   models::KeptPromise kept;
   RowsLearnt learnt;
-  Eigen::VectorXd residuals;
+  VectorXd residuals;
   stats::ErrorMetrics metrics;
 };
 
@@ -187,7 +184,7 @@ int RunEvaluate(const EvaluateArguments& arguments,
   const data::Dataset& dataset = rows.dataset;
   const RowsJudged judged = JudgeMapRows(fitted, rows, arguments.quiet);
   const models::Prediction prediction = fitted.PredictForm(judged.form_inputs);
-  const Eigen::VectorXd& predicted = prediction.errors;
+  const VectorXd& predicted = prediction.errors;
   const std::string files = data::NamesOfFiles(arguments.files);
   if (SayNotFinite(predicted, dataset.rows(), files)) {
     return kEveryFitFailed;

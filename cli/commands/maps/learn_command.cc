@@ -11,7 +11,6 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/format_option.h"
 #include "cli/commands/progress.h"
 #include "cli/desk/data_options.h"
 #include "cli/desk/provenance.h"
@@ -24,9 +23,7 @@
 #include "cli/report/words/answers/next_steps.h"
 #include "cli/report/words/commands/learning_text.h"
 #include "cli/shell/command_options.h"
-#include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "data/csv.h"
 #include "data/files/atomic_file.h"
 #include "data/files/prepare_folder.h"
@@ -44,8 +41,6 @@
 
 namespace errmap::cli {
 namespace {
-
-using Eigen::Index;
 
 struct LearnArguments {
   DataArguments data;
@@ -138,14 +133,14 @@ models::StudyResult RunLearning(
 }
 
 // Rows of the candidates with the inputs of `dataset`, in its units.
-Eigen::MatrixXd ReadCandidates(const std::string& file,
-                               const data::Dataset& dataset,
-                               bool quiet) {
+MatrixXd ReadCandidates(const std::string& file,
+                        const data::Dataset& dataset,
+                        bool quiet) {
   const data::TableForMap read =
       data::InMapUnits(data::ReadCsv(file), dataset.inputs());
   SayUnless(quiet, read.remarks);
-  Eigen::MatrixXd values(static_cast<Index>(read.table.num_rows),
-                         dataset.num_inputs());
+  MatrixXd values(static_cast<Index>(read.table.num_rows),
+                  dataset.num_inputs());
   for (Index i = 0; i < values.cols(); ++i) {
     values.col(i) =
         data::NumericColumn(read.table,
@@ -245,7 +240,7 @@ void LearnBySensors(const LearnArguments& arguments,
 void LearnNext(const LearnArguments& arguments,
                const data::Dataset& dataset,
                Learned* learned) {
-  const Eigen::MatrixXd candidates =
+  const MatrixXd candidates =
       ReadCandidates(arguments.candidates, dataset, arguments.data.quiet);
   learned->record.next =
       models::ChooseNext(dataset, candidates, arguments.next);

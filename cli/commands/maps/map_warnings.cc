@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/commands/data_arguments.h"
 #include "cli/desk/provenance.h"
-#include "cli/json_blocks.h"
 #include "cli/report/number_text.h"
 #include "cli/report/words/commands/fault_text.h"
 #include "cli/report/words/commands/outside_text.h"
@@ -22,8 +20,6 @@
 #include "models/uncertainty/learnt_rows.h"
 
 namespace errmap::cli {
-
-using Eigen::Index;
 
 void AddModelArgument(CLI::App* command, std::string* model) {
   AddOption(command, "MODEL FILE.json", *model, "Model file").Required();
@@ -138,14 +134,14 @@ RowsJudged JudgeMapRows(const models::FittedModel& fitted,
                         bool quiet) {
   RowsJudged judged{.form_inputs = fitted.FormInputs(rows.dataset),
                     .flags = {}};
-  const Eigen::MatrixXd& inputs = rows.dataset.input_values();
+  const MatrixXd& inputs = rows.dataset.input_values();
   judged.flags = models::FlagRows(fitted, inputs, judged.form_inputs);
   SayOutside(fitted.inputs, inputs, judged.flags, rows.dataset.rows(), quiet);
   return judged;
 }
 
 void SayOutside(const std::vector<models::TrainedInput>& trained,
-                const Eigen::MatrixXd& inputs,
+                const MatrixXd& inputs,
                 const std::vector<models::RowFlag>& flags,
                 const std::vector<Index>& rows,
                 bool quiet) {
@@ -153,7 +149,7 @@ void SayOutside(const std::vector<models::TrainedInput>& trained,
   SayUnless(quiet, report::UnlikeLines(flags, rows));
 }
 
-bool SayNotFinite(const Eigen::VectorXd& predicted,
+bool SayNotFinite(const VectorXd& predicted,
                   const std::vector<Index>& rows,
                   const std::string& file) {
   Index count = 0;

@@ -3,14 +3,13 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "cli/json_blocks.h"
 #include "data/measurements/column_match.h"
 #include "models/error_model.h"
 #include "models/model_file.h"
 #include "models/sensors/applicability.h"
 #include "models/session/map_rows.h"
+#include "stats/eigen.h"
 
 namespace CLI {
 class App;
@@ -54,9 +53,9 @@ models::Provenance ProvenanceOf(const std::string& model);
 
 /// How much of the data that a map is judged on it has learnt from.
 struct RowsLearnt {
-  bool file = false;      // the map names each of the files as its own
-  Eigen::Index rows = 0;  // rows recognised by their values
-  Eigen::Index of = 0;    // all rows
+  bool file = false;  // the map names each of the files as its own
+  Index rows = 0;     // rows recognised by their values
+  Index of = 0;       // all rows
 };
 
 /// Compares with the hashes of files in the model file `model`, and of rows in
@@ -71,7 +70,7 @@ Json LearntJson(const RowsLearnt& learnt);
 std::string LearntText(const RowsLearnt& learnt);
 
 struct RowsJudged {
-  Eigen::MatrixXd form_inputs;  // (rows x inputs of the form)
+  MatrixXd form_inputs;  // (rows x inputs of the form)
   std::vector<models::RowFlag> flags;
 };
 
@@ -85,16 +84,16 @@ RowsJudged JudgeMapRows(const models::FittedModel& fitted,
 /// range, and which rows are unlike training. `rows` (m) are the numbers of the
 /// data rows in the file.
 void SayOutside(const std::vector<models::TrainedInput>& trained,
-                const Eigen::MatrixXd& inputs,
+                const MatrixXd& inputs,
                 const std::vector<models::RowFlag>& flags,
-                const std::vector<Eigen::Index>& rows,
+                const std::vector<Index>& rows,
                 bool quiet);
 
 /// Says how many of `predicted` (m) are not finite, and where. `rows` (m) are
 /// the numbers of the data rows in `file`. Returns false and says nothing if
 /// all are finite.
-bool SayNotFinite(const Eigen::VectorXd& predicted,
-                  const std::vector<Eigen::Index>& rows,
+bool SayNotFinite(const VectorXd& predicted,
+                  const std::vector<Index>& rows,
                   const std::string& file);
 
 }  // namespace errmap::cli

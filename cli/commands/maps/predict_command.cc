@@ -28,7 +28,6 @@
 #include "data/measurements/measured_files.h"
 #include "models/history/map_log.h"
 #include "models/history/view.h"
-#include "models/model_file.h"
 #include "models/sensors/sensor_check.h"
 #include "models/session/probe_correction.h"
 #include "models/uncertainty/learnt_rows.h"
@@ -48,7 +47,7 @@ struct PredictArguments {
 // Every row, in a data set whose target is not known, and so 0.
 data::Dataset RowsToPredict(const models::FittedModel& fitted,
                             const data::CsvTable& table,
-                            Eigen::MatrixXd inputs,
+                            MatrixXd inputs,
                             const models::MapLog& map) {
   data::Dataset::Parts parts;
   parts.source = table.file;
@@ -56,7 +55,7 @@ data::Dataset RowsToPredict(const models::FittedModel& fitted,
     parts.inputs.push_back(input.column);
   }
   parts.target = fitted.target;
-  parts.target_values = Eigen::VectorXd::Zero(inputs.rows());
+  parts.target_values = VectorXd::Zero(inputs.rows());
   parts.input_values = std::move(inputs);
   parts.log = map.log;
   if (map.log != nullptr) {
@@ -98,7 +97,7 @@ double HalfWidth(const models::FittedModel& fitted,
                  std::size_t level,
                  bool inside,
                  const std::optional<models::ProbeCorrection>& probes,
-                 Eigen::Index row) {
+                 Index row) {
   if (!fitted.interval) return std::numeric_limits<double>::quiet_NaN();
   const models::PredictionInterval::Level& promised =
       fitted.interval->levels[level];
@@ -110,7 +109,7 @@ double HalfWidth(const models::FittedModel& fitted,
 struct Predicted {
   const models::FittedModel& fitted;
   const data::CsvTable& table;
-  const std::vector<Eigen::Index>& order;  // as data::TableForMap has it
+  const std::vector<Index>& order;  // as data::TableForMap has it
   const models::MapLog& map;
   models::Prediction prediction;
   std::optional<models::ProbeCorrection> probes;
@@ -129,7 +128,7 @@ std::string_view WhyOutside(const Predicted& found, std::size_t row) {
   if (!found.made_for[row]) return "where";
   const models::RowFlag& flag = found.flags[row];
   if (flag.outside()) return models::ToString(flag.why);
-  if (!std::isfinite(found.prediction.errors[static_cast<Eigen::Index>(row)])) {
+  if (!std::isfinite(found.prediction.errors[static_cast<Index>(row)])) {
     return "not finite";
   }
   switch (found.MissingBefore(row)) {
@@ -144,9 +143,7 @@ std::string_view WhyOutside(const Predicted& found, std::size_t row) {
 }
 
 // ",LOWER,UPPER" at each coverage; empty cells without an interval.
-std::string IntervalCells(const Predicted& found,
-                          bool inside,
-                          Eigen::Index row) {
+std::string IntervalCells(const Predicted& found, bool inside, Index row) {
   const double predicted = found.prediction.errors[row];
   std::string cells;
   for (std::size_t i = 0; i < models::PredictionInterval::kCoverages.size();
@@ -192,11 +189,10 @@ std::vector<const data::CsvColumn*> IdColumns(const Predicted& found,
 }
 
 // The rows as the file has them.
-std::vector<Eigen::Index> RowsOfFile(const Predicted& found) {
-  std::vector<Eigen::Index> rows = data::AllRows(found.table.num_rows);
+std::vector<Index> RowsOfFile(const Predicted& found) {
+  std::vector<Index> rows = data::AllRows(found.table.num_rows);
   for (std::size_t row = 0; row < found.order.size(); ++row) {
-    rows[static_cast<std::size_t>(found.order[row])] =
-        static_cast<Eigen::Index>(row);
+    rows[static_cast<std::size_t>(found.order[row])] = static_cast<Index>(row);
   }
   return rows;
 }
@@ -209,7 +205,7 @@ std::string PredictionsCsv(const Predicted& found, const std::string& time) {
       "predicted,lower_90,upper_90,lower_95,upper_95,inside,why,offender,"
       "unit\n";
   const std::string unit = data::CsvField(found.fitted.target.unit.symbol);
-  for (const Eigen::Index row : RowsOfFile(found)) {
+  for (const Index row : RowsOfFile(found)) {
     const auto at = static_cast<std::size_t>(row);
     for (const data::CsvColumn* id : ids) {
       text += data::CsvField(found.table.CellText(*id, at)) + ",";
@@ -250,8 +246,7 @@ void SayWhatIsPredicted(const Predicted& found) {
 }
 
 // A spike is named by its row, which is outside.
-void SaySensorFault(const models::FittedModel& fitted,
-                    const Eigen::MatrixXd& inputs) {
+void SaySensorFault(const models::FittedModel& fitted, const MatrixXd& inputs) {
   const auto fault = models::FindSensorFault(fitted, inputs);
   if (!fault || fault->fault == models::SensorFault::kSpike) return;
   std::string text = report::SensorText(*fault);
@@ -260,7 +255,7 @@ void SaySensorFault(const models::FittedModel& fitted,
 }
 
 void SayClipped(const models::Prediction& prediction) {
-  const Eigen::Index clipped = prediction.clipped.count();
+  const Index clipped = prediction.clipped.count();
   if (clipped == 0) return;
   Say(
       fmt::format("warning: {} clipped by the map's guards, since an input "
@@ -279,11 +274,11 @@ int RunPredict(const PredictArguments& arguments) {
   const data::TableForMap read = models::ReadForMap(
       fitted, arguments.files, models::MapColumns::kInputs, arguments.log);
   const data::CsvTable& table = read.table;
-  const Eigen::MatrixXd inputs = models::InputsOf(fitted, table);
+  const MatrixXd inputs = models::InputsOf(fitted, table);
   const models::MapLog map = models::MakeMapLog(fitted, table, arguments.log);
   SayRead(read, arguments.quiet);
   const data::Dataset rows = RowsToPredict(fitted, table, inputs, map);
-  const Eigen::MatrixXd form_inputs = fitted.FormInputs(rows);
+  const MatrixXd form_inputs = fitted.FormInputs(rows);
   Predicted found{.fitted = fitted,
                   .table = table,
                   .order = read.order,
@@ -303,14 +298,13 @@ int RunPredict(const PredictArguments& arguments) {
   } else {
     data::WriteFileAtomically(arguments.out, text);
   }
-  const std::vector<Eigen::Index> all_rows = data::AllRows(table.num_rows);
+  const std::vector<Index> all_rows = data::AllRows(table.num_rows);
   if (!arguments.quiet) {
     SayWhatIsPredicted(found);
     SayOutside(fitted.inputs, inputs, found.flags, all_rows, false);
     SaySensorFault(fitted, inputs);
     SayClipped(found.prediction);
-    if (const Eigen::Index learnt =
-            models::CountLearntRows(fitted, inputs, nullptr);
+    if (const Index learnt = models::CountLearntRows(fitted, inputs, nullptr);
         learnt > 0) {
       Say(
           fmt::format("the readings of {} of {} are ones that the map was "

@@ -8,7 +8,6 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/format_option.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
@@ -16,9 +15,7 @@
 #include "cli/report/number_text.h"
 #include "cli/report/words/commands/kept_promise_text.h"
 #include "cli/shell/command_options.h"
-#include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "data/files/atomic_file.h"
 #include "data/files/shown_path.h"
 #include "data/measurements/column_checks.h"
@@ -154,7 +151,7 @@ Json UpdateJson(const UpdateArguments& arguments,
                 const models::FittedModel& old_map,
                 const models::UpdateTrial& trial,
                 bool better,
-                Eigen::Index learnt,
+                Index learnt,
                 const KnownFiles& known,
                 const Json& provenance) {
   return {{"schema", "errmap-update-1"},
@@ -191,7 +188,7 @@ models::FittedModel FitSuccessor(const models::FittedModel& old_map,
 
 // What of the new rows the old map was fitted to: it looks better there than it
 // is.
-std::string KnownRowsText(Eigen::Index learnt, Eigen::Index rows) {
+std::string KnownRowsText(Index learnt, Index rows) {
   return learnt == 0 ? ""
                      : fmt::format(
                            "{} of {} are ones that the old map was fitted to, "
@@ -217,7 +214,7 @@ int RunUpdate(const UpdateArguments& arguments,
                                    .stop = &stop,
                                    .threads = JobsOf(0),
                                    .indifference = indifference};
-  const Eigen::Index learnt = models::CountLearntRows(
+  const Index learnt = models::CountLearntRows(
       old_map, fresh.input_values(), &fresh.target_values());
   models::UpdateTrial trial;
   std::optional<data::Dataset> all;

@@ -6,7 +6,6 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/format_option.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
@@ -14,12 +13,9 @@
 #include "cli/report/words/commands/when_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "data/columns.h"
 #include "data/files/shown_path.h"
 #include "data/input_error.h"
-#include "data/text.h"
-#include "models/model_file.h"
 #include "models/session/map_rows.h"
 #include "models/session/zero_schedule.h"
 
@@ -47,7 +43,7 @@ SinceProbe ReadSinceProbe(const models::FittedModel& fitted,
                                                   models::MapColumns::kInputs,
                                                   arguments.log)
                                    .table;
-  const std::vector<Eigen::Index> rows = data::AllRows(table.num_rows);
+  const std::vector<Index> rows = data::AllRows(table.num_rows);
   if (rows.empty()) {
     throw data::InputError(fmt::format(
         "{}: holds no rows; give the readings from the last probe to now",

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "cli/command.h"
-#include "cli/commands/format_option.h"
+#include "cli/commands/data_arguments.h"
 #include "cli/shell/command_options.h"
 #include "cli/slice.h"
 #include "data/text.h"

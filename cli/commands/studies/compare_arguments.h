@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <set>
@@ -9,7 +8,10 @@
 #include <vector>
 
 #include "cli/commands/data_arguments.h"
+#include "cli/desk/plan/study_plan.h"
 #include "cli/desk/plan/study_run.h"
+#include "cli/desk/study_options.h"
+#include "cli/desk/toml/study_file.h"
 
 namespace CLI {
 class App;
@@ -84,5 +86,38 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments);
 
 /// Parses the words after "compare". Throws UsageError.
 CompareArguments ReadCompareArguments(std::vector<std::string> words);
+
+// What the command line asks for. Each function throws UsageError if the
+// command line is wrong.
+
+/// Reads the study file of --config, changed by --set and by the flags of the
+/// command line.
+desk::StudyFile ConfigOfFile(const CompareArguments& arguments);
+
+/// Returns the study of one component that the options alone describe.
+desk::StudyConfig ConfigOf(const CompareArguments& arguments);
+
+/// Returns the given flags that cannot apply to as many components as `reach`.
+std::vector<std::string> GivenOfFewer(const CompareArguments& arguments,
+                                      desk::Reach reach);
+
+/// Returns what to fit, as a slice's mode, the study file or DATA says. `own`
+/// (may be empty) adds recipes of the caller.
+desk::StudyPlan PlanOf(const CompareArguments& arguments,
+                       const desk::MakeOwnRecipes& own = {});
+
+/// Returns what a study would do, for a terminal: components, rows, groups,
+/// hold-outs, models, the number of fits, and a rough time on `jobs`
+/// processors. Then the files that would be written into `out` ("": none).
+std::string PlanText(const desk::StudyPlan& plan,
+                     int jobs,
+                     const std::string& out);
+
+/// Returns how long a study takes; nothing below half a minute. Unless its
+/// models were `chosen`, also names the faster ones, which together take at
+/// most a quarter of that time.
+std::vector<std::string> LongRunLines(const desk::StudyPlan& plan,
+                                      int jobs,
+                                      bool chosen);
 
 }  // namespace errmap::cli

@@ -1,17 +1,13 @@
-#include "cli/commands/studies/compare_plan.h"
-
 #include <algorithm>
 #include <array>
 #include <set>
-#include <string>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "data/input_error.h"
+#include "cli/commands/studies/compare_arguments.h"
 #include "data/text.h"
 #include "data/throwing_as.h"
 #include "stats/holdout.h"

@@ -11,16 +11,13 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/format_option.h"
 #include "cli/desk/plan/component_names.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/documents/fit_text.h"
 #include "cli/shell/command_options.h"
-#include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "data/files/shown_path.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/reading/directions.h"
@@ -143,7 +140,7 @@ TimedFit FitTimed(const models::ModelRecipe& recipe,
 
 // Why there is no map to write; nothing where there is one.
 std::optional<std::string> WhyFailed(const models::FittedModel& fitted,
-                                     const Eigen::VectorXd& predicted) {
+                                     const VectorXd& predicted) {
   if (!predicted.allFinite()) return "a prediction is not finite";
   if (fitted.summary.termination != fitting::Termination::kFailed) return {};
   return fitted.summary.message;
@@ -208,7 +205,7 @@ int FitOne(const FitArguments& arguments, const std::string& command_line) {
     return kEveryFitFailed;
   }
   models::FittedModel& fitted = fit.map;
-  const Eigen::VectorXd predicted = fitted.Predict(dataset);
+  const VectorXd predicted = fitted.Predict(dataset);
   if (const auto why = WhyFailed(fitted, predicted)) {
     Say(fmt::format("{} failed: {}; nothing written", arguments.model, *why));
     return kEveryFitFailed;

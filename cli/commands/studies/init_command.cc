@@ -10,10 +10,8 @@
 #include "cli/output/claimed_folder.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "cli/slice.h"
 #include "data/files/atomic_file.h"
-#include "data/measurements/column_checks.h"
 #include "data/text.h"
 
 namespace errmap::cli {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -7,13 +6,11 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/format_option.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/words/commands/fault_text.h"
 #include "cli/report/wrap_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "data/column_header.h"
 #include "data/csv.h"
 #include "data/files/atomic_file.h"
@@ -69,7 +66,7 @@ std::string CleanCsv(const data::CsvTable& table, const data::ReadTable& read) {
                     found.sessions.codes[i])]);
     }
     if (add_time) {
-      line += "," + data::CsvNumber(found.time[static_cast<Eigen::Index>(i)]);
+      line += "," + data::CsvNumber(found.time[static_cast<Index>(i)]);
     }
     text += line + "\n";
   }

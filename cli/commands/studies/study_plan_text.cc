@@ -1,11 +1,9 @@
-#include "cli/commands/studies/study_plan_text.h"
-
 #include <cmath>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "cli/desk/plan/rough_time.h"
+#include "cli/commands/studies/compare_arguments.h"
+#include "cli/desk/plan/study_forecast.h"
 #include "cli/report/number_text.h"
 #include "cli/report/words/answers/data_words.h"
 #include "cli/report/wrap_text.h"
@@ -29,10 +27,10 @@ std::string InUnit(double value, const data::Unit& unit) {
 std::string HoldoutList(const std::vector<models::Holdout>& holdouts) {
   std::vector<std::string> parts;
   for (const models::Holdout& holdout : holdouts) {
-    parts.push_back(fmt::format(
-        "{} ({})",
-        Shown(holdout.name),
-        report::Count(static_cast<long long>(holdout.folds.size()), "fold")));
+    parts.push_back(
+        fmt::format("{} ({})",
+                    Shown(holdout.name),
+                    report::Count(std::ssize(holdout.folds), "fold")));
   }
   return data::JoinWords(parts, ", ");
 }

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <iterator>
 #include <set>
-#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,8 +18,8 @@ namespace {
 
 // The file of the one part of the table that holds all these rows, else "".
 std::string FileOfRows(const data::CsvTable& table,
-                       const std::vector<Eigen::Index>& rows) {
-  const auto part_of = [&](Eigen::Index row) {
+                       const std::vector<Index>& rows) {
+  const auto part_of = [&](Index row) {
     return std::prev(
         std::ranges::upper_bound(table.parts,
                                  static_cast<std::size_t>(row),

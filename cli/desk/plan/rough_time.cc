@@ -1,12 +1,10 @@
-#include "cli/desk/plan/rough_time.h"
-
 #include <algorithm>
 #include <cmath>
 #include <variant>
-#include <vector>
 
 #include <fmt/format.h>
 
+#include "cli/desk/plan/study_forecast.h"
 #include "models/net/net_options.h"
 
 namespace errmap::desk {

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/desk/plan/rough_time.h"
 #include "cli/report/number_text.h"
 #include "cli/report/wrap_text.h"
 #include "data/text.h"

@@ -162,8 +162,8 @@ class ComponentPlanner {
 
   // Less the sessions that are to judge maps put together.
   data::Dataset WithoutLater(const data::Dataset& dataset) const {
-    const std::vector<Eigen::Index> codes = dataset.session_codes();
-    std::vector<Eigen::Index> rows;
+    const std::vector<Index> codes = dataset.session_codes();
+    std::vector<Index> rows;
     for (std::size_t i = 0; i < codes.size(); ++i) {
       const std::string& session =
           dataset.log()->sessions.labels[static_cast<std::size_t>(codes[i])];

@@ -1,10 +1,8 @@
 #include "cli/desk/plan/study_run.h"
 
-#include <memory>
 #include <optional>
 #include <utility>
 
-#include "cli/desk/configuration_record.h"
 #include "cli/desk/provenance.h"
 #include "cli/report/report.h"
 #include "data/files/shown_path.h"

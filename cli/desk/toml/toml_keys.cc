@@ -1,12 +1,10 @@
 #include "cli/desk/toml/toml_keys.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "cli/desk/toml/toml_text.h"
 #include "data/argument_name.h"
 #include "data/input_error.h"
-#include "data/text.h"
 
 namespace errmap::desk {
 namespace {

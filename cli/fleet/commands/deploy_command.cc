@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -15,7 +14,7 @@
 #include "cli/fleet/store/store.h"
 #include "cli/report/number_text.h"
 #include "cli/shell/command_options.h"
-#include "cli/shell/terminal.h"
+#include "cli/shell/standard_streams.h"
 #include "data/files/atomic_file.h"
 #include "data/files/prepare_folder.h"
 #include "data/input_error.h"

@@ -4,14 +4,14 @@
 #include <fmt/format.h>
 
 #include "cli/fleet/commands/compare_fleet.h"
-#include "cli/fleet/run/fleet_proposal.h"
+#include "cli/fleet/run/fleet_run.h"
 #include "cli/fleet/store/merge.h"
 #include "cli/report/number_text.h"
 #include "cli/report/report.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "cli/slice.h"
 #include "data/files/atomic_file.h"
+#include "data/measurements/column_checks.h"
 #include "data/text.h"
 
 namespace errmap::cli {

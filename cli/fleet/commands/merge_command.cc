@@ -4,11 +4,9 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/format_option.h"
 #include "cli/fleet/store/merge.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "data/text.h"
 
 namespace errmap::cli {

@@ -1,6 +1,5 @@
 #include "cli/fleet/run/component_pattern.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <stdexcept>

@@ -1,11 +1,10 @@
-#include "cli/fleet/run/fleet_plan.h"
-
 #include <algorithm>
 #include <exception>
 #include <new>
 
-#include "cli/desk/plan/rough_time.h"
+#include "cli/desk/plan/study_forecast.h"
 #include "cli/desk/plan/study_plan.h"
+#include "cli/fleet/run/fleet_run.h"
 #include "data/text.h"
 
 namespace errmap::fleet {

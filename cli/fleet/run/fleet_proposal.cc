@@ -1,18 +1,16 @@
-#include "cli/fleet/run/fleet_proposal.h"
-
 #include <algorithm>
 #include <array>
 #include <exception>
 #include <filesystem>
 #include <map>
 #include <new>
-#include <set>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/desk/plan/study_plan.h"
 #include "cli/desk/toml/toml_text.h"
+#include "cli/fleet/run/fleet_run.h"
 #include "data/argument_name.h"
 #include "data/input_error.h"
 #include "data/measurements/measured_files.h"

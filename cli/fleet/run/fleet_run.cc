@@ -10,9 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/desk/configuration_record.h"
 #include "cli/desk/plan/run_files.h"
-#include "cli/desk/plan/study_plan.h"
 #include "cli/desk/plan/study_run.h"
 #include "cli/desk/provenance.h"
 #include "data/files/atomic_file.h"
@@ -24,7 +22,7 @@
 #include "data/text.h"
 #include "fitting/parallel_for.h"
 #include "models/file_recipe.h"
-#include "models/fleet/sensor_relations.h"
+#include "models/fleet/watch.h"
 #include "models/study/record/record_json.h"
 #include "models/version.h"
 #include "stats/holdout.h"
@@ -233,9 +231,8 @@ class FleetRunner {
     if (map.empty()) {
       Remove(name, kMapFile);
     } else {
-      summary->map =
-          SummaryMapRecord{.sha256 = data::Sha256(map),
-                           .bytes = static_cast<std::int64_t>(map.size())};
+      summary->map = SummaryMapRecord{.sha256 = data::Sha256(map),
+                                      .bytes = std::ssize(map)};
       Write(name, kMapFile, data::Gzip(map));
     }
     const auto relations =

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "models/study/record/record_json.h"
 
 namespace errmap::fleet {

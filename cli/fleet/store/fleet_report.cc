@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "cli/fleet/store/merge.h"
-#include "cli/report/documents/report_style.h"
+#include "cli/report/documents/report_html.h"
 #include "cli/report/figures/row_pictures.h"
 #include "cli/report/figures/svg.h"
 #include "cli/report/html.h"

@@ -361,7 +361,7 @@ void WriteSummaries(Database* store,
             fleet.version,
             static_cast<std::int64_t>(fleet.seed),
             fleet.command_line,
-            static_cast<std::int64_t>(fleet.components.size()),
+            std::ssize(fleet.components),
             static_cast<std::int64_t>(fleet.components.size() - by_name.size()))
       .Run();
   store->Prepare("UPDATE components SET study = ?, status = 'gone'")

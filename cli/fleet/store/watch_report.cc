@@ -1,5 +1,3 @@
-#include "cli/fleet/store/watch_report.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/fleet/store/merge.h"
+#include "cli/fleet/store/watched_maps.h"
 #include "cli/report/html.h"
 #include "cli/report/plot.h"
 #include "cli/report/shell_word.h"

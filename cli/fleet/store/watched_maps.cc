@@ -20,7 +20,6 @@
 namespace errmap::fleet {
 namespace {
 
-using Eigen::Index;
 using models::WatchStatus;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,7 +6,6 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/format_option.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
@@ -18,7 +16,6 @@
 #include "cli/report/table.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "data/files/atomic_file.h"
 #include "data/files/shown_path.h"
 #include "data/input_error.h"
@@ -28,14 +25,11 @@
 #include "data/text.h"
 #include "data/way_words.h"
 #include "models/kinematics/iso230.h"
-#include "models/model_file.h"
 #include "models/study/record/record_json.h"
 
 namespace errmap::cli {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
 using models::PositioningFigures;
 using models::PositioningPoint;
 
@@ -214,8 +208,7 @@ Approached ReadAll(const Iso230Arguments& arguments) {
 std::vector<PositioningPoint> PointsOf(const Approached& all,
                                        const std::vector<double>& deviations) {
   const auto vector = [](const std::vector<double>& values) {
-    return Eigen::Map<const VectorXd>(values.data(),
-                                      static_cast<Index>(values.size()));
+    return Eigen::Map<const VectorXd>(values.data(), std::ssize(values));
   };
   return models::PositioningPointsOf(
       {.positions = Targets(vector(all.positions)),

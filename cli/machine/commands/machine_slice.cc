@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/studies/compare_plan.h"
+#include "cli/commands/studies/compare_arguments.h"
 #include "cli/machine/machine_study.h"
 #include "cli/shell/command_options.h"
 #include "cli/slice.h"

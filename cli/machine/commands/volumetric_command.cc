@@ -2,7 +2,6 @@
 #include <cmath>
 #include <functional>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,8 +11,8 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/maps/map_warnings.h"
-#include "cli/machine/machine_file.h"
 #include "cli/machine/machine_points.h"
+#include "cli/machine/machine_study.h"
 #include "cli/machine/true_poses.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
@@ -23,7 +22,6 @@
 #include "data/columns.h"
 #include "data/csv.h"
 #include "data/files/atomic_file.h"
-#include "data/formula_text.h"
 #include "data/text.h"
 #include "data/throwing_as.h"
 #include "models/history/map_log.h"
@@ -34,9 +32,7 @@
 namespace errmap::cli {
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixX3d;
-using Eigen::VectorXd;
 using models::Machine;
 using models::VolumetricErrors;
 

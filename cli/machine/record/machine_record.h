@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/report/figures/figures.h"
+#include "cli/report/table.h"
 #include "models/kinematics/plane_cells.h"
 #include "models/study/record/study_record.h"
 
@@ -103,5 +105,20 @@ inline constexpr const char* kMachineKey = "machine";
 
 /// Puts it into the study's record, as its key "machine".
 void AddMachine(const MachineRecord& machine, models::StudyRecord* record);
+
+/// The error at the tool on days that no fit saw, each way of choosing maps a
+/// row; the same by day; the stated intervals; ISO 230-2 and, along diagonals,
+/// ISO 230-6; what each component leaves at the tool; the maps. Some may have
+/// no rows.
+std::vector<report::Table> MachineTables(const MachineRecord& machine);
+
+/// Those of them that a terminal has room for.
+std::vector<report::Table> ScreenTables(const MachineRecord& machine);
+
+/// The error at the tool over the working plane, before and after compensation
+/// by the recommended maps: mean errors as arrows, on one scale and after
+/// compensation also on a larger one, and the RMS in colours, on one scale.
+/// Nothing where the record has no plane.
+std::vector<report::Figure> MachineFigures(const MachineRecord& machine);
 
 }  // namespace errmap::machine

@@ -1,15 +1,13 @@
-#include "cli/machine/record/machine_tables.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
+#include "cli/machine/record/machine_record.h"
 #include "data/text.h"
 #include "data/units.h"
 

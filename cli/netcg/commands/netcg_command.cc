@@ -7,14 +7,12 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/format_option.h"
 #include "cli/json_blocks.h"
 #include "cli/netcg/netcg_files.h"
 #include "cli/netcg/report_study.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/terminal.h"
 #include "cli/slice.h"
 #include "data/files/atomic_file.h"
 #include "data/files/prepare_folder.h"
@@ -47,7 +45,7 @@ Json FiguresJson(const netcg::NetcgFigures& figures) {
           {"ks_p", figures.ks_p}};
 }
 
-Json MatrixJson(const Eigen::MatrixXd& values) {
+Json MatrixJson(const MatrixXd& values) {
   Json rows = Json::array();
   for (const auto& row : values.rowwise()) {
     rows.push_back(std::vector<double>(row.begin(), row.end()));

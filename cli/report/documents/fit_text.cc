@@ -9,12 +9,11 @@
 
 #include "cli/report/number_text.h"
 #include "cli/report/table.h"
-#include "cli/report/tables/regression_tables.h"
+#include "cli/report/tables/report_tables.h"
 #include "cli/report/words/answers/interval_text.h"
 #include "cli/report/words/commands/kept_promise_text.h"
 #include "cli/report/wrap_text.h"
 #include "data/text.h"
-#include "models/study/record/make_study_record.h"
 #include "models/study/record/making/parts.h"
 
 namespace errmap::report {
@@ -168,7 +167,7 @@ std::string FitText(const models::FittedModel& fitted,
   const auto say = [&](const std::string& words) {
     if (!words.empty()) text += WrapText(words, width) + "\n";
   };
-  const Eigen::Index learnt_from = fitted.RowsLearntFrom(dataset);
+  const Index learnt_from = fitted.RowsLearntFrom(dataset);
   say(fmt::format("{}: {} fitted to {}{}, RMSE {} on {} rows (not held out)",
                   fitted.name,
                   Count(fitted.model->num_parameters(), "parameter"),
@@ -178,7 +177,7 @@ std::string FitText(const models::FittedModel& fitted,
                   Count(train.n, "row"),
                   error.WithUnit(train.rmse),
                   learnt_from < dataset.num_rows() ? "all" : "these"));
-  constexpr Eigen::Index kMostTerms = 12;
+  constexpr Index kMostTerms = 12;
   const bool is_short =
       options.details || fitted.model->num_parameters() <= kMostTerms + 1;
   if (is_short) {

@@ -1,8 +1,8 @@
-#include "cli/report/documents/report_glossary.h"
-
 #include <array>
 
 #include <fmt/format.h>
+
+#include "cli/report/documents/report_html.h"
 
 namespace errmap::report {
 namespace {

@@ -1,6 +1,6 @@
-#include "cli/report/documents/report_headline.h"
-
 #include <cmath>
+
+#include "cli/report/documents/report_html.h"
 
 namespace errmap::report {
 

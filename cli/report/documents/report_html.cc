@@ -4,17 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "cli/report/documents/report_glossary.h"
-#include "cli/report/documents/report_headline.h"
-#include "cli/report/documents/report_style.h"
 #include "cli/report/figures/row_pictures.h"
 #include "cli/report/html.h"
 #include "cli/report/number_text.h"
 #include "cli/report/shell_word.h"
-#include "cli/report/tables/fit_tables.h"
-#include "cli/report/tables/regression_tables.h"
 #include "cli/report/tables/report_tables.h"
-#include "cli/report/tables/result_table.h"
 #include "cli/report/words/answers/data_words.h"
 #include "cli/report/words/answers/next_steps.h"
 #include "cli/report/words/answers/verdict_text.h"
@@ -131,8 +125,7 @@ std::string WithFirstRows(Table table, std::size_t most) {
   more.marked = more.marked != std::string::npos && more.marked >= most
                     ? more.marked - most
                     : std::string::npos;
-  const std::string title =
-      Count(static_cast<long long>(more.rows.size()), "more model");
+  const std::string title = Count(std::ssize(more.rows), "more model");
   return HtmlTable(table) + Collapsed(title, HtmlTable(more));
 }
 
@@ -389,7 +382,7 @@ std::string Data(const ReportView& view) {
   for (const std::string& input : inputs) {
     names += (names.empty() ? "" : ", ") + HtmlName(input);
   }
-  return "<p>" + Count(static_cast<long long>(inputs.size()), "input") +
+  return "<p>" + Count(std::ssize(inputs), "input") +
          (names.empty() ? "" : ": " + names) + ".</p>\n" +
          HtmlTable(DroppedTable(view)) + HtmlTable(HoldoutTable(view));
 }

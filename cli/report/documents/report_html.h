@@ -1,8 +1,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cli/report/figures/figures.h"
+#include "cli/report/report_view.h"
+#include "cli/report/words/answers/first_answer.h"
 
 namespace errmap::report {
 
@@ -11,5 +14,29 @@ namespace errmap::report {
 /// what is missing.
 std::string ReportHtml(const models::StudyRecord& record,
                        const FigureSet& figures);
+
+/// Returns a page with its style sheet, whose every contrast is at least 4.5 to
+/// 1; it runs no script and loads nothing. `title` is text, `body` HTML.
+std::string PageHtml(const std::string& title, const std::string& body);
+
+/// HTML links from a page's first screen to the meaning of its words, and the
+/// section of the page that explains them.
+std::string GlossaryLinks();
+std::string Glossary();
+
+/// The first screen of a component, as plain text.
+struct Headline {
+  FirstAnswer answer;
+  std::string error;  // "0.938 µm", "" if there is none
+  models::GoalStanding goal_standing = models::GoalStanding::kNone;
+  // Further details, for which the answer has no room.
+  std::vector<std::string> reasons;
+  std::vector<std::string> caveats;
+};
+
+Headline HeadlineOf(const ReportView& view);
+
+/// The sign convention, in one sentence.
+extern const char* const kSignConvention;
 
 }  // namespace errmap::report

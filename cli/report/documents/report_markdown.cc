@@ -1,13 +1,8 @@
-#include <fmt/format.h>
-
-#include "cli/report/documents/report_headline.h"
+#include "cli/report/documents/report_html.h"
 #include "cli/report/figures/figures.h"
 #include "cli/report/html.h"
 #include "cli/report/report.h"
-#include "cli/report/tables/fit_tables.h"
-#include "cli/report/tables/regression_tables.h"
 #include "cli/report/tables/report_tables.h"
-#include "cli/report/tables/result_table.h"
 #include "cli/report/words/answers/data_words.h"
 
 namespace errmap::report {

@@ -1,5 +1,4 @@
-#include "cli/report/documents/report_style.h"
-
+#include "cli/report/documents/report_html.h"
 #include "cli/report/html.h"
 
 namespace errmap::report {

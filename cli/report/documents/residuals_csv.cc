@@ -33,12 +33,11 @@ std::string ResidualsCsv(const models::ComponentStudy& study) {
     const data::Dataset& source =
         holdout.test_data != nullptr ? *holdout.test_data : dataset;
     for (std::size_t fold = 0; fold < holdout.folds.size(); ++fold) {
-      const Eigen::Index size =
-          holdout.test_data != nullptr
-              ? source.num_rows()
-              : static_cast<Eigen::Index>(holdout.folds[fold].test.size());
-      for (Eigen::Index i = 0; i < size; ++i) {
-        const Eigen::Index index =
+      const Index size = holdout.test_data != nullptr
+                             ? source.num_rows()
+                             : std::ssize(holdout.folds[fold].test);
+      for (Index i = 0; i < size; ++i) {
+        const Index index =
             holdout.test_data != nullptr
                 ? i
                 : holdout.folds[fold].test[static_cast<std::size_t>(i)];

@@ -9,7 +9,7 @@
 #include "cli/report/figures/figures.h"
 #include "cli/report/number_text.h"
 #include "cli/report/shell_word.h"
-#include "cli/report/tables/result_table.h"
+#include "cli/report/tables/report_tables.h"
 #include "cli/report/words/answers/component_numbers.h"
 #include "cli/report/words/answers/data_words.h"
 #include "cli/report/words/answers/first_answer.h"

@@ -1,5 +1,3 @@
-#include "cli/report/figures/comparison_figures.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,3 @@
-#include "cli/report/figures/compensation_figures.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "cli/report/figures/figure_parts.h"
-#include "cli/report/figures/held_out_rows.h"
 #include "data/column_header.h"
 #include "stats/summary.h"
 
@@ -72,8 +69,8 @@ void AddBanded(const std::string& label,
       .label = label, .mark = Mark::kLine, .colour = colour, .size = 2.4};
   for (auto& [place, values] : at) {
     std::ranges::sort(values);
-    const Eigen::Map<const Eigen::VectorXd> ascending(
-        values.data(), static_cast<Eigen::Index>(values.size()));
+    const Eigen::Map<const VectorXd> ascending(values.data(),
+                                               std::ssize(values));
     band.Add({place,
               stats::Quantile(ascending, kTail),
               stats::Quantile(ascending, 1.0 - kTail)});

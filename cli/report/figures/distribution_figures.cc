@@ -1,12 +1,10 @@
-#include "cli/report/figures/distribution_figures.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Core>
 #include <fmt/format.h>
 
-#include "stats/distributions.h"
+#include "cli/report/figures/figure_parts.h"
 #include "stats/normality/probability_plot.h"
 #include "stats/summary.h"
 
@@ -15,14 +13,14 @@ namespace {
 
 constexpr std::size_t kFewestForShape = 8;
 
-Eigen::VectorXd Sorted(const std::vector<double>& values) {
-  Eigen::VectorXd sorted = Eigen::Map<const Eigen::VectorXd>(
-      values.data(), static_cast<Eigen::Index>(values.size()));
+VectorXd Sorted(const std::vector<double>& values) {
+  VectorXd sorted =
+      Eigen::Map<const VectorXd>(values.data(), std::ssize(values));
   std::sort(sorted.begin(), sorted.end());
   return sorted;
 }
 
-std::vector<double> ListOf(const Eigen::VectorXd& values) {
+std::vector<double> ListOf(const VectorXd& values) {
   return {values.begin(), values.end()};
 }
 
@@ -45,7 +43,7 @@ Figure HistogramFigure(const ResidualContext& context) {
     figure.missing = "Too few residuals for a histogram.";
   }
   if (!figure.missing.empty()) return figure;
-  const Eigen::VectorXd sorted = Sorted(rows.residual);
+  const VectorXd sorted = Sorted(rows.residual);
   const stats::Histogram histogram = stats::MakeHistogram(sorted, 0);
   Series bars{.mark = Mark::kBars, .colour = kBlue};
   for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
@@ -86,8 +84,8 @@ Figure NormalPlotFigure(const ResidualContext& context) {
   Figure figure = BeginFigure(context, "normal", "normal probability plot");
   figure.missing = WhyNoShape(context.rows);
   if (!figure.missing.empty()) return figure;
-  const Eigen::VectorXd sorted = Sorted(context.rows.residual);
-  const Eigen::VectorXd medians = stats::NormalMedians(sorted.size());
+  const VectorXd sorted = Sorted(context.rows.residual);
+  const VectorXd medians = stats::NormalMedians(sorted.size());
   const double mean = sorted.mean();
   const double sd = stats::Summarize(sorted).sd;
   const std::vector<double> x = ListOf(medians);

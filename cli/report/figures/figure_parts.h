@@ -6,10 +6,33 @@
 #include <vector>
 
 #include "cli/report/figures/figures.h"
-#include "cli/report/figures/held_out_rows.h"
 #include "cli/report/report_view.h"
 
 namespace errmap::report {
+
+/// Held-out rows of one model under one hold-out, if they have a prediction;
+/// errors are in the shown unit.
+struct HeldOutRows {
+  std::vector<double> row;
+  std::vector<double> target;
+  std::vector<double> predicted;
+  std::vector<double> residual;
+  std::vector<double> group;                // index into labels; empty if none
+  std::vector<std::vector<double>> inputs;  // (inputs x rows)
+  std::vector<std::string> labels;
+  std::vector<double> session;  // index into session_labels
+  std::vector<std::string> session_labels;
+  std::vector<double> time;   // s; empty if unknown
+  std::vector<bool> outside;  // the recommended map's range
+  bool thinned = false;
+  std::string missing;  // the reason if there are none
+};
+
+/// Returns the rows that the results keep for figures; `missing` says why if
+/// there are none.
+HeldOutRows HeldOutRowsOf(const ReportView& view,
+                          const std::string& model,
+                          const std::string& holdout);
 
 // Okabe and Ito's colours (2008), distinct in every kind of colour vision.
 inline constexpr const char* kBlue = "#0072B2";
@@ -78,5 +101,47 @@ Series Points(std::vector<double> x, std::vector<double> y);
 
 /// Draws y = 0 from the lowest to the highest x.
 Series ZeroLine(const std::vector<double>& x);
+
+// Distribution of the residuals: the figures of the report of 1995.
+
+/// Histogram with the normal curve of the same mean and sd (Figure 11).
+Figure HistogramFigure(const ResidualContext& context);
+
+/// Normal probability plot (Figure 7).
+Figure NormalPlotFigure(const ResidualContext& context);
+
+/// Error of every model under each hold-out: the figure that decides.
+Figure GapFigure(const ReportView& view, const std::string& prefix);
+
+/// sqrt(2 E) against iteration for every net (the report's Figures 10-24), a
+/// few nets in each figure; empty if no model iterates.
+std::vector<Figure> TrainingFigures(const ReportView& view,
+                                    const std::string& prefix);
+
+/// The recommended map's effect on the machine's error, on held-out rows. Shows
+/// the error over position before and after, the remaining error over the time
+/// of day, and the error by day or cycle with what differs on the worst. Omits
+/// figures that the data do not allow.
+std::vector<Figure> CompensationFigures(const ReportView& view,
+                                        const std::string& prefix);
+
+/// The measurements in their order: temperatures and the error, session after
+/// session. Omits figures that the data do not allow.
+std::vector<Figure> MeasuredFigures(const ReportView& view,
+                                    const std::string& prefix);
+
+/// The figures of a model's held-out residuals: predicted against measured;
+/// residuals against position, group and the most correlated inputs; map; the
+/// report's Figures 7 and 11. `prefix` begins the names of their files.
+std::vector<Figure> ResidualFigures(const ReportView& view,
+                                    const std::string& model,
+                                    const std::string& holdout,
+                                    const std::string& prefix,
+                                    bool brief);
+
+/// Held-out error of the recommended map without each of its sensors, and
+/// without alike sensors; none if the record lacks it.
+std::vector<Figure> ImportanceFigures(const ReportView& view,
+                                      const std::string& prefix);
 
 }  // namespace errmap::report

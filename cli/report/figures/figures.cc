@@ -1,15 +1,10 @@
 #include "cli/report/figures/figures.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
-#include "cli/report/figures/comparison_figures.h"
-#include "cli/report/figures/compensation_figures.h"
-#include "cli/report/figures/measured_figures.h"
-#include "cli/report/figures/residual_figures.h"
-#include "cli/report/figures/sensor_figures.h"
+#include "cli/report/figures/figure_parts.h"
 #include "cli/report/figures/svg.h"
 
 namespace errmap::report {

@@ -1,5 +1,3 @@
-#include "cli/report/figures/measured_figures.h"
-
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,3 @@
-#include "cli/report/figures/residual_figures.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/report/figures/distribution_figures.h"
 #include "cli/report/figures/figure_parts.h"
 #include "stats/summary.h"
 
@@ -161,7 +158,7 @@ Figure MapFigure(const ResidualContext& context, std::size_t position) {
 double AbsoluteCorrelation(const std::vector<double>& x,
                            const std::vector<double>& y) {
   const auto vector = [](const std::vector<double>& values) {
-    return Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+    return Eigen::Map<const VectorXd>(values.data(), std::ssize(values));
   };
   return std::abs(stats::Correlation(vector(x), vector(y)));
 }

@@ -1,5 +1,3 @@
-#include "cli/report/tables/fit_tables.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +6,7 @@
 
 #include "cli/report/number_text.h"
 #include "cli/report/plot.h"
+#include "cli/report/tables/report_tables.h"
 #include "models/study/record/record_json.h"
 #include "stats/holdout.h"
 

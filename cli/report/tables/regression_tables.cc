@@ -1,9 +1,9 @@
-#include "cli/report/tables/regression_tables.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
+
+#include "cli/report/tables/report_tables.h"
 
 namespace errmap::report {
 namespace {

@@ -1,13 +1,11 @@
 #include "cli/report/tables/report_tables.h"
 
-#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/report/number_text.h"
 #include "cli/report/plot.h"
-#include "cli/report/tables/result_table.h"
 #include "stats/error_metrics.h"
 
 namespace errmap::report {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "cli/report/number_text.h"
 #include "cli/report/report_view.h"
 #include "cli/report/table.h"
 
@@ -25,5 +27,99 @@ Table ResidualTable(const ReportView& view, const std::string& holdout);
 Table NormalityTable(const ReportView& view, const std::string& holdout);
 /// Tests of independence and bias of every model's held-out residuals.
 Table IndependenceTable(const ReportView& view, const std::string& holdout);
+
+// The results of models, for people and for files. Columns are declared once,
+// in the .cc file, with their names and the tables that have them.
+
+/// p with Holm's correction, and `after`; nothing if the units are too few for
+/// any difference to show.
+Cell CorrectedP(const models::PairRecord& pair, const char* after = "");
+
+/// One row for each component, hold-out and model.
+Table LeaderboardRows(const models::StudyRecord& record);
+
+/// For terminals, sorted by the decisive error: sensors, that error with its
+/// interval, the error among neighbours, the goal. At most `most_rows`,
+/// including the recommended one: "*" before its name, "=" before those as good
+/// as the best.
+Table TerminalLeaderboard(const ReportView& view, std::size_t most_rows);
+
+/// Details for one hold-out: training error, tier, p, and whether the
+/// difference from the recommended model is established.
+Table TerminalDetails(const ReportView& view, const std::string& holdout);
+/// Parameters, gap and times.
+Table TerminalTimes(const ReportView& view);
+
+/// One row for each component: the map to use, its error and how sure it is.
+Table SummaryRows(const models::StudyRecord& record);
+inline constexpr std::size_t kIntervalColumn = 3;
+inline constexpr std::size_t kProvenColumn = 4;
+
+/// "unseen cycle", "another file", "neighbours": what a hold-out holds out.
+std::string UnseenWords(const ReportView& view, const std::string& holdout);
+
+/// Says which models learnt from a part of the rows, and how to use all; "" if
+/// none did.
+std::string DrawnRowsWords(const ReportView& view);
+
+/// Says what poly:temperature reads where the data have no thermometer; "" if
+/// they have one.
+std::string StandInWords(const ReportView& view);
+
+/// One row for each model, with the hold-outs, the decisive one first: errors,
+/// significance, goal, cost.
+Table PageLeaderboard(const ReportView& view);
+
+/// The error of each map and the cost of a step on a controller.
+Table CostTable(const ReportView& view);
+
+/// The fits to all rows: each optimiser's work, how it stopped, and its time
+/// per iteration (the report's Table 4).
+Table RunTable(const ReportView& view);
+
+/// Every fit of every fold: errors, iterations, termination.
+Table FoldTable(const ReportView& view);
+
+/// Every start of nets with several starts.
+Table StartTable(const ReportView& view);
+
+/// Nets fitted to shuffled targets: can they learn noise?
+Table MemorisationTable(const ReportView& view);
+
+/// Options and choices of every model.
+Table OptionTable(const ReportView& view);
+
+/// Columns left out of the inputs, with the reasons.
+Table DroppedTable(const ReportView& view);
+
+/// How rows were held out.
+Table HoldoutTable(const ReportView& view);
+
+/// The origin of the results, for the whole document.
+Table ProvenanceTable(const models::StudyRecord& record);
+
+/// The steps of a selection; no rows if the terms were given.
+Table StepTable(const models::RegressionRecord& regression);
+
+/// The coefficients with their statistics, as far as there are any.
+Table CoefficientTable(const models::RegressionRecord& regression);
+
+/// The analysis of variance; no rows for a penalised fit.
+Table AnovaTable(const models::RegressionRecord& regression);
+
+/// The terms that were left out, those of largest F first.
+Table ExcludedTerms(const models::RegressionRecord& regression);
+
+/// The terms that others determine.
+Table AliasedTerms(const models::RegressionRecord& regression);
+
+/// s, R2, PRESS, largest residual, condition and rank, or what a penalised fit
+/// has instead. "" if nothing was kept.
+std::string RegressionSummary(const models::RegressionRecord& regression,
+                              const ErrorText& error);
+
+/// The models with an equation or a regression, the recommended one first;
+/// baselines are left out.
+std::vector<const ModelRecord*> PolynomialsOf(const ReportView& view);
 
 }  // namespace errmap::report

@@ -1,13 +1,11 @@
-#include "cli/report/tables/result_table.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "cli/report/plot.h"
+#include "cli/report/tables/report_tables.h"
 #include "cli/report/words/answers/verdict_text.h"
-#include "cli/report/wrap_text.h"
 #include "data/text.h"
 #include "stats/comparison/paired_comparison.h"
 #include "stats/error_metrics.h"

@@ -1,4 +1,3 @@
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -48,7 +47,7 @@ int RunSimulate(const SimulateArguments& arguments) {
     Say(fmt::format("{} of {}, {} in {}; README.md there says what they are",
                     report::Count(options.days, "day"),
                     report::Count(options.cycles, "cycle"),
-                    report::Count(static_cast<long long>(names.size()), "file"),
+                    report::Count(std::ssize(names), "file"),
                     arguments.folder));
   }
   return kDone;

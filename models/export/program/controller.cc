@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "fitting/least_squares/decompositions.h"
-#include "models/export/program/controller_routines.h"
 #include "models/export/program/run_program.h"
 #include "models/history/view.h"
 #include "models/map_experience.h"
@@ -16,10 +14,6 @@
 
 namespace errmap::models {
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 // What sensors read that are not connected or not ready: an open input, a
 // DS18B20 that is gone or has just woken, an open resistance thermometer.
@@ -260,8 +254,7 @@ void AddJudgement(const FittedModel& fitted,
   form->has_relations = sensors > 1;  // one alone has no others to go with
   if (!form->has_relations) return;
   // Readings that are no sensors, such as positions, have no doubt.
-  MatrixXd told =
-      MatrixXd::Zero(static_cast<Index>(program->readings.size()), directions);
+  MatrixXd told = MatrixXd::Zero(std::ssize(program->readings), directions);
   for (Index i = 0; i < sensors; ++i) {
     told.row(reading_of(i)) = -per_limit[i] * trained.directions.row(i);
   }

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "data/units.h"
@@ -93,5 +94,26 @@ bool IsCount(const data::Unit& unit);
 /// Returns the fastest plausible change by heat: 10 um/s or 10 urad/s. In any
 /// other unit: `max_error` in 10 s.
 double DefaultMaxRate(const data::Unit& unit, double max_error);
+
+/// Return MapProgram::read and MapProgram::move. The bounds and slopes of the
+/// program's readings, and its judgement, must already be set.
+Routine ReadRoutine(const MapProgram& program);
+Routine MoveRoutine(const ControllerLimits& limits);
+
+/// Largest effect of a failed sensor on the error given, once every filter has
+/// settled; target's unit. Before it, positions and sensors are at the ends or
+/// in the middle of their trained range: what MeasureSensitivity
+/// (models/sensors/sensitivity.h) finds over the rows of training.
+struct FailingSensor {
+  std::string name;
+  double zero = 0.0;     // it reads 0, without any checks
+  double without = 0.0;  // it reads anything, without any checks
+  /// It reads anything, with checks and limits. It includes the loss of the
+  /// compensation if the reading is not trusted.
+  double with = 0.0;
+};
+
+/// Returns all sensors, sorted by falling `zero`. `program` has its controller.
+std::vector<FailingSensor> WorstOfFailing(const MapProgram& program);
 
 }  // namespace errmap::models

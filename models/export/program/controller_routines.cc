@@ -1,5 +1,3 @@
-#include "models/export/program/controller_routines.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -11,13 +11,11 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-
 constexpr int kFineSteps = 4096;
 
-Eigen::VectorXd HeldReadings(const std::vector<TrainedInput>& inputs,
-                             const std::vector<HeldReading>& held) {
-  Eigen::VectorXd readings(static_cast<Index>(inputs.size()));
+VectorXd HeldReadings(const std::vector<TrainedInput>& inputs,
+                      const std::vector<HeldReading>& held) {
+  VectorXd readings(std::ssize(inputs));
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const auto found =
         std::ranges::find(held, inputs[i].column.name, &HeldReading::first);
@@ -118,20 +116,20 @@ ErrorCurve::ErrorCurve(const MapProgram& program,
 
 ErrorCurve::ErrorCurve(const MapProgram& program,
                        ProgramRun run,
-                       Eigen::VectorXd readings)
+                       VectorXd readings)
     : program_(&program),
       run_(std::move(run)),
       readings_(std::move(readings)),
       position_(RequirePosition(program)) {}
 
 double ErrorCurve::operator()(double position) const {
-  Eigen::VectorXd readings = readings_;
+  VectorXd readings = readings_;
   readings[position_] = position;
   return After(0.0, readings);  // the filters stay as they are
 }
 
 double ErrorCurve::operator()(double position, int input, double value) const {
-  Eigen::VectorXd readings = readings_;
+  VectorXd readings = readings_;
   readings[position_] = position;
   readings[input] = value;
   constexpr double kForEver = 1e30;  // s
@@ -142,7 +140,7 @@ const ProgramReading& ErrorCurve::position() const {
   return program_->readings[static_cast<std::size_t>(position_)];
 }
 
-double ErrorCurve::After(double dt, const Eigen::VectorXd& readings) const {
+double ErrorCurve::After(double dt, const VectorXd& readings) const {
   ProgramRun run = run_;
   double error = 0.0;
   if ((run.Step(dt, readings, &error) & kMapInvalid) != 0) {

@@ -6,10 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "models/export/program/map_program.h"
 #include "models/export/program/run_program.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -27,9 +26,7 @@ class ErrorCurve {
              const std::vector<HeldReading>& held);
 
   /// Continues from the state of `run`, after its readings; otherwise as above.
-  ErrorCurve(const MapProgram& program,
-             ProgramRun run,
-             Eigen::VectorXd readings);
+  ErrorCurve(const MapProgram& program, ProgramRun run, VectorXd readings);
 
   /// Returns the error at a position (input's unit). Throws std::domain_error
   /// if it is not finite.
@@ -45,14 +42,14 @@ class ErrorCurve {
   /// Returns the reading that is the position.
   const ProgramReading& position() const;
   int position_index() const { return position_; }
-  const Eigen::VectorXd& readings() const { return readings_; }
+  const VectorXd& readings() const { return readings_; }
 
  private:
-  double After(double dt, const Eigen::VectorXd& readings) const;
+  double After(double dt, const VectorXd& readings) const;
 
   const MapProgram* program_;
   ProgramRun run_;
-  Eigen::VectorXd readings_;
+  VectorXd readings_;
   int position_ = 0;
 };
 

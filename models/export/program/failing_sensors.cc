@@ -1,14 +1,11 @@
-#include "models/export/program/failing_sensors.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "models/export/program/controller.h"
 #include "models/export/program/run_program.h"
 
 namespace errmap::models {
 namespace {
-
-using Eigen::VectorXd;
 
 constexpr double kForEver = 1e8;  // s
 
@@ -47,7 +44,7 @@ VectorXd HealthyState(const MapProgram& program,
     const ProgramReading& reading = program.readings[i];
     const PartOfRange part = reading.is_position ? positions : sensors;
     if (part == PartOfRange::kMean) continue;
-    state[static_cast<Eigen::Index>(i)] =
+    state[static_cast<Index>(i)] =
         part == PartOfRange::kMin ? reading.trained_min : reading.trained_max;
   }
   return state;
@@ -65,7 +62,7 @@ void RaiseToChange(const MapProgram& program,
   const double own = error(program, healthy, healthy);
   VectorXd failed = healthy;
   for (const double value : failures) {
-    failed[static_cast<Eigen::Index>(i)] = value;
+    failed[static_cast<Index>(i)] = value;
     *most = std::max(*most, std::fabs(error(program, healthy, failed) - own));
   }
 }

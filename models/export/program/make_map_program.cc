@@ -13,18 +13,14 @@
 #include "data/argument_name.h"
 #include "data/measurements/row_filters.h"
 #include "models/export/program/map_program.h"
-#include "models/export/program/nested_polynomial.h"
 #include "models/export/program/safe_names.h"
 #include "models/history/history.h"
-#include "models/history/lag.h"
 #include "models/history/with_history.h"
 #include "models/map_experience.h"
 #include "models/polynomial/polynomial_model.h"
 
 namespace errmap::models {
 namespace {
-
-using Eigen::Index;
 
 int AsInt(std::size_t value) { return static_cast<int>(value); }
 
@@ -378,7 +374,7 @@ class FormWriter {
            .a = inputs[i],
            .c = form.input_offset[static_cast<Index>(i)]});
     }
-    Eigen::MatrixXd w1 = form.w1;
+    MatrixXd w1 = form.w1;
     w1.leftCols(form.input_scale.size()) *= form.input_scale.asDiagonal();
     const Operand hidden{Space::kHidden, 0};
     const auto num_hidden = static_cast<int>(w1.rows());
@@ -387,7 +383,7 @@ class FormWriter {
 
     const double slope = form.target_slope[0];
     const double offset = form.target_offset[0];
-    Eigen::MatrixXd w2 = form.w2;
+    MatrixXd w2 = form.w2;
     if (form.output == OutputFunction::kLinear) {
       w2(0, w2.cols() - 1) -= offset;
       w2 /= slope;
@@ -422,7 +418,7 @@ class FormWriter {
     }
   }
 
-  void Affine(Operand to, Operand from, Eigen::MatrixXd table) {
+  void Affine(Operand to, Operand from, MatrixXd table) {
     Add({.op = Op::kAffine,
          .to = to,
          .a = from,

@@ -1,11 +1,10 @@
-#include "models/export/program/map_pair.h"
-
 #include <algorithm>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "models/export/program/error_curve.h"
+#include "models/export/program/map_program.h"
 #include "models/export/program/safe_names.h"
 
 namespace errmap::models {
@@ -104,10 +103,10 @@ MapProgram JoinedPrograms(const MapProgram& increasing,
   return joined;
 }
 
-Eigen::VectorXd ReadingsOfProgram(const MapProgram& program,
-                                  std::size_t form,
-                                  const Eigen::VectorXd& of_map) {
-  Eigen::VectorXd readings = MeanReadings(program);
+VectorXd ReadingsOfProgram(const MapProgram& program,
+                           std::size_t form,
+                           const VectorXd& of_map) {
+  VectorXd readings = MeanReadings(program);
   readings(program.forms[form].readings) = of_map;
   return readings;
 }

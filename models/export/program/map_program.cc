@@ -4,8 +4,6 @@
 
 namespace errmap::models {
 
-using Eigen::Index;
-
 void MapProgram::MeasureSpaces() {
   const auto grow = [&](Space space, int size) {
     int& known = sizes[static_cast<std::size_t>(space)];
@@ -100,8 +98,8 @@ std::vector<double> TableValues(const MapProgram& program, Cell cell) {
   return values;
 }
 
-Eigen::VectorXd MeanReadings(const MapProgram& program) {
-  Eigen::VectorXd mean(std::ssize(program.readings));
+VectorXd MeanReadings(const MapProgram& program) {
+  VectorXd mean(std::ssize(program.readings));
   for (Index i = 0; i < mean.size(); ++i) {
     mean[i] = program.readings[static_cast<std::size_t>(i)].trained_mean;
   }

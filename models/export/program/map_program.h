@@ -6,11 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "models/error_model.h"
-#include "models/export/program/operand.h"
 #include "models/export/program/routine.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -137,7 +135,7 @@ struct MapForm {
   Instructions measure = {};
   /// Trained thermal states (k x coordinates), and the limits of the squared
   /// distance to the nearest of them and to their mean.
-  Eigen::MatrixXd states = {};
+  MatrixXd states = {};
   double reach = 0.0;
   double most_spread = 0.0;
   bool has_relations = false;  // `judge` writes kDoubt
@@ -163,7 +161,7 @@ struct MapProgram {
   double longest_bridged = std::numeric_limits<double>::infinity();
   double settles_after = 0.0;
   /// Tables of kAffine (outputs x (inputs + 1)); the last column is the bias.
-  std::vector<Eigen::MatrixXd> tables;
+  std::vector<MatrixXd> tables;
   /// Starts a session with these readings.
   Instructions begin;
   /// Advances by dt seconds to these readings.
@@ -200,11 +198,30 @@ struct MapProgram {
 std::vector<double> TableValues(const MapProgram& program, Cell cell);
 
 /// Returns the trained means of all readings.
-Eigen::VectorXd MeanReadings(const MapProgram& program);
+VectorXd MeanReadings(const MapProgram& program);
 
 /// Makes the arithmetic of a map, without limits (controller.h adds them).
 /// Throws std::invalid_argument if a filter of its history uses another unit of
 /// time than seconds: a controller does not count rows.
 MapProgram MakeMapProgram(const FittedModel& fitted);
+
+/// Returns instructions that compute the polynomial in kTerm 0 from its scaled
+/// inputs in kScaled 0, 1, .... They nest it (Horner's scheme) by the input
+/// that most terms contain, then recursively, so that no power is computed.
+Instructions NestedPolynomial(const PolynomialForm& form);
+
+/// Joins two maps of one axis and error into one program: the first acts while
+/// its position increases, the second while it decreases. Readings of the same
+/// name are shared; the filters of both always run. Throws
+/// std::invalid_argument if a map reads no position, if they read different
+/// ones, or if a column or the error differs in unit.
+MapProgram JoinedPrograms(const MapProgram& increasing,
+                          const MapProgram& decreasing);
+
+/// Converts readings of the map `form` to those of the program; readings that
+/// only the other map uses are at their means.
+VectorXd ReadingsOfProgram(const MapProgram& program,
+                           std::size_t form,
+                           const VectorXd& of_map);
 
 }  // namespace errmap::models

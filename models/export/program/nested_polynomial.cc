@@ -1,10 +1,10 @@
-#include "models/export/program/nested_polynomial.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
+
+#include "models/export/program/map_program.h"
 
 namespace errmap::models {
 namespace {

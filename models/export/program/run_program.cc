@@ -6,8 +6,6 @@
 
 namespace errmap::models {
 
-using Eigen::Index;
-
 ProgramRun::ProgramRun(const MapProgram& program, Precision precision, int form)
     : program_(&program), precision_(precision), form_(form) {
   for (std::size_t i = 0; i < kNumSpaces; ++i) {
@@ -15,16 +13,14 @@ ProgramRun::ProgramRun(const MapProgram& program, Precision precision, int form)
   }
 }
 
-int ProgramRun::Begin(const Eigen::VectorXd& readings) {
+int ProgramRun::Begin(const VectorXd& readings) {
   if (!readings.allFinite()) return kMapInvalid;
   Load(readings);
   Execute(program_->begin);
   return 0;
 }
 
-int ProgramRun::Step(double dt,
-                     const Eigen::VectorXd& readings,
-                     double* error) {
+int ProgramRun::Step(double dt, const VectorXd& readings, double* error) {
   if (!readings.allFinite() || (program_->has_memory() && !(dt >= 0.0))) {
     return kMapInvalid;
   }
@@ -39,14 +35,14 @@ int ProgramRun::Step(double dt,
   return clipped_ ? kMapClipped : 0;
 }
 
-int ProgramRun::Zero(const Eigen::VectorXd& readings) {
+int ProgramRun::Zero(const VectorXd& readings) {
   if (!readings.allFinite()) return kMapInvalid;
   Load(readings);
   Execute(program_->zero);
   return 0;
 }
 
-void ProgramRun::Load(const Eigen::VectorXd& readings) {
+void ProgramRun::Load(const VectorXd& readings) {
   for (Index i = 0; i < readings.size(); ++i) {
     At({Space::kReading, static_cast<int>(i)}) =
         Rounded(readings[i], Space::kReading);
@@ -117,7 +113,7 @@ void ProgramRun::Apply(const Instruction& it) {
       return set(bound);
     }
     case Op::kAffine: {
-      const Eigen::MatrixXd& table = program_->tables[it.table];
+      const MatrixXd& table = program_->tables[it.table];
       const auto num_inputs = static_cast<int>(table.cols()) - 1;
       for (int row = 0; row < it.count; ++row) {
         double sum = r(table(row, num_inputs));
@@ -153,9 +149,7 @@ ControllerRun::ControllerRun(const MapProgram& program, Precision precision)
   }
 }
 
-int ControllerRun::Step(double dt,
-                        const Eigen::VectorXd& readings,
-                        double* error) {
+int ControllerRun::Step(double dt, const VectorXd& readings, double* error) {
   status_ = 0;
   run_.ClearClipped();
   run_.Load(readings);

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "models/export/program/controller.h"
 #include "models/export/program/map_program.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -21,16 +21,16 @@ class ProgramRun {
 
   /// Starts a session. Returns kMapInvalid, and starts nothing, if a reading is
   /// not finite.
-  int Begin(const Eigen::VectorXd& readings);
+  int Begin(const VectorXd& readings);
   /// Advances by `dt` seconds (at least 0; ignored if the map has no memory).
   /// Leaves `error` unchanged if the returned status is kMapInvalid; the other
   /// possible bit is kMapClipped.
-  int Step(double dt, const Eigen::VectorXd& readings, double* error);
+  int Step(double dt, const VectorXd& readings, double* error);
   /// Takes the zero at these readings.
-  int Zero(const Eigen::VectorXd& readings);
+  int Zero(const VectorXd& readings);
 
   // The steps of the machine, one by one.
-  void Load(const Eigen::VectorXd& readings);
+  void Load(const VectorXd& readings);
   void Execute(const Instructions& instructions);
   double& At(Operand operand);
   bool clipped() const { return clipped_; }
@@ -68,7 +68,7 @@ class ControllerRun {
   }
   /// Reads and moves, `dt` seconds after the previous call. Sets the error
   /// given and returns the status.
-  int Step(double dt, const Eigen::VectorXd& readings, double* error);
+  int Step(double dt, const VectorXd& readings, double* error);
 
  private:
   double& Value(Cell cell, int index = 0) {
@@ -87,5 +87,19 @@ class ControllerRun {
   int loop_ = 0;
   int status_ = 0;
 };
+
+/// Returns a number that identifies the program of a map; a saved state belongs
+/// to one of them. It is small enough to be exact in single precision.
+double Fingerprint(const MapProgram& program);
+
+/// The same for an export: all that its files contain, its `name`, the version
+/// that wrote it and their `precision`.
+double ExportId(const MapProgram& program,
+                std::string_view name,
+                Precision precision);
+
+/// Returns the largest age (s) of a saved state from which a map may continue:
+/// an hour, or the memory of its filters if longer.
+double LongestAge(const MapProgram& program);
 
 }  // namespace errmap::models

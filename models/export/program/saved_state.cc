@@ -1,10 +1,8 @@
-#include "models/export/program/saved_state.h"
-
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <string_view>
 
+#include "models/export/program/run_program.h"
 #include "models/version.h"
 
 namespace errmap::models {
@@ -52,7 +50,7 @@ double Fingerprint(const MapProgram& program) {
       hash.Add(it.d);
     }
   }
-  for (const Eigen::MatrixXd& table : program.tables) {
+  for (const MatrixXd& table : program.tables) {
     for (const double number : table.reshaped()) hash.Add(number);
   }
   return hash.Number();

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "models/export/program/map_pair.h"
+#include "models/export/program/map_program.h"
 #include "models/history/history.h"
 #include "models/history/history_state.h"
 #include "models/map_experience.h"
@@ -13,8 +13,6 @@
 
 namespace errmap::models {
 namespace {
-
-using Eigen::Index;
 
 constexpr int kNumRows = 24;
 
@@ -29,10 +27,8 @@ double ReachOf(const FittedModel& fitted, int row) {
 }
 
 // Readings that wander about, each at a pace of its own.
-Eigen::VectorXd WanderingReadings(const MapProgram& program,
-                                  int row,
-                                  double reach) {
-  Eigen::VectorXd readings(std::ssize(program.readings));
+VectorXd WanderingReadings(const MapProgram& program, int row, double reach) {
+  VectorXd readings(std::ssize(program.readings));
   for (std::size_t i = 0; i < program.readings.size(); ++i) {
     const ProgramReading& reading = program.readings[i];
     const double middle = 0.5 * (reading.trained_min + reading.trained_max);
@@ -51,14 +47,13 @@ double StepBefore(int row) {
 }
 
 // What the form reads of a session, by the filters that `predict` runs.
-Eigen::MatrixXd FormInputs(const FittedModel& fitted,
-                           const std::vector<SelfTestRow>& rows) {
+MatrixXd FormInputs(const FittedModel& fitted,
+                    const std::vector<SelfTestRow>& rows) {
   std::vector<data::ColumnInfo> columns;
   for (const TrainedInput& input : fitted.inputs) {
     columns.push_back(input.column);
   }
-  Eigen::MatrixXd inputs(static_cast<Index>(rows.size()),
-                         fitted.model->num_inputs());
+  MatrixXd inputs(std::ssize(rows), fitted.model->num_inputs());
   if (fitted.history == nullptr) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       inputs.row(static_cast<Index>(i)) = rows[i].readings.transpose();
@@ -74,7 +69,7 @@ Eigen::MatrixXd FormInputs(const FittedModel& fitted,
   return inputs;
 }
 
-bool IsInside(const MapProgram& program, const Eigen::VectorXd& readings) {
+bool IsInside(const MapProgram& program, const VectorXd& readings) {
   for (std::size_t i = 0; i < program.readings.size(); ++i) {
     const ProgramReading& reading = program.readings[i];
     const double value = readings[static_cast<Index>(i)];
@@ -87,10 +82,9 @@ bool IsInside(const MapProgram& program, const Eigen::VectorXd& readings) {
 
 // How far each sensor goes with the others: along the first direction of the
 // thermal states, as far as all stay within their trained range.
-Eigen::VectorXd CommonSwing(const FittedModel& first,
-                            const MapProgram& program) {
+VectorXd CommonSwing(const FittedModel& first, const MapProgram& program) {
   constexpr double kWithin = 0.9;
-  Eigen::VectorXd swing(std::ssize(program.readings));
+  VectorXd swing(std::ssize(program.readings));
   for (Index i = 0; i < swing.size(); ++i) {
     const ProgramReading& reading =
         program.readings[static_cast<std::size_t>(i)];
@@ -99,7 +93,7 @@ Eigen::VectorXd CommonSwing(const FittedModel& first,
   }
   const Applicability* trained = first.applicability.get();
   if (trained == nullptr) return swing;
-  const Eigen::VectorXd along =
+  const VectorXd along =
       trained->scale.cwiseProduct(trained->directions.col(0));
   double share = std::numeric_limits<double>::infinity();
   for (Index i = 0; i < along.size(); ++i) {
@@ -116,11 +110,11 @@ Eigen::VectorXd CommonSwing(const FittedModel& first,
 }
 
 // Sensors that warm up and cool down together, positions that wander.
-Eigen::VectorXd CommonReadings(const MapProgram& program,
-                               const Eigen::VectorXd& swing,
-                               int row) {
+VectorXd CommonReadings(const MapProgram& program,
+                        const VectorXd& swing,
+                        int row) {
   constexpr double kOwn = 0.01;  // of the range, each sensor by itself
-  Eigen::VectorXd readings = WanderingReadings(program, row, 0.98);
+  VectorXd readings = WanderingReadings(program, row, 0.98);
   for (std::size_t i = 0; i < program.readings.size(); ++i) {
     const ProgramReading& reading = program.readings[i];
     if (reading.is_position) continue;
@@ -172,7 +166,7 @@ void Fail(const MapProgram& program, int failure, SelfTestRow* row) {
 std::vector<SelfTestRow> ControllerSession(const FittedModel& first,
                                            const MapProgram& program,
                                            Precision precision) {
-  const Eigen::VectorXd swing = CommonSwing(first, program);
+  const VectorXd swing = CommonSwing(first, program);
   std::vector<SelfTestRow> rows;
   for (int i = 0; i < kNumHealthy + kNumFailures + 2; ++i) {
     const int failure = i - kNumHealthy;
@@ -239,7 +233,7 @@ Deviations FindDeviations(const MapProgram& program,
   ProgramRun run(program, precision, form);
   Deviations worst;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Eigen::VectorXd readings = ReadingsOfProgram(
+    const VectorXd readings = ReadingsOfProgram(
         program, static_cast<std::size_t>(form), rows[i].readings);
     if (i == 0) run.Begin(readings);
     double error = std::numeric_limits<double>::infinity();

@@ -2,17 +2,16 @@
 
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "models/export/program/map_program.h"
 #include "models/export/program/run_program.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
 /// A made-up reading of all inputs and the expected result.
 struct SelfTestRow {
   double dt = 0.0;  // s since the previous row; 0 in the first
-  Eigen::VectorXd readings;
+  VectorXd readings;
   double error = 0.0;
   int status = 0;  // MapStatus; in rows of the map itself only kMapOutside
 };

@@ -16,8 +16,6 @@ namespace {
 
 using data::Dataset;
 using data::Sha256Stream;
-using Eigen::Index;
-
 // A text with its length before it, so that no two lists of texts look alike.
 void AddText(std::string_view text, Sha256Stream* stream) {
   stream->Add(fmt::format("{}:", text.size()));

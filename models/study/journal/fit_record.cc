@@ -1,17 +1,11 @@
-#include "models/study/journal/fit_record.h"
-
-#include <array>
 #include <concepts>
 #include <cstdint>
 #include <cstring>
 #include <memory>
-#include <optional>
 #include <stdexcept>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -22,222 +16,153 @@
 #include "models/map_experience.h"
 #include "models/members.h"
 #include "models/regression_record.h"
+#include "models/study/journal/kept_fits.h"
 
 namespace errmap::models {
 
 namespace {
 
-using Eigen::Index;
-
-template <typename T>
-concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
-
 [[noreturn]] void Refuse(const char* why) {
   throw data::InputError(fmt::format("record of a fit: {}", why));
 }
 
-// Bytes of every member, one after another: overloads for every type of member,
-// in a class so that they see one another.
-class Writer {
+// Every member of a record, one after another, to bytes or back from them. What
+// is read and no such record asks for no more memory than it has bytes.
+template <bool kReads>
+class Archive {
  public:
-  const std::string& bytes() const { return bytes_; }
+  explicit Archive(std::string_view bytes) : rest_(bytes) {}
 
-  template <Plain T>
-  void Put(T value) {
-    PutBytes(&value, sizeof value);
-  }
-
-  void Put(const std::string& text) {
-    Put(text.size());
-    PutBytes(text.data(), text.size());
-  }
-
-  template <typename Scalar, int kRows, int kColumns>
-  void Put(const Eigen::Matrix<Scalar, kRows, kColumns>& matrix) {
-    Put(matrix.rows());
-    Put(matrix.cols());
-    PutBytes(matrix.data(),
-             static_cast<std::size_t>(matrix.size()) * sizeof(Scalar));
-  }
-
-  template <typename T>
-  void Put(const std::vector<T>& list) {
-    Put(list.size());
-    for (const T& element : list) Put(element);
-  }
-
-  template <typename T, std::size_t kSize>
-  void Put(const std::array<T, kSize>& values) {
-    for (const T& value : values) Put(value);
-  }
-
-  template <typename T>
-  void Put(const std::optional<T>& value) {
-    Put(value.has_value());
-    if (value) Put(*value);
-  }
-
-  template <typename A, typename B>
-  void Put(const std::pair<A, B>& pair) {
-    Put(pair.first);
-    Put(pair.second);
-  }
-
-  template <typename... T>
-  void Put(const std::variant<T...>& value) {
-    Put(value.index());
-    std::visit([this](const auto& held) { Put(held); }, value);
-  }
-
-  template <typename T>
-  void Put(const std::shared_ptr<const T>& value) {
-    Put(value != nullptr);
-    if (value != nullptr) Put(*value);
-  }
-
-  void Put(const ErrorModel& model) {
-    Put(model.num_parameters());
-    Put(model.Describe());
-  }
-
-  template <Record T>
-  void Put(const T& record) {
-    members::Apply([this](const auto&... member) { (Put(member), ...); },
-                   MembersOf(record));
-  }
-
- private:
-  void PutBytes(const void* from, std::size_t size) {
-    bytes_.append(static_cast<const char*>(from), size);
-  }
-
-  std::string bytes_;
-};
-
-// The same the other way. What is no such record asks for no more memory than
-// it has bytes.
-class Reader {
- public:
-  explicit Reader(std::string_view bytes) : rest_(bytes) {}
-
+  const std::string& written() const { return written_; }
   void RequireEnd() const {
     if (!rest_.empty()) Refuse("another layout");
   }
 
-  template <Plain T>
-  void Get(T* value) {
-    GetBytes(value, sizeof *value);
-  }
-
-  void Get(bool* value) {
-    std::uint8_t byte = 0;
-    Get(&byte);
-    *value = byte != 0;
-  }
-
-  void Get(std::string* text) {
-    text->resize(GetCount());
-    GetBytes(text->data(), text->size());
-  }
-
-  template <typename Scalar, int kRows, int kColumns>
-  void Get(Eigen::Matrix<Scalar, kRows, kColumns>* matrix) {
-    Index rows = 0;
-    Index columns = 0;
-    Get(&rows);
-    Get(&columns);
-    const auto most = static_cast<Index>(rest_.size() / sizeof(Scalar));
-    if (rows < 0 || columns < 0 || (columns > 0 && rows > most / columns) ||
-        (kColumns == 1 && columns != 1)) {
-      Refuse("a matrix of another shape");
-    }
-    matrix->resize(rows, columns);
-    GetBytes(matrix->data(),
-             static_cast<std::size_t>(matrix->size()) * sizeof(Scalar));
-  }
-
   template <typename T>
-  void Get(std::vector<T>* list) {
-    const std::size_t size = GetCount();
-    for (std::size_t i = 0; i < size; ++i) Get(&list->emplace_back());
-  }
-
-  template <typename T, std::size_t kSize>
-  void Get(std::array<T, kSize>* values) {
-    for (T& value : *values) Get(&value);
-  }
-
-  template <typename T>
-  void Get(std::optional<T>* value) {
-    bool is_there = false;
-    Get(&is_there);
-    if (!is_there) return;
-    T read{};
-    Get(&read);
-    *value = std::move(read);
-  }
-
-  template <typename A, typename B>
-  void Get(std::pair<A, B>* pair) {
-    Get(&pair->first);
-    Get(&pair->second);
-  }
-
-  template <typename... T>
-  void Get(std::variant<T...>* value) {
-    std::size_t index = 0;
-    Get(&index);
-    if (index >= sizeof...(T)) Refuse("an unknown kind of value");
-    GetAlternative(index, value, std::index_sequence_for<T...>());
-  }
-
-  template <typename T>
-  void Get(std::shared_ptr<const T>* value) {
-    bool is_there = false;
-    Get(&is_there);
-    if (!is_there) return;
-    if constexpr (std::same_as<T, ErrorModel>) {
-      Index parameters = 0;
-      ModelDescription description;
-      Get(&parameters);
-      Get(&description);
-      *value = ModelOfForm(std::move(description), parameters);
+  void Do(T& value) {
+    using Held = std::remove_const_t<T>;
+    if constexpr (std::same_as<Held, bool>) {
+      auto byte = static_cast<std::uint8_t>(value);
+      DoBytes(&byte, sizeof byte);
+      if constexpr (kReads) value = byte != 0;
+    } else if constexpr (std::is_arithmetic_v<Held> || std::is_enum_v<Held>) {
+      DoBytes(&value, sizeof value);
+    } else if constexpr (Record<Held>) {
+      members::Apply([this](auto&... member) { (Do(member), ...); },
+                     MembersOf(value));
+    } else if constexpr (requires { value.array(); }) {
+      DoMatrix(value);
+    } else if constexpr (requires { value.has_value(); }) {
+      DoOptional(value);
+    } else if constexpr (requires { value.first; }) {
+      Do(value.first);
+      Do(value.second);
+    } else if constexpr (requires { value.index(); }) {
+      DoVariant(value, std::make_index_sequence<std::variant_size_v<Held>>());
+    } else if constexpr (requires { value.use_count(); }) {
+      DoPointer(value);
+    } else if constexpr (std::same_as<Held, std::string>) {
+      const std::size_t size = DoCount(value);
+      if constexpr (kReads) value.resize(size);
+      DoBytes(value.data(), size);
+    } else if constexpr (requires { std::tuple_size<Held>::value; }) {
+      for (auto& element : value) Do(element);
     } else {
-      auto read = std::make_shared<T>();
-      Get(read.get());
-      *value = std::move(read);
+      DoList(value);
     }
-  }
-
-  template <Record T>
-  void Get(T* record) {
-    members::Apply([this](auto&... member) { (Get(&member), ...); },
-                   MembersOf(*record));
   }
 
  private:
-  void GetBytes(void* to, std::size_t size) {
-    if (size > rest_.size()) Refuse("cut off");
-    if (size > 0) std::memcpy(to, rest_.data(), size);
-    rest_.remove_prefix(size);
+  template <typename T>
+  void DoBytes(T* data, std::size_t size) {
+    if constexpr (kReads) {
+      if (size > rest_.size()) Refuse("cut off");
+      if (size > 0) std::memcpy(data, rest_.data(), size);
+      rest_.remove_prefix(size);
+    } else {
+      const void* const from = data;
+      written_.append(static_cast<const char*>(from), size);
+    }
   }
 
   // Of elements, each of which takes a byte at least.
-  std::size_t GetCount() {
-    std::size_t count = 0;
-    Get(&count);
-    if (count > rest_.size()) Refuse("cut off");
+  std::size_t DoCount(const auto& held) {
+    std::size_t count = held.size();
+    Do(count);
+    if (kReads && count > rest_.size()) Refuse("cut off");
     return count;
   }
 
+  void DoList(auto& list) {
+    const std::size_t count = DoCount(list);
+    for (std::size_t i = 0; i < count; ++i) {
+      if constexpr (kReads) list.emplace_back();
+      Do(list[i]);
+    }
+  }
+
+  template <typename Matrix>
+  void DoMatrix(Matrix& matrix) {
+    constexpr std::size_t kSize = sizeof(typename Matrix::Scalar);
+    Index rows = matrix.rows();
+    Index columns = matrix.cols();
+    Do(rows);
+    Do(columns);
+    if constexpr (kReads) {
+      const auto most = static_cast<Index>(rest_.size() / kSize);
+      if (rows < 0 || columns < 0 || (columns > 0 && rows > most / columns) ||
+          (Matrix::ColsAtCompileTime == 1 && columns != 1)) {
+        Refuse("a matrix of another shape");
+      }
+      matrix.resize(rows, columns);
+    }
+    DoBytes(matrix.data(), static_cast<std::size_t>(matrix.size()) * kSize);
+  }
+
+  template <typename Optional>
+  void DoOptional(Optional& value) {
+    bool is_there = value.has_value();
+    Do(is_there);
+    if (!is_there) return;
+    if constexpr (kReads) value = typename Optional::value_type{};
+    Do(*value);
+  }
+
   template <typename Variant, std::size_t... I>
-  void GetAlternative(std::size_t index,
-                      Variant* value,
-                      std::index_sequence<I...> /*all*/) {
-    (void)((index == I && (Get(&value->template emplace<I>()), true)) || ...);
+  void DoVariant(Variant& value, std::index_sequence<I...> /*all*/) {
+    std::size_t index = value.index();
+    Do(index);
+    if constexpr (kReads) {
+      if (index >= sizeof...(I)) Refuse("an unknown kind of value");
+      (void)((index == I && (value.template emplace<I>(), true)) || ...);
+    }
+    std::visit([this](auto& held) { Do(held); }, value);
+  }
+
+  template <typename Pointer>
+  void DoPointer(Pointer& value) {
+    using Held = std::remove_const_t<typename Pointer::element_type>;
+    bool is_there = value != nullptr;
+    Do(is_there);
+    if (!is_there) return;
+    if constexpr (std::same_as<Held, ErrorModel>) {
+      Index parameters = kReads ? 0 : value->num_parameters();
+      ModelDescription form;
+      if constexpr (!kReads) form = value->Describe();
+      Do(parameters);
+      Do(form);
+      if constexpr (kReads) value = ModelOfForm(std::move(form), parameters);
+    } else if constexpr (kReads) {
+      auto read = std::make_shared<Held>();
+      Do(*read);
+      value = std::move(read);
+    } else {
+      Do(*value);
+    }
   }
 
   std::string_view rest_;
+  std::string written_;
 };
 
 std::string SumOf(std::string_view key, std::string_view bytes) {
@@ -250,9 +175,9 @@ std::string SumOf(std::string_view key, std::string_view bytes) {
 }  // namespace
 
 std::string FitToBytes(std::string_view key, const FitOutcome& outcome) {
-  Writer writer;
-  writer.Put(outcome);
-  return SumOf(key, writer.bytes()) + writer.bytes();
+  Archive<false> archive("");
+  archive.Do(outcome);
+  return SumOf(key, archive.written()) + archive.written();
 }
 
 FitOutcome FitFromBytes(std::string_view key, std::string_view bytes) {
@@ -262,9 +187,9 @@ FitOutcome FitFromBytes(std::string_view key, std::string_view bytes) {
   if (SumOf(key, rest) != bytes.substr(0, kSum)) Refuse("damaged");
   FitOutcome outcome;
   try {
-    Reader reader(rest);
-    reader.Get(&outcome);
-    reader.RequireEnd();
+    Archive<true> archive(rest);
+    archive.Do(outcome);
+    archive.RequireEnd();
   } catch (const std::logic_error& error) {  // of a model
     Refuse(error.what());
   }

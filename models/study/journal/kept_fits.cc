@@ -14,9 +14,7 @@
 #include "data/argument_name.h"
 #include "data/files/link.h"
 #include "data/input_error.h"
-#include "data/sha256.h"
 #include "data/text.h"
-#include "models/study/journal/fit_record.h"
 
 namespace errmap::models {
 namespace {
@@ -232,7 +230,7 @@ void KeptFits::Record(const std::string& key, const FitOutcome& outcome) {
   // What failed may be mended in another program's code before the next run.
   if (!outcome.fitted && IsCache()) return;
   const std::string record = FitToBytes(key, outcome);
-  const auto size = static_cast<std::int64_t>(record.size());
+  const auto size = std::ssize(record);
   constexpr std::int64_t kShareOfOne = 4;
   const std::lock_guard lock(mutex_);
   if (record.size() > kLongestRecord ||
@@ -320,10 +318,10 @@ bool ComponentJournal::IsOf(const StudyTask& task,
            outcome.test_predictions.size() == 0;
   }
   const bool is_of_all_rows = task.holdout < 0;
-  const Eigen::VectorXd& recorded =
+  const VectorXd& recorded =
       is_of_all_rows ? outcome.train_predictions : outcome.test_predictions;
   const auto predicts = [&](const data::Dataset& rows) {
-    const Eigen::VectorXd predicted = outcome.fitted->Predict(rows);
+    const VectorXd predicted = outcome.fitted->Predict(rows);
     return predicted.allFinite() && predicted.size() == recorded.size() &&
            predicted == recorded;
   };
@@ -333,8 +331,7 @@ bool ComponentJournal::IsOf(const StudyTask& task,
     const Holdout& holdout = holdouts_[static_cast<std::size_t>(task.holdout)];
     const stats::Fold& fold = holdout.folds[task.fold];
     return outcome.train_predictions.allFinite() &&
-           outcome.train_predictions.size() ==
-               static_cast<Eigen::Index>(fold.train.size()) &&
+           outcome.train_predictions.size() == std::ssize(fold.train) &&
            predicts(holdout.test_data != nullptr
                         ? *holdout.test_data
                         : dataset_.SelectRows(fold.test));

@@ -9,7 +9,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
 using Kind = Obstacle::Kind;
 using stats::PairComparison;
 

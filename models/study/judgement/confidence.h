@@ -2,9 +2,8 @@
 
 #include <string_view>
 
-#include <Eigen/Core>
-
 #include "stats/comparison/paired_comparison.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -26,10 +25,10 @@ std::string_view ToString(Confidence confidence);
 
 /// Fewer units establish nothing: with 5, the two most extreme of the 2^5 sign
 /// patterns already have p = 0.0625.
-inline constexpr Eigen::Index kFewestUnits = 6;
+inline constexpr Index kFewestUnits = 6;
 /// The same for units that are not known to be separate sessions: fewer are too
 /// few to see whether neighbours resemble each other.
-inline constexpr Eigen::Index kFewestUnitsOfOneSession = 12;
+inline constexpr Index kFewestUnitsOfOneSession = 12;
 
 /// Why not even the clearest difference could be established among the pairs
 /// that Holm's adjustment counts.
@@ -42,9 +41,9 @@ struct Obstacle {
     kTooFewSignPatterns,  // drawn, for this number of pairs
   };
   Kind kind = Kind::kNone;
-  Eigen::Index units = 0;
-  Eigen::Index needed = 0;  // enough units; 0 for kTooFewSignPatterns
-  Eigen::Index pairs = 0;
+  Index units = 0;
+  Index needed = 0;  // enough units; 0 for kTooFewSignPatterns
+  Index pairs = 0;
 
   bool exists() const { return kind != Kind::kNone; }
 };
@@ -72,8 +71,8 @@ Confidence ThatTheyDiffer(const stats::Comparison& tests,
 /// it. Neighbours must show no resemblance, and units must suffice.
 Confidence ThatItLosesAtMost(double margin,
                              const stats::Comparison& tests,
-                             Eigen::Index model,
-                             Eigen::Index than,
+                             Index model,
+                             Index than,
                              bool separate_sessions);
 
 }  // namespace errmap::models

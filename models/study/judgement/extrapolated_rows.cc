@@ -5,12 +5,12 @@ namespace errmap::models {
 FoldValues ValuesOfFold(const data::Dataset& dataset,
                         const Holdout& holdout,
                         const stats::Fold& fold,
-                        Eigen::Index input) {
+                        Index input) {
   const auto values = dataset.input_values().col(input);
   return {values(fold.train),
           holdout.test_data != nullptr
-              ? Eigen::VectorXd(holdout.test_data->input_values().col(input))
-              : Eigen::VectorXd(values(fold.test))};
+              ? VectorXd(holdout.test_data->input_values().col(input))
+              : VectorXd(values(fold.test))};
 }
 
 std::vector<Eigen::Array<bool, Eigen::Dynamic, 1>> ExtrapolatedRows(
@@ -22,7 +22,7 @@ std::vector<Eigen::Array<bool, Eigen::Dynamic, 1>> ExtrapolatedRows(
     auto& rows = outside.emplace_back();
     rows.setConstant(holdout.test_data != nullptr
                          ? holdout.test_data->num_rows()
-                         : static_cast<Eigen::Index>(fold.test.size()),
+                         : std::ssize(fold.test),
                      false);
     for (const TrainedInput& input : map.inputs) {
       const auto [trained, tested] = ValuesOfFold(

@@ -2,21 +2,20 @@
 
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "models/study/study.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
 /// An input in a fold's training rows and in its held-out rows.
 struct FoldValues {
-  Eigen::VectorXd trained;
-  Eigen::VectorXd tested;
+  VectorXd trained;
+  VectorXd tested;
 };
 FoldValues ValuesOfFold(const data::Dataset& dataset,
                         const Holdout& holdout,
                         const stats::Fold& fold,
-                        Eigen::Index input);
+                        Index input);
 
 /// Tells for each fold's held-out rows, in their order, if an input of the map
 /// lies outside the fold's training range: the fold extrapolates there.

@@ -32,7 +32,7 @@ struct GoalJudgement {
 
 /// Fewest held-out rows to judge a goal: on fewer, a poor map may meet it by
 /// chance.
-inline constexpr Eigen::Index kFewestRowsForGoal = 24;
+inline constexpr Index kFewestRowsForGoal = 24;
 
 /// Compares `test`, a model's held-out errors, with `goal` (target's unit; NaN:
 /// none). `complete`: every fold was fitted and the study ran to its end. An

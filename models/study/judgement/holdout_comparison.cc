@@ -7,16 +7,13 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-
 stats::FoldLosses GatherFolds(const Holdout& holdout,
                               const HeldOutRows& held,
                               const MatrixXd& residuals) {
-  const auto folds = static_cast<Index>(holdout.folds.size());
+  const auto folds = std::ssize(holdout.folds);
   stats::FoldLosses losses;
   losses.mean_squares = MatrixXd::Zero(folds, residuals.cols());
-  losses.test_rows = Eigen::VectorXd::Zero(folds);
+  losses.test_rows = VectorXd::Zero(folds);
   losses.train_rows.resize(folds);
   for (std::size_t i = 0; i < held.fold_of.size(); ++i) {
     const auto fold = static_cast<Index>(held.fold_of[i]);
@@ -89,8 +86,7 @@ HoldoutComparison CompareOne(const data::Dataset& dataset,
   }
   if (comparison.models.empty()) return comparison;
   const HeldOutRows held = GatherHeldOut(dataset, holdout);
-  MatrixXd residuals(static_cast<Index>(held.rows.size()),
-                     static_cast<Index>(comparison.models.size()));
+  MatrixXd residuals(std::ssize(held.rows), std::ssize(comparison.models));
   for (std::size_t m = 0; m < comparison.models.size(); ++m) {
     residuals.col(static_cast<Index>(m)) =
         ResidualsOf(held, study.models[comparison.models[m]].holdouts[index]);

@@ -5,12 +5,11 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "models/study/judgement/confidence.h"
 #include "models/study/judgement/units_of_analysis.h"
 #include "models/study/study.h"
 #include "stats/comparison/paired_comparison.h"
+#include "stats/eigen.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::models {
@@ -26,14 +25,14 @@ struct HoldoutComparison {
   std::string holdout;
   UnitsOfAnalysis units;
   std::vector<std::size_t> models;  // (m) index into StudyResult::models
-  Eigen::MatrixXd unit_rmse;        // (units x m) target's unit
+  MatrixXd unit_rmse;               // (units x m) target's unit
   stats::Comparison tests;          // its indices refer to `models`
   Obstacle obstacle;                // to establishing any difference
   std::vector<Confidence> differ;   // (pairs) as tests.pairs: if they differ
   std::vector<WinShare> wins;       // falling; empty without repeats
 
   /// Index of a study's model in `models`, or nothing if it failed.
-  std::optional<Eigen::Index> PlaceOf(std::size_t model) const;
+  std::optional<Index> PlaceOf(std::size_t model) const;
   /// 1-based tier of a study's model, 0 if it failed.
   int TierOf(std::size_t model) const;
   /// Tells if one model of the study has a lower error than another. Both must

@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <tuple>
 
-#include "models/study/judgement/blend_or_simpler.h"
 #include "models/study/judgement/extrapolated_rows.h"
-#include "models/study/judgement/telling_holdout.h"
-#include "models/study/judgement/worth_of_sensors.h"
+#include "models/study/judgement/parts.h"
 
 namespace errmap::models {
 
 namespace {
-
-using Eigen::Index;
 
 // Share of the held-out rows with an input outside what its fold trained on.
 double ExtrapolatedShare(const data::Dataset& dataset,

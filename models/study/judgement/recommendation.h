@@ -70,7 +70,7 @@ struct JudgeOptions {
 
 /// Fewest rows for a recommendation: a parabola fits any three rows
 /// exactly.
-inline constexpr Eigen::Index kFewestRowsToRecommend = 12;
+inline constexpr Index kFewestRowsToRecommend = 12;
 
 /// Returns the map to use, or nothing if no map could be judged: too few rows,
 /// or no hold-out with a fit of every fold.

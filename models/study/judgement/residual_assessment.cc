@@ -5,7 +5,7 @@
 namespace errmap::models {
 
 ResidualReport AssessResiduals(const ResidualInputs& inputs,
-                               Eigen::Index monte_carlo,
+                               Index monte_carlo,
                                std::uint64_t seed) {
   ResidualReport report;
   report.order = inputs.order;

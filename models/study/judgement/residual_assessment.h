@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "stats/bias.h"
+#include "stats/eigen.h"
 #include "stats/normality/normality.h"
 #include "stats/randomness.h"
 
@@ -16,15 +15,15 @@ namespace errmap::models {
 /// Residuals in measured order with their columns; a column name of "" means
 /// that there is no such column.
 struct ResidualInputs {
-  Eigen::VectorXd values;  // (n)
+  VectorXd values;  // (n)
   std::string order = "file order";
   std::string group_column = {};
-  std::vector<Eigen::Index> group_codes = {};  // (n) into group_labels
+  std::vector<Index> group_codes = {};  // (n) into group_labels
   std::vector<std::string> group_labels = {};
   std::string position_column = {};
-  Eigen::VectorXd positions = {};  // (n)
+  VectorXd positions = {};  // (n)
   std::string fitted_column = {};
-  Eigen::VectorXd fitted = {};  // (n)
+  VectorXd fitted = {};  // (n)
 };
 
 /// Biases at the levels of one column.
@@ -55,7 +54,7 @@ struct ResidualReport {
 /// Assesses the residuals, with `monte_carlo` simulated samples and shuffles
 /// (0: none) from this seed.
 ResidualReport AssessResiduals(const ResidualInputs& inputs,
-                               Eigen::Index monte_carlo = 0,
+                               Index monte_carlo = 0,
                                std::uint64_t seed = 1);
 
 }  // namespace errmap::models

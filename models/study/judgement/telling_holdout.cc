@@ -1,12 +1,10 @@
-#include "models/study/judgement/telling_holdout.h"
-
 #include <utility>
+
+#include "models/study/judgement/parts.h"
 
 namespace errmap::models {
 
 namespace {
-
-using Eigen::Index;
 
 // Ranks how much a hold-out tells of another day, from 0: whole sessions,
 // whole groups, another file, whole blocks, few sessions, rows, a file that
@@ -19,7 +17,7 @@ std::pair<int, bool> RankOf(const Holdout& holdout,
   const auto kind = [&] {
     if (holdout.rows_of_training > 0) return 6;
     if (comparison.units.are_sessions &&
-        static_cast<Index>(comparison.units.labels.size()) >= fewest) {
+        std::ssize(comparison.units.labels) >= fewest) {
       return 0;
     }
     if (holdout.whole_groups && holdout.test_data == nullptr) return 1;

@@ -13,8 +13,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-
 // Takes the units that `codes`, one per row of the source, number. One unit
 // alone is none: its rows are all that there is to resample.
 bool TakeUnits(const HeldOutRows& held,
@@ -64,8 +62,7 @@ std::vector<Index> UnitCodes(const Holdout& holdout,
   std::ranges::sort(ordered);
   const auto repeated = std::ranges::unique(ordered);
   ordered.erase(repeated.begin(), repeated.end());
-  const std::vector<Index> blocks =
-      stats::BlocksInOrder(static_cast<Index>(ordered.size()));
+  const std::vector<Index> blocks = stats::BlocksInOrder(std::ssize(ordered));
   std::vector<Index> block_of(
       static_cast<std::size_t>(ordered.empty() ? 0 : ordered.back() + 1));
   std::vector<std::pair<Index, Index>> ends;  // data rows of each block
@@ -74,7 +71,7 @@ std::vector<Index> UnitCodes(const Holdout& holdout,
     const Index block = blocks[at++];
     block_of[static_cast<std::size_t>(row)] = block;
     const Index data_row = held.source->rows()[static_cast<std::size_t>(row)];
-    if (block == static_cast<Index>(ends.size())) {
+    if (block == std::ssize(ends)) {
       ends.emplace_back(data_row, data_row);
     }
     ends.back().second = data_row;
@@ -128,10 +125,9 @@ HeldOutRows GatherHeldOut(const data::Dataset& dataset,
   held.source =
       holdout.test_data != nullptr ? holdout.test_data.get() : &dataset;
   for (std::size_t fold = 0; fold < holdout.folds.size(); ++fold) {
-    const Index size =
-        holdout.test_data != nullptr
-            ? held.source->num_rows()
-            : static_cast<Index>(holdout.folds[fold].test.size());
+    const Index size = holdout.test_data != nullptr
+                           ? held.source->num_rows()
+                           : std::ssize(holdout.folds[fold].test);
     for (Index i = 0; i < size; ++i) {
       held.rows.push_back(
           holdout.test_data != nullptr
@@ -143,9 +139,8 @@ HeldOutRows GatherHeldOut(const data::Dataset& dataset,
   return held;
 }
 
-Eigen::VectorXd ResidualsOf(const HeldOutRows& held,
-                            const HoldoutResult& result) {
-  Eigen::VectorXd residuals(static_cast<Index>(held.rows.size()));
+VectorXd ResidualsOf(const HeldOutRows& held, const HoldoutResult& result) {
+  VectorXd residuals(std::ssize(held.rows));
   Index at = 0;
   for (const FoldResult& fold : result.folds) {
     for (const double predicted : fold.test_predictions) {

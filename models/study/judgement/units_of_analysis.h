@@ -3,10 +3,9 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/measurements/dataset.h"
 #include "models/study/study.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -24,19 +23,18 @@ struct UnitsOfAnalysis {
 /// Every held-out row of every fold, in the order of the folds.
 struct HeldOutRows {
   const data::Dataset* source = nullptr;  // not owned
-  std::vector<Eigen::Index> rows;         // (n) index into source
+  std::vector<Index> rows;                // (n) index into source
   std::vector<std::size_t> fold_of;       // (n)
 };
 HeldOutRows GatherHeldOut(const data::Dataset& dataset, const Holdout& holdout);
 
 /// Returns target minus prediction (n) of those rows.
-Eigen::VectorXd ResidualsOf(const HeldOutRows& held,
-                            const HoldoutResult& result);
+VectorXd ResidualsOf(const HeldOutRows& held, const HoldoutResult& result);
 
 /// Returns the unit of each of those rows (n), an index into `units->labels`;
 /// fills `units`. Groups and sessions that are never held out are not units.
-std::vector<Eigen::Index> AssignUnits(const Holdout& holdout,
-                                      const HeldOutRows& held,
-                                      UnitsOfAnalysis* units);
+std::vector<Index> AssignUnits(const Holdout& holdout,
+                               const HeldOutRows& held,
+                               UnitsOfAnalysis* units);
 
 }  // namespace errmap::models

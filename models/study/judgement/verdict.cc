@@ -2,13 +2,11 @@
 
 #include <algorithm>
 
-#include "models/study/judgement/telling_holdout.h"
+#include "models/study/judgement/parts.h"
 
 namespace errmap::models {
 
 namespace {
-
-using Eigen::Index;
 
 std::vector<std::size_t> FirstTier(const HoldoutComparison& comparison) {
   std::vector<std::size_t> models;

@@ -8,8 +8,7 @@
 #include "data/measurements/dataset.h"
 #include "models/study/judgement/judgement.h"
 #include "models/study/record/provenance_record.h"
-#include "models/study/record/sensor_importance.h"
-#include "models/study/record/session_worth.h"
+#include "models/study/record/worth.h"
 #include "models/study/rezero/rezeroed_study.h"
 #include "models/study/study.h"
 

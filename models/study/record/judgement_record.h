@@ -88,4 +88,25 @@ struct VerdictRecord {
   std::string why;
 };
 
+// The effect of re-zeroing on maps, and on no map.
+
+struct RezeroedModelRecord {
+  std::string model;
+  double rmse = kNotKnown;
+  double never = kNotKnown;  // the same rows without re-zeroing
+};
+
+/// See RezeroRule and RezeroWorth.
+struct RezeroRecord {
+  std::string rule;             // as given
+  std::string when;             // "interval", "session", "probe"
+  double interval = kNotKnown;  // s; only for "interval"
+  double noise = kNotKnown;
+  std::string holdout;
+  std::int64_t probes = 0;
+  std::int64_t scored_rows = 0;
+  double no_map = kNotKnown;
+  std::vector<RezeroedModelRecord> models;
+};
+
 }  // namespace errmap::models

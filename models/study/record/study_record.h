@@ -14,7 +14,6 @@
 #include "models/study/record/model_record.h"
 #include "models/study/record/provenance_record.h"
 #include "models/study/record/recommendation_record.h"
-#include "models/study/record/rezero_record.h"
 
 // The results of a study as plain data. These structs are results.json, schema
 // errmap-results-2: each member is a key, in the same order. Lengths are in the
@@ -24,11 +23,9 @@
 // This is the top; each part has a header in this folder:
 //
 //   data_record.h            data, unit of display, hold-outs
-//   model_record.h           fits, figures of a model under each hold-out
-//   residual_record.h        tests of held-out residuals
-//   judgement_record.h       pairs of models, verdicts
+//   model_record.h           fits, a model under each hold-out, its residuals
+//   judgement_record.h       pairs of models, verdicts, re-zeroed maps
 //   recommendation_record.h  the recommended map
-//   rezero_record.h          maps that are re-zeroed
 //   figure_record.h          the rows behind the figures
 //   provenance_record.h      configuration, program, files
 //

@@ -3,9 +3,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "models/study/judgement/units_of_analysis.h"
 #include "models/study/rezero/rezero_rule.h"
 #include "models/study/study.h"
-#include "stats/not_a_number.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -41,8 +42,8 @@ struct RezeroWorth {
     double rmse = 0.0;   // re-zeroed by the rule
     double never = 0.0;  // on the same rows, never re-zeroed
   };
-  Eigen::Index probes = 0;
-  Eigen::Index scored_rows = 0;
+  Index probes = 0;
+  Index scored_rows = 0;
   double no_map = 0.0;  // re-zeroed by the rule
   std::vector<Model> models;
 };
@@ -53,5 +54,27 @@ RezeroWorth WorthOfRezero(const data::Dataset& dataset,
                           std::uint64_t seed,
                           const BeforeRezero& before,
                           std::size_t h);
+
+/// The held-out rows that are probes, and the probe of each row's offset: the
+/// last one before it in its fold and session.
+struct ZeroPlan {
+  /// (rows) Index of the probe; -1: not scored. Not scored are a session's
+  /// first row and, with an interval, every row whose last probe is longer ago.
+  std::vector<Index> zero_of;
+  VectorXd noise;  // (rows) error of a probe there, target's unit
+  Index probes = 0;
+  std::vector<Index> scored;  // indices of rows, ascending
+};
+
+/// Takes probes from the held-out rows only, in time order. A row at which the
+/// offset is due is judged by the old one, then gives the new one. `seed` draws
+/// the probes' errors (normal, sd rule.noise): the same for every model. Throws
+/// as RequireTimes.
+ZeroPlan PlanZeros(const HeldOutRows& held,
+                   const RezeroRule& rule,
+                   std::uint64_t seed);
+
+/// Returns errors (rows, target's unit) minus those of their probes (scored).
+VectorXd Rezeroed(const ZeroPlan& plan, const VectorXd& errors);
 
 }  // namespace errmap::models

@@ -1,5 +1,3 @@
-#include "cli/machine/record/machine_figures.h"
-
 #include <limits>
 #include <string>
 #include <vector>
@@ -7,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cli/machine/record/machine_record.h"
 #include "cli/report/figures/svg.h"
 #include "tests/numbers.h"
 

@@ -1,6 +1,6 @@
-#include "cli/shell/remedies.h"
-
 #include <gtest/gtest.h>
+
+#include "cli/shell/standard_streams.h"
 
 namespace errmap::cli {
 namespace {

@@ -1,7 +1,7 @@
-#include "cli/shell/topics.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "cli/shell/help_text.h"
 
 namespace errmap::cli {
 namespace {

@@ -1,5 +1,3 @@
-#include "models/export/hal_component.h"
-
 #include <set>
 #include <stdexcept>
 
@@ -9,6 +7,7 @@
 
 #include "data/column_header.h"
 #include "models/export/program/safe_names.h"
+#include "models/export/program_text.h"
 #include "models/polynomial/polynomial_model.h"
 
 namespace errmap::models {

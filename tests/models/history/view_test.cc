@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "models/model_options.h"
 #include "models/polynomial/polynomial_options.h"
 #include "models/recipe_catalog.h"
 #include "tests/models/history/history_data.h"

@@ -1,5 +1,3 @@
-#include "models/net/net_tuning.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "models/net/net_fit.h"
 #include "models/recipe_catalog.h"
 #include "tests/models/model_test_data.h"
 

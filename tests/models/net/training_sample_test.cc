@@ -1,5 +1,3 @@
-#include "models/net/training_sample.h"
-
 #include <algorithm>
 #include <map>
 #include <stdexcept>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "data/column_header.h"
+#include "models/net/net_fit.h"
 
 namespace errmap::models {
 namespace {

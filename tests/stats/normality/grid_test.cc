@@ -1,5 +1,3 @@
-#include "stats/normality/grid.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "stats/normality/normality.h"
+#include "stats/normality/ordered_sample.h"
 #include "stats/random.h"
 
 namespace errmap::stats {

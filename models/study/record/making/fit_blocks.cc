@@ -13,7 +13,7 @@ CostSpreadRecord SpreadOf(const std::vector<StartResult>& starts) {
     if (std::isfinite(start.final_cost)) costs.push_back(start.final_cost);
   }
   CostSpreadRecord spread;
-  spread.finite = static_cast<std::int64_t>(costs.size());
+  spread.finite = std::ssize(costs);
   if (costs.empty()) return spread;
   std::ranges::sort(costs);
   const std::size_t half = costs.size() / 2;
@@ -23,8 +23,7 @@ CostSpreadRecord SpreadOf(const std::vector<StartResult>& starts) {
                                         : 0.5 * (costs[half - 1] + costs[half]);
   if (costs.size() > 1) {
     spread.sd = stats::Summarize(
-                    Eigen::Map<const Eigen::VectorXd>(
-                        costs.data(), static_cast<Eigen::Index>(costs.size())))
+                    Eigen::Map<const VectorXd>(costs.data(), std::ssize(costs)))
                     .sd;
   }
   return spread;

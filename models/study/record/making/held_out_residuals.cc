@@ -5,14 +5,12 @@
 
 namespace errmap::models {
 
-using Eigen::Index;
-
-Eigen::VectorXd HeldOutPredictions(const Holdout& holdout,
-                                   const HoldoutResult& result,
-                                   Index num_rows) {
-  Eigen::VectorXd predicted = Eigen::VectorXd::Constant(num_rows, kNotKnown);
+VectorXd HeldOutPredictions(const Holdout& holdout,
+                            const HoldoutResult& result,
+                            Index num_rows) {
+  VectorXd predicted = VectorXd::Constant(num_rows, kNotKnown);
   for (std::size_t fold = 0; fold < result.folds.size(); ++fold) {
-    const Eigen::VectorXd& values = result.folds[fold].test_predictions;
+    const VectorXd& values = result.folds[fold].test_predictions;
     for (Index i = 0; i < values.size(); ++i) {
       const Index row =
           holdout.test_data != nullptr
@@ -31,7 +29,7 @@ ResidualInputs HeldOutResiduals(const ComponentStudy& comparison,
   const data::Dataset& source = holdout.test_data != nullptr
                                     ? *holdout.test_data
                                     : comparison.data.dataset;
-  const Eigen::VectorXd predicted =
+  const VectorXd predicted =
       HeldOutPredictions(holdout,
                          comparison.study.models[model].holdouts[holdout_index],
                          source.num_rows());

@@ -11,7 +11,7 @@
 namespace errmap::models {
 namespace {
 
-constexpr Eigen::Index kMostRows = 5000;
+constexpr Index kMostRows = 5000;
 constexpr std::size_t kMostInputs = 45;
 
 // Nine digits are more than any figure shows.
@@ -27,7 +27,7 @@ double Rounded(double value) {
 std::vector<std::string> UsedInputs(const ComponentStudy& study,
                                     std::optional<std::string>* position) {
   const data::Dataset& dataset = study.data.dataset;
-  const Eigen::Index at = FindPosition(dataset, "");
+  const Index at = FindPosition(dataset, "");
   if (at >= 0) *position = dataset.inputs()[static_cast<std::size_t>(at)].name;
   std::set<std::string> used;
   for (const ModelResult& model : study.study.models) {
@@ -47,37 +47,37 @@ std::vector<std::string> UsedInputs(const ComponentStudy& study,
 }
 
 FigureTableRecord MakeTable(const data::Dataset& source,
-                            const std::vector<Eigen::Index>& rows,
+                            const std::vector<Index>& rows,
                             const std::vector<FigureInputRecord>& inputs) {
   FigureTableRecord table;
   table.file = source.source();
   table.rows_total = source.num_rows();
   if (source.has_groups()) table.labels = source.groups().labels;
-  for (const Eigen::Index row : rows) {
+  for (const Index row : rows) {
     const auto i = static_cast<std::size_t>(row);
     table.rows.push_back(source.rows()[i]);
     table.target.push_back(Rounded(source.target_values()[row]));
     if (source.has_groups()) table.groups.push_back(source.groups().codes[i]);
   }
   if (source.has_sessions()) {
-    const std::vector<Eigen::Index> codes = source.session_codes();
+    const std::vector<Index> codes = source.session_codes();
     table.session_labels = source.log()->sessions.labels;
     table.sessions.emplace();
-    for (const Eigen::Index row : rows) {
+    for (const Index row : rows) {
       table.sessions->push_back(codes[static_cast<std::size_t>(row)]);
     }
   }
   if (source.log() != nullptr && source.log()->time_unit == "s") {
     table.time.emplace();
-    for (const Eigen::Index row : rows) {
+    for (const Index row : rows) {
       const auto of_log = source.log_rows()[static_cast<std::size_t>(row)];
       table.time->push_back(Rounded(source.log()->time[of_log]));
     }
   }
   for (const FigureInputRecord& input : inputs) {
-    const Eigen::Index column = source.FindInput(input.name);
+    const Index column = source.FindInput(input.name);
     std::vector<double>& values = table.inputs.emplace_back();
-    for (const Eigen::Index row : rows) {
+    for (const Index row : rows) {
       values.push_back(
           column < 0 ? kNotKnown : Rounded(source.input_values()(row, column)));
     }
@@ -86,7 +86,7 @@ FigureTableRecord MakeTable(const data::Dataset& source,
 }
 
 // The row of the source that a fold holds out as its i-th.
-Eigen::Index RowOf(const Holdout& holdout, std::size_t fold, Eigen::Index i) {
+Index RowOf(const Holdout& holdout, std::size_t fold, Index i) {
   return holdout.test_data != nullptr
              ? i
              : holdout.folds[fold].test[static_cast<std::size_t>(i)];
@@ -95,8 +95,8 @@ Eigen::Index RowOf(const Holdout& holdout, std::size_t fold, Eigen::Index i) {
 FigureHoldoutRecord MakeFigureHoldout(const ComponentStudy& study,
                                       std::size_t index,
                                       std::size_t table,
-                                      const std::vector<Eigen::Index>& rows,
-                                      Eigen::Index num_rows) {
+                                      const std::vector<Index>& rows,
+                                      Index num_rows) {
   FigureHoldoutRecord record{.name = study.holdouts[index].name,
                              .table = static_cast<std::int64_t>(table),
                              .predictions = {},
@@ -105,10 +105,10 @@ FigureHoldoutRecord MakeFigureHoldout(const ComponentStudy& study,
     if (index >= model.holdouts.size()) continue;
     const HoldoutResult& result = model.holdouts[index];
     if (!result.ok()) continue;
-    const Eigen::VectorXd all =
+    const VectorXd all =
         HeldOutPredictions(study.holdouts[index], result, num_rows);
     std::vector<double> values;
-    for (const Eigen::Index row : rows) values.push_back(Rounded(all[row]));
+    for (const Index row : rows) values.push_back(Rounded(all[row]));
     record.predictions.emplace_back(model.name, std::move(values));
   }
   return record;
@@ -118,13 +118,13 @@ FigureHoldoutRecord MakeFigureHoldout(const ComponentStudy& study,
 std::vector<std::int64_t> RowsOutside(const data::Dataset& dataset,
                                       const Holdout& holdout,
                                       const FittedModel& map,
-                                      const std::vector<Eigen::Index>& rows) {
+                                      const std::vector<Index>& rows) {
   std::vector<bool> outside(static_cast<std::size_t>(
       holdout.test_data != nullptr ? holdout.test_data->num_rows()
                                    : dataset.num_rows()));
   const auto of_folds = ExtrapolatedRows(dataset, holdout, map);
   for (std::size_t fold = 0; fold < of_folds.size(); ++fold) {
-    for (Eigen::Index i = 0; i < of_folds[fold].size(); ++i) {
+    for (Index i = 0; i < of_folds[fold].size(); ++i) {
       if (of_folds[fold][i]) {
         outside[static_cast<std::size_t>(RowOf(holdout, fold, i))] = true;
       }
@@ -140,21 +140,21 @@ std::vector<std::int64_t> RowsOutside(const data::Dataset& dataset,
 }
 
 // Of rows scaled by the roots of their weights.
-Eigen::MatrixXd Correlations(const data::Dataset& dataset) {
-  const Eigen::Index p = dataset.num_inputs();
-  Eigen::MatrixXd values(dataset.num_rows(), p + 1);
+MatrixXd Correlations(const data::Dataset& dataset) {
+  const Index p = dataset.num_inputs();
+  MatrixXd values(dataset.num_rows(), p + 1);
   values << dataset.input_values(), dataset.target_values();
-  Eigen::VectorXd weights = dataset.weights();
-  if (weights.size() == 0) weights = Eigen::VectorXd::Ones(values.rows());
+  VectorXd weights = dataset.weights();
+  if (weights.size() == 0) weights = VectorXd::Ones(values.rows());
   const Eigen::RowVectorXd means = weights.transpose() * values / weights.sum();
   values.rowwise() -= means;
   values = weights.cwiseSqrt().asDiagonal() * values;
-  for (Eigen::Index j = 0; j <= p; ++j) {
+  for (Index j = 0; j <= p; ++j) {
     const double length = values.col(j).norm();
     if (length > 0.0) values.col(j) /= length;
   }
-  Eigen::MatrixXd correlations = values.transpose() * values;
-  for (Eigen::Index j = 0; j <= p; ++j) {
+  MatrixXd correlations = values.transpose() * values;
+  for (Index j = 0; j <= p; ++j) {
     if (correlations(j, j) > 0.0) correlations(j, j) = 1.0;
   }
   return correlations;
@@ -168,9 +168,9 @@ CorrelationRecord Correlate(const data::Dataset& dataset) {
     record.columns.push_back(input.name);
   }
   record.columns.push_back(dataset.target().name);
-  const Eigen::MatrixXd matrix = Correlations(dataset);
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    const Eigen::VectorXd row = matrix.row(i);
+  const MatrixXd matrix = Correlations(dataset);
+  for (Index i = 0; i < matrix.rows(); ++i) {
+    const VectorXd row = matrix.row(i);
     record.matrix.emplace_back(row.begin(), row.end());
   }
   return record;
@@ -189,7 +189,7 @@ FiguresRecord MakeFiguresRecord(const ComponentStudy& study) {
     record.inputs.push_back({.name = name, .unit = column.unit.symbol});
   }
   if (dataset.has_groups()) record.group = dataset.groups().column;
-  const std::vector<Eigen::Index> rows =
+  const std::vector<Index> rows =
       stats::SpreadSample(dataset.num_rows(), kMostRows);
   record.tables.push_back(MakeTable(dataset, rows, record.inputs));
   for (std::size_t h = 0; h < study.holdouts.size(); ++h) {
@@ -199,7 +199,7 @@ FiguresRecord MakeFiguresRecord(const ComponentStudy& study) {
           MakeFigureHoldout(study, h, 0, rows, dataset.num_rows()));
       continue;
     }
-    const std::vector<Eigen::Index> its =
+    const std::vector<Index> its =
         stats::SpreadSample(elsewhere->num_rows(), kMostRows);
     record.holdouts.push_back(MakeFigureHoldout(
         study, h, record.tables.size(), its, elsewhere->num_rows()));
@@ -215,9 +215,9 @@ FiguresRecord MakeFiguresRecord(const ComponentStudy& study) {
         elsewhere == nullptr
             ? rows
             : stats::SpreadSample(elsewhere->num_rows(), kMostRows));
-    const Eigen::VectorXd fitted = map.Predict(dataset);
+    const VectorXd fitted = map.Predict(dataset);
     record.fitted.emplace();
-    for (const Eigen::Index row : rows) {
+    for (const Index row : rows) {
       record.fitted->push_back(Rounded(fitted[row]));
     }
   }

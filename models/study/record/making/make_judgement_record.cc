@@ -14,8 +14,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-
 IntervalRecord IntervalOf(const stats::Bounds95& bounds) {
   if (!bounds.exist()) return {kNotKnown, kNotKnown};
   return {bounds.lower, bounds.upper};
@@ -90,7 +88,7 @@ std::optional<MeanTestRecord> MeanTestOf(
 PairRecord JudgementRecord::Pair(const HoldoutComparison& tests,
                                  std::size_t index) const {
   const stats::PairComparison& pair = tests.tests.pairs[index];
-  const auto name = [&](Eigen::Index place) {
+  const auto name = [&](Index place) {
     return Name(tests.models[static_cast<std::size_t>(place)]);
   };
   return {.a = name(pair.a),
@@ -143,9 +141,9 @@ ByName<std::vector<std::vector<std::string>>> JudgementRecord::Tiers() const {
   for (const HoldoutComparison& tests : judgement_.comparisons) {
     tiers.push_back({tests.holdout, {}});
     auto& of_holdout = tiers.back().second;
-    for (const std::vector<Eigen::Index>& tier : tests.tests.tiers) {
+    for (const std::vector<Index>& tier : tests.tests.tiers) {
       std::vector<std::string>& names = of_holdout.emplace_back();
-      for (const Eigen::Index place : tier) {
+      for (const Index place : tier) {
         names.push_back(Name(tests.models[static_cast<std::size_t>(place)]));
       }
     }
@@ -221,7 +219,7 @@ std::vector<SinceStartRecord> SinceStart(const ComponentStudy& study,
   const data::SessionLog* log = held.source->log().get();
   if (log == nullptr || log->time_unit != "s") return {};
   const std::vector<Index> sessions = held.source->session_codes();
-  const Eigen::VectorXd residuals = ResidualsOf(held, result);
+  const VectorXd residuals = ResidualsOf(held, result);
   std::array<std::vector<double>, kMinutes.size()> parts;
   for (std::size_t i = 0; i < held.rows.size(); ++i) {
     const auto row = static_cast<std::size_t>(held.rows[i]);
@@ -237,8 +235,8 @@ std::vector<SinceStartRecord> SinceStart(const ComponentStudy& study,
   std::vector<SinceStartRecord> records;
   for (std::size_t part = 0; part < parts.size(); ++part) {
     if (parts[part].empty()) continue;
-    const Eigen::Map<const Eigen::VectorXd> values(
-        parts[part].data(), static_cast<Index>(parts[part].size()));
+    const Eigen::Map<const VectorXd> values(parts[part].data(),
+                                            std::ssize(parts[part]));
     records.push_back({.from = kMinutes[part] * kMinute,
                        .until = part + 1 < kMinutes.size()
                                     ? kMinutes[part + 1] * kMinute

@@ -14,8 +14,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-
 std::optional<std::string> TextOrNothing(const std::string& text) {
   return text.empty() ? std::optional<std::string>() : std::optional(text);
 }
@@ -71,11 +69,11 @@ DataRecord MakeData(const ComponentStudy& study) {
 }
 
 // Indices as 0-based data rows of the file.
-std::vector<std::int64_t> RowsOf(const std::vector<Eigen::Index>& indices,
+std::vector<std::int64_t> RowsOf(const std::vector<Index>& indices,
                                  const data::Dataset& dataset) {
   std::vector<std::int64_t> rows;
   rows.reserve(indices.size());
-  for (const Eigen::Index index : indices) {
+  for (const Index index : indices) {
     rows.push_back(dataset.rows()[static_cast<std::size_t>(index)]);
   }
   return rows;
@@ -85,7 +83,7 @@ HoldoutRecord MakeHoldout(const ComponentStudy& study, std::size_t h) {
   const Holdout& holdout = study.holdouts[h];
   const HoldoutComparison& tests = study.judgement.comparisons[h];
   HoldoutRecord record{.name = holdout.name,
-                       .folds = static_cast<std::int64_t>(holdout.folds.size()),
+                       .folds = std::ssize(holdout.folds),
                        .whole_groups = holdout.whole_groups,
                        .whole_sessions = holdout.whole_sessions,
                        .among_neighbours = holdout.among_neighbours,

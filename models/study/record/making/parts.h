@@ -57,9 +57,9 @@ RandomnessRecord MakeRecord(const ResidualReport& report);
 /// Returns the prediction of each of the `num_rows` rows of the data set, or of
 /// the hold-out's test data: the first of a row that is held out more than once
 /// (groups:K:repeats=R), NaN of one that never is.
-Eigen::VectorXd HeldOutPredictions(const Holdout& holdout,
-                                   const HoldoutResult& result,
-                                   Eigen::Index num_rows);
+VectorXd HeldOutPredictions(const Holdout& holdout,
+                            const HoldoutResult& result,
+                            Index num_rows);
 
 /// Returns a model's held-out residuals in the file's order, with groups and
 /// positions, by HeldOutPredictions. The model must not have failed under that

@@ -1,5 +1,3 @@
-#include "models/study/record/sensor_importance.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +9,7 @@
 #include "models/scaling.h"
 #include "models/study/fold_pool.h"
 #include "models/study/judgement/recommendation.h"
+#include "models/study/record/worth.h"
 
 namespace errmap::models {
 namespace {
@@ -19,10 +18,6 @@ namespace {
 constexpr double kAlike = 0.9;
 
 using data::Dataset;
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 std::vector<Index> ColumnsOf(const Dataset& dataset,
                              const std::vector<std::string>& names) {
   std::vector<Index> columns;
@@ -51,8 +46,7 @@ class StandIn {
       if (std::ranges::find(columns, i) == columns.end()) others.push_back(i);
     }
     MatrixXd made = values;
-    MatrixXd scaled =
-        MatrixXd::Zero(values.rows(), static_cast<Index>(columns.size()));
+    MatrixXd scaled = MatrixXd::Zero(values.rows(), std::ssize(columns));
     if (!others.empty()) {
       MatrixXd of_others = gram_(others, others);
       of_others.diagonal().array() += kRidge;
@@ -193,7 +187,7 @@ std::size_t StepOfHoldout(const Holdout& holdout,
   for (const stats::Fold& fold : holdout.folds) {
     rows += static_cast<double>(holdout.test_data != nullptr
                                     ? holdout.test_data->num_rows()
-                                    : static_cast<Index>(fold.test.size()));
+                                    : std::ssize(fold.test));
   }
   const PredictionCost cost = CostOf(fitted.model->Describe());
   const double each =
@@ -266,8 +260,7 @@ std::optional<SensorImportance> ImportanceOfSensors(
     // One that is not a number tells nothing.
     if (!std::isfinite(without.rmse)) return std::nullopt;
   }
-  const auto several =
-      plan.begin() + static_cast<std::ptrdiff_t>(sensors.size());
+  const auto several = plan.begin() + std::ssize(sensors);
   std::stable_sort(plan.begin(), several, [](const auto& a, const auto& b) {
     return a.rmse > b.rmse;
   });

@@ -1,5 +1,3 @@
-#include "models/study/record/session_worth.h"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -8,13 +6,12 @@
 
 #include "fitting/interruption.h"
 #include "fitting/parallel_for.h"
+#include "models/study/record/worth.h"
 
 namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using Eigen::Index;
-
 constexpr Index kFewestSessions = 4;
 // One more than these takes at most 2 % off an error that falls as fast as
 // their number grows, and its loss drowns in what the fits differ by.
@@ -46,7 +43,7 @@ Loss LossOfFold(const Dataset& dataset,
                 const FitContext& context) {
   const std::vector<Index> codes = dataset.session_codes();
   const std::vector<Index> sessions = SessionsOf(fold.train, codes);
-  Loss loss{.sessions = static_cast<Index>(sessions.size())};
+  Loss loss{.sessions = std::ssize(sessions)};
   if (sessions.size() < 2) return loss;
   const Index dropped = sessions[number % sessions.size()];
   std::vector<Index> rows;
@@ -57,7 +54,7 @@ Loss LossOfFold(const Dataset& dataset,
     const fitting::InterruptionScope interruptible(context.stop);
     const FittedModel fitted = recipe.Fit(dataset.SelectRows(rows), context);
     const Dataset test = dataset.SelectRows(fold.test);
-    const Eigen::VectorXd errors = test.target_values() - fitted.Predict(test);
+    const VectorXd errors = test.target_values() - fitted.Predict(test);
     loss.log_ratio = std::log(
         std::sqrt(errors.squaredNorm() / static_cast<double>(errors.size())) /
         rmse);
@@ -106,7 +103,7 @@ std::optional<SessionWorth> WorthOfASession(const Dataset& dataset,
   const auto all = static_cast<double>(dataset.num_sessions());
   return SessionWorth{
       .sessions = dataset.num_sessions(),
-      .folds = static_cast<Index>(losses.size()),
+      .folds = std::ssize(losses),
       .ratio_of_one_fewer = std::exp(log_ratio / folds),
       .ratio_of_one_more = std::pow(all / (all + 1.0), exponent)};
 }

@@ -1,8 +1,7 @@
-#include "cli/commands/studies/study_plan_text.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cli/commands/studies/compare_arguments.h"
 #include "cli/desk/study_config.h"
 #include "tests/places.h"
 

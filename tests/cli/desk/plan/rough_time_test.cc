@@ -1,6 +1,6 @@
-#include "cli/desk/plan/rough_time.h"
-
 #include <gtest/gtest.h>
+
+#include "cli/desk/plan/study_forecast.h"
 
 namespace errmap::desk {
 namespace {

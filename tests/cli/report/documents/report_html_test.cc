@@ -8,7 +8,6 @@
 
 #include "cli/report/report.h"
 #include "cli/report/tables/report_tables.h"
-#include "cli/report/tables/result_table.h"
 #include "tests/cli/report/report_document.h"
 
 namespace errmap::report {

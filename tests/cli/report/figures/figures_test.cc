@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/report/figures/held_out_rows.h"
+#include "cli/report/figures/figure_parts.h"
 #include "tests/cli/report/report_document.h"
 
 namespace errmap::report {

@@ -1,8 +1,7 @@
-#include "cli/report/tables/fit_tables.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cli/report/tables/report_tables.h"
 #include "tests/cli/report/report_document.h"
 
 namespace errmap::report {

@@ -1,11 +1,10 @@
-#include "cli/report/tables/result_table.h"
-
 #include <algorithm>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "cli/report/report.h"
+#include "cli/report/tables/report_tables.h"
 #include "tests/cli/report/report_document.h"
 
 namespace errmap::report {

@@ -12,7 +12,6 @@
 #include "data/column_header.h"
 #include "models/averaged_model.h"
 #include "models/export/export_map.h"
-#include "models/export/program/nested_polynomial.h"
 #include "models/export/program/run_program.h"
 #include "models/export/program/self_test.h"
 #include "models/history/history.h"

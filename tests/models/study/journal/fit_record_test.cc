@@ -1,5 +1,3 @@
-#include "models/study/journal/fit_record.h"
-
 #include <bit>
 #include <cstring>
 #include <functional>
@@ -17,6 +15,7 @@
 #include "models/polynomial/polynomial_model.h"
 #include "models/recipe_catalog.h"
 #include "models/regression_record.h"
+#include "models/study/journal/kept_fits.h"
 #include "tests/models/model_test_data.h"
 #include "tests/numbers.h"
 

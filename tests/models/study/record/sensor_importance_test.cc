@@ -1,10 +1,9 @@
-#include "models/study/record/sensor_importance.h"
-
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "models/study/record/worth.h"
 #include "tests/models/history/history_data.h"
 #include "tests/models/study/study_test_tools.h"
 

@@ -1,11 +1,10 @@
-#include "models/study/record/session_worth.h"
-
 #include <atomic>
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "models/study/record/worth.h"
 #include "tests/models/history/history_data.h"
 #include "tests/models/study/study_test_tools.h"
 

@@ -1,5 +1,3 @@
-#include "models/study/rezero/zero_plan.h"
-
 #include <cmath>
 #include <stdexcept>
 
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "data/csv.h"
+#include "models/study/rezero/rezeroed_study.h"
 
 namespace errmap::models {
 namespace {
