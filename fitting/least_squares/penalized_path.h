@@ -88,7 +88,7 @@ class PenalizedPath {
   Eigen::VectorXd covariance_;  // (k) of the scaled columns and the response
   // In the space of the rows, where correlation_ is (n x n) of the rows.
   Eigen::MatrixXd rows_;      // (n x k) scaled, times the root of the weight
-  Eigen::VectorXd response_;  // (n) less its mean, times the same
+  Eigen::VectorXd response_;  // (n) minus its mean, times the same
 };
 
 }  // namespace errmap::fitting
