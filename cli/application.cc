@@ -299,7 +299,8 @@ void AddHelpCommand(CLI::App* app) {
   help->group("Help");
   help->add_option("WORD", asked->name, "What to explain")
       ->type_name(kHelpWord);
-  help->add_flag("--all", asked->all, "Every option of a command");
+  help->add_flag("--all", asked->all, "Show every option of a command");
+  help->footer("Example: errmap help compare --all");
   help->callback([app, asked] { PrintHelp(*app, asked->name, asked->all); });
 }
 

@@ -8,8 +8,7 @@
 
 namespace errmap::data {
 
-/// The numbers of a column: its own, or those of a caller's memory, which are
-/// read where they lie.
+/// The numbers of a column: its own, or a caller's, read in place.
 class ColumnValues {
  public:
   class Iterator {
@@ -46,8 +45,8 @@ class ColumnValues {
 
   ColumnValues() = default;
   ColumnValues(std::vector<double> own) : own_(std::move(own)) {}
-  /// `size` numbers, `stride` numbers from one to the next, as long as `keeper`
-  /// keeps them there.
+  /// A caller's `size` numbers, each `stride` after the one before; `keeper`
+  /// keeps them alive.
   static ColumnValues Borrowed(const double* first,
                                std::ptrdiff_t stride,
                                std::size_t size,
@@ -85,7 +84,7 @@ class ColumnValues {
 
   operator std::vector<double>() const { return {begin(), end()}; }
 
-  /// To be written to: what is borrowed is copied first.
+  /// Gives write access; a caller's numbers are copied first.
   std::vector<double>& Own() {
     if (is_borrowed()) *this = std::vector<double>(begin(), end());
     return own_;

@@ -12,8 +12,8 @@
 
 namespace errmap::data {
 
-/// One column as the file has it. Numbers are parsed while reading; what is
-/// not a finite number is kept apart as text, once per distinct text.
+/// One column as the file has it. Numbers are parsed while reading; all other
+/// cells are kept as text, once per distinct text.
 struct CsvColumn {
   std::string name;
   bool has_name = true;      // false: `name` is not from the file
@@ -26,11 +26,11 @@ struct CsvColumn {
   std::ptrdiff_t first_decimal_comma = -1;
   std::ptrdiff_t first_decimal_point = -1;
 
-  /// True where no cell is a number: fit for groups, never an input.
+  /// True if no cell is a number: it can group rows, but is never an input.
   bool is_text() const { return exceptions.size() == values.size(); }
   /// The text of a cell; null where it is a number.
   const std::string* TextAt(std::size_t row) const;
-  /// That a number of this row is written with a decimal comma or point.
+  /// Notes that a number in this row has a decimal comma or point.
   void NoteMarks(std::size_t row, bool comma, bool point) {
     const auto at = static_cast<std::ptrdiff_t>(row);
     if (comma && first_decimal_comma < 0) first_decimal_comma = at;
@@ -68,8 +68,8 @@ struct CsvTable {
   /// Lines of words and comments above and below the table: a program's name, a
   /// date, the axis.
   std::vector<std::string> titles;
-  /// What was not plain in the file and how it was read, one line each, to be
-  /// told to whoever uses the table.
+  /// Remarks for the user: what is unusual in the file and how it was read, one
+  /// line each.
   std::vector<std::string> remarks;
 };
 
@@ -78,15 +78,15 @@ struct CsvTable {
 /// kLeaveOut leaves them out with a remark.
 enum class OddRows { kRefuse, kOffer, kLeaveOut };
 
-/// Reads a CSV file. Its rows tell what separates cells: `,` `;` `|`, tabs or
+/// Reads a CSV file. Its rows show what separates cells: `,` `;` `|`, tabs or
 /// blanks. Quotes follow RFC 4180, but those inside a cell need not be doubled.
 /// Commas are decimal where they separate no cells. Lines starting with `#`,
 /// blank lines at the end and a byte order mark are skipped. Text that is not
-/// UTF-8 is converted from Latin-1, or with a remark from what makes more known
-/// words (tables/text_encoding.h). A gzip file is unpacked first, up to
-/// kMostTextOfPrograms. Of an xlsx file one sheet is read ("book.xlsx:Day 2",
-/// formats/spreadsheet.h). Linear time, about twice the file's memory; never
-/// looks at the locale.
+/// UTF-8 is converted from Latin-1, or, with a remark, from the encoding that
+/// gives more known words (tables/text_encoding.h). A gzip file is unpacked
+/// first, up to kMostTextOfPrograms. Of an xlsx file one sheet is read
+/// ("book.xlsx:Day 2", formats/spreadsheet.h). Linear time, about twice the
+/// file's memory; independent of the locale.
 ///
 /// Read with a remark:
 /// - lines above the table (`titles`), blank lines, names repeated between rows
@@ -102,13 +102,13 @@ enum class OddRows { kRefuse, kOffer, kLeaveOut };
 /// An unnamed column is called column_N (`has_name` is false).
 ///
 /// Throws InputError for an unreadable or empty file, a header alone, a number
-/// in place of a name, and rows of another length (OddRows). Also for another
+/// in place of a name, and rows of another length (OddRows). Also for a second
 /// table below, a blank line in a single column, an open quote, a NUL byte, or
 /// more than 65536 columns. Cells that are no numbers are not judged here (see
 /// MakeDataset).
 CsvTable ReadCsv(const std::string& path, OddRows odd = OddRows::kRefuse);
 
-/// The same, and what Sha256OfFile says of the file, which is read once.
+/// The same, with the result of Sha256OfFile; reads the file once.
 CsvTable ReadCsv(const std::string& path,
                  std::string* sha256,
                  OddRows odd = OddRows::kRefuse);
@@ -118,7 +118,7 @@ CsvTable ParseCsv(std::string_view text,
                   const std::string& name,
                   OddRows odd = OddRows::kRefuse);
 
-/// Quotes a field for a comma-separated file where RFC 4180 asks for it.
+/// Quotes a field for a comma-separated file if RFC 4180 requires it.
 std::string CsvField(std::string_view text);
 
 /// Shortest text that reads back to the same double ("nan" becomes empty).

@@ -8,9 +8,9 @@
 
 namespace errmap::data {
 
-/// Tables and texts that stand for files of their names, in this thread and
-/// while this object lives. Measurements in memory are then read like files.
-/// ReadCsv knows the tables, ReadFile the texts.
+/// Tables and texts that are read in place of files with their names, in this
+/// thread and while this object lives. ReadCsv finds the tables, ReadFile the
+/// texts.
 class FilesInMemory {
  public:
   using Tables = std::map<std::string, std::shared_ptr<const CsvTable>>;
@@ -21,7 +21,7 @@ class FilesInMemory {
   FilesInMemory(const FilesInMemory&) = delete;
   FilesInMemory& operator=(const FilesInMemory&) = delete;
 
-  /// Null where no such file is in memory.
+  /// Null if no such file is in memory.
   static const CsvTable* FindTable(const std::string& name);
   static const std::string* FindText(const std::string& name);
 

@@ -38,7 +38,7 @@ struct PolynomialForm {
   VectorXd input_scale;    // (p) per unit of the input
   double intercept = 0.0;  // unit of the target
   std::vector<PolynomialTerm> terms;
-  /// Inputs that a curved term sees clipped to their range. A term is curved if
+  /// Inputs that curved terms read clipped to their range. A term is curved if
   /// its powers of these inputs sum to more than 1. The map goes on straight
   /// beyond the range (polynomial/polynomial_model.h). Empty: no clipping.
   std::vector<BendRange> bends_within = {};
@@ -320,7 +320,7 @@ class ModelRecipe {
   virtual std::string name() const = 0;
   virtual ModelKind kind() const = 0;
   virtual std::vector<EffectiveOption> options() const { return {}; }
-  /// What the data lack for this model, such as "a position column", if
+  /// What this model needs but the data lack, such as "a position column", if
   /// anything.
   virtual std::optional<std::string> WhatIsMissing(
       const data::Dataset& /*dataset*/) const {

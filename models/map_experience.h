@@ -26,26 +26,27 @@ struct StandingStill {
   /// how much more is allowed for each second.
   VectorXd jump = {};
   VectorXd pace = {};
-  /// Longest time that all may hold their values at once (s); 0: unknown.
+  /// Longest time (s) that all columns may hold their values at once; 0:
+  /// unknown.
   double silence = 0.0;
 };
 
-/// What the readings of a whole session are judged by. Missing in older files,
-/// and for more than a hundred columns.
+/// Reference for the readings of a whole session. Missing in older files, and
+/// for more than a hundred columns.
 struct SessionReadings {
   /// (s x s) Inverse covariance of x', without a factor model. It is scaled to
   /// held-out sessions: on average over columns, the residual of a column given
   /// the others has the variance stated here.
   MatrixXd precision;
-  /// (s) That variance of a column over the mean of all, 1 at least: a tank has
-  /// little to do with the other sensors.
+  /// (s) A column's residual variance over the mean of all, at least 1: a tank
+  /// depends little on the other sensors.
   VectorXd scatter;
-  Index units = 0;  // sessions, or what was held out in their place
+  Index units = 0;  // sessions, or the other units held out
 };
 
-/// Where a map was trained, beyond the range of each column. It holds the
-/// ranges of derived inputs, and the joint distribution of thermal states (the
-/// inputs that are not positions).
+/// The training data of a map, beyond the range of each column: the ranges of
+/// derived inputs, and the joint distribution of thermal states (the inputs
+/// that are not positions).
 ///
 /// A factor model describes the states (Tipping & Bishop 1999, but with one
 /// variance for each column). x' = (x - mean) / scale has covariance W W' +
@@ -68,7 +69,7 @@ struct Applicability {
   VectorXd rest;               // (s) variances of x', above 0
   MatrixXd states;             // (k x q) trained states, spread evenly
 
-  // Limits: 1.5 times the values that rows of held-out units reached.
+  // Limits: 1.5 times the largest values in rows of held-out units.
   double distance_limit = 0.0;  // to the nearest of `states`
   double leverage_limit = 0.0;  // 1 / rows + |z|^2 / (rows - 1)
   VectorXd relation_limit;      // (s) StateMeasures::relation
@@ -82,8 +83,8 @@ struct Applicability {
   std::optional<SessionReadings> sessions = {};
 };
 
-/// An input counts as inside up to this share of its trained range beyond its
-/// ends, so that noise flags no row there.
+/// An input may leave its trained range by this share of the range, so that
+/// noise flags no row.
 inline constexpr double kRangeTolerance = 0.02;
 
 /// Errors of a map on held-out units, with the time and place of each.
@@ -96,7 +97,7 @@ struct HeldOutErrors {
     double rmse = 0.0;          // target's unit
     VectorXd elapsed;           // (n) since the session's start, in time_unit
     VectorXd position;          // (n) of the first position input, or (0)
-    VectorXd residuals;         // (n) target less prediction, target's unit
+    VectorXd residuals;         // (n) target minus prediction, target's unit
     VectorXd temperature = {};  // (n) of that input, or (0)
     VectorXd predicted = {};    // (n) target's unit, or (0)
   };

@@ -62,8 +62,8 @@ struct Inline {
   T value = {};
 };
 
-/// Keys of the object around it that are none of its record's, in order: what
-/// slices add, as JSON in one line. They are kept and written as they are.
+/// Further keys of the enclosing object, in order, such as those of slices:
+/// JSON in one line, written unchanged.
 struct OtherKeys : ByName<std::string> {};
 template <>
 inline constexpr bool kIsRecord<OtherKeys> = false;

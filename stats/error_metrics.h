@@ -5,7 +5,7 @@
 
 namespace errmap::stats {
 
-/// Errors of predictions against measured targets, in their unit: of residual =
+/// Errors of predictions, in the unit of the measured targets: residual =
 /// target - predicted (Eq. 136).
 struct ErrorMetrics {
   Index n = 0;

@@ -84,7 +84,7 @@ void AddCertifyCommand(CLI::App* app, Run* run) {
   AddFlag(command,
           "--details",
           command->details,
-          "Every run of every solver, with its message");
+          "Print every run of every solver, with its message");
   AddFormatOption(command, &command->format);
   SetFooter(command,
             "Exit status: 0 every floor is reached, 4 one is missed.\n"

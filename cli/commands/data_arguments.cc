@@ -105,6 +105,7 @@ void FlagAdder::operator()(const desk::StudyOption& option,
 void FlagAdder::Finish(const desk::StudyOption& option) const {
   const Option added = FindOption(command_, FlagOf(option.key));
   if (*option.value != '\0') added.Value(option.value);
+  added.Under(heading_);
   if (option.seldom) added.Seldom();
 }
 
@@ -124,12 +125,15 @@ void AddDataArguments(CLI::App* command, DataArguments* arguments) {
       },
       "Read the columns as `errmap read --format json` wrote them, unless "
       "another option differs")
+      .Under(kDataOptions)
       .Seldom();
-  desk::ForSelectionOptions(arguments->selection, FlagAdder(command));
+  desk::ForSelectionOptions(arguments->selection,
+                            FlagAdder(command, kDataOptions));
   AddFlag(command,
           "--quiet",
           arguments->quiet,
-          "No remarks and no progress on stderr");
+          "No remarks and no progress on stderr")
+      .Under(kOutputOptions);
 }
 
 std::vector<std::string> DataArguments::PathsWith(
@@ -147,7 +151,7 @@ void AddRowOptions(CLI::App* command,
       [&]<typename Member>(const desk::StudyOption& option,
                            const Member& /*said*/,
                            const auto&... values) {
-        const FlagAdder add(command);
+        const FlagAdder add(command, kDataOptions);
         if constexpr (std::is_same_v<Member, data::MissingPolicy>) {
           add(option, *missing, values...);
         } else if constexpr (std::is_same_v<Member, data::FaultPolicy>) {
@@ -178,7 +182,7 @@ void AddFromRest(CLI::App* command, models::MapLogArguments* arguments) {
           "--from-rest",
           arguments->from_rest,
           "The machine was at rest before the first row of each session, "
-          "whatever its thermometers and clock seem to say");
+          "even if its thermometers or clock suggest otherwise");
 }
 
 data::PreparedDataset ReadData(const DataArguments& arguments) {
@@ -241,8 +245,9 @@ void AddKeepPathsFlag(CLI::App* command) {
       "--keep-paths",
       [] { data::KeepPaths(); },
       "Write absolute paths, not just file names, into reports, maps and "
-      "journals");
-  MarkSeldom(command, {"--keep-paths"});
+      "journals")
+      .Under(kOutputOptions)
+      .Seldom();
 }
 
 void AddCacheFlag(CLI::App* command, std::string* cache) {
@@ -252,8 +257,13 @@ void AddCacheFlag(CLI::App* command, std::string* cache) {
       "--no-cache",
       [cache] { cache->clear(); },
       "Repeat every fit\nOtherwise fits of earlier runs on the same data come "
-      "from ~/.cache/errmap, which may be removed at any time");
-  MarkSeldom(command, {"--no-cache"});
+      "from ~/.cache/errmap, which may be removed at any time")
+      .Seldom();
+}
+
+void AddQuietFlag(CLI::App* command, bool* quiet) {
+  AddFlag(command, "--quiet", *quiet, "No remarks on stderr")
+      .Under(kOutputOptions);
 }
 
 void AddForceFlag(CLI::App* command, bool* force) {
@@ -261,8 +271,9 @@ void AddForceFlag(CLI::App* command, bool* force) {
           "--force",
           *force,
           "Also replace files in the folder that errmap did not write, or that "
-          "were changed since; never an input");
-  MarkSeldom(command, {"--force"});
+          "were changed since; never an input")
+      .Under(kOutputOptions)
+      .Seldom();
 }
 
 void AddSeedOption(CLI::App* command,

@@ -38,7 +38,8 @@ std::string FlagOf(std::string_view key);
 /// to a command. The visited members must outlive the command.
 class FlagAdder {
  public:
-  explicit FlagAdder(CLI::App* command) : command_(command) {}
+  explicit FlagAdder(CLI::App* command, std::string_view heading = "Options")
+      : command_(command), heading_(heading) {}
 
   void operator()(const desk::StudyOption& option, std::string& text) const;
   /// The flag takes names separated by commas.
@@ -59,6 +60,7 @@ class FlagAdder {
   void Finish(const desk::StudyOption& option) const;
 
   CLI::App* command_;
+  std::string_view heading_;
 };
 
 /// Adds DATA.csv and its options to a command.
@@ -115,6 +117,9 @@ void AddKeepPathsFlag(CLI::App* command);
 /// Adds --no-cache. Without the flag `cache` is models::DefaultCacheFolder(),
 /// with it "".
 void AddCacheFlag(CLI::App* command, std::string* cache);
+
+/// Adds --quiet to a command without progress.
+void AddQuietFlag(CLI::App* command, bool* quiet);
 
 /// Adds --force, which lets a command replace files that errmap did not write.
 void AddForceFlag(CLI::App* command, bool* force);

@@ -11,7 +11,10 @@ void AddFormats(CLI::App* command,
                 const std::string& words,
                 const std::vector<std::string>& formats,
                 std::string* format) {
-  AddOption(command, "--format", *format, words).OneOf(formats).ShowDefault();
+  AddOption(command, "--format", *format, words)
+      .OneOf(formats)
+      .ShowDefault()
+      .Under(kOutputOptions);
 }
 
 }  // namespace

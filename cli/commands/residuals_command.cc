@@ -335,12 +335,12 @@ void AddColumnOptions(CLI::App* command, ResidualsArguments* arguments) {
   AddOption(command,
             "--position COL",
             arguments->position,
-            "Look for bias along it (default: the first position*)");
+            "Look for bias along this column (default: the first position*)");
   AddOption(command,
             "--fitted COL",
             arguments->fitted,
-            "Does the spread change with it? (default: the first "
-            "predicted*)");
+            "Test whether the spread changes with this column (default: the "
+            "first predicted*)");
 }
 
 }  // namespace
@@ -350,7 +350,7 @@ void AddResidualsCommand(CLI::App* app, Run* run) {
       app,
       run,
       "residuals",
-      "Statistics of a column of residuals (or of anything)");
+      "Statistics of a column of residuals, or of any numbers");
   AddOption(command, "FILE FILE.csv", command->file, "CSV file").Required();
   AddColumnOptions(command, &*command);
   AddOption(command,
@@ -359,7 +359,7 @@ void AddResidualsCommand(CLI::App* app, Run* run) {
             "Simulate p with this many normal samples (0: none)")
       .Range(0LL, 10'000'000LL)
       .ShowDefault();
-  AddSeedOption(command, &command->seed, "Of the simulation");
+  AddSeedOption(command, &command->seed, "Seed of the simulation");
   AddOption(command,
             "--bins N",
             command->bins,
@@ -369,17 +369,19 @@ void AddResidualsCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "--missing",
             command->missing,
-            "What empty, NA and NaN cells do: error or drop-rows")
+            "What to do about empty, NA and NaN cells: error or drop-rows")
       .OneOf({"error", "drop-rows"})
       .ShowDefault();
   AddFlag(command,
           "--details",
           command->details,
-          "Also bias per group and position, histogram, PPCC curve");
+          "Also print bias per group and position, histogram, PPCC curve")
+      .Under(kOutputOptions);
   AddFlag(command,
           "--as-printed-1995",
           command->as_printed_1995,
-          "Also what the program of NISTIR 5367 prints for them");
+          "Also the statistics that the program of NISTIR 5367 prints")
+      .Under(kOutputOptions);
   AddFormatOption(command, &command->format);
   SetFooter(command,
             "Example: errmap residuals study/residuals.csv --column blend");

@@ -10,8 +10,8 @@
 
 namespace errmap::desk {
 
-/// A size of errors as people give it: "2um" has a unit, a bare number is in
-/// the target's unit, which only the data tell.
+/// An error as the user gives it: "2um" has a unit; a bare number is in the
+/// target's unit, known only from the data.
 struct GivenError {
   double value = std::numeric_limits<double>::quiet_NaN();  // NaN: not given
   data::Unit unit = {};                                     // "": the target's

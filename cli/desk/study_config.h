@@ -17,7 +17,7 @@ struct PredictionsFile {
   std::string file;
 };
 
-/// One error component to be mapped, as the user asks for it. Empty texts and
+/// One error component to be mapped, as the user requests it. Empty texts and
 /// NaN stand for the defaults (models/study/study_defaults.h).
 struct ComponentConfig {
   std::string name;  // default: the data file's name without its ending
@@ -42,7 +42,7 @@ struct ComponentConfig {
   models::ByName<std::string> options = {};
 };
 
-/// A study as the user asks for it, on the command line or in a study file.
+/// A study as the user requests it, on the command line or in a study file.
 /// Jobs, the output folder and what slices judge are not part of it.
 struct StudyConfig {
   std::uint64_t seed = 1;

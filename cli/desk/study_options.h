@@ -173,7 +173,7 @@ void ForErrorOptions(Config& config, const Visit& visit) {
       StudyOption{
           .key = "goal",
           .value = "X",
-          .help = "RMSE wanted: 2um (default: no goal)\nIt is that of held-out "
+          .help = "RMSE wanted: 2um (default: no goal)\nIt applies to held-out "
                   "rows. A bare number is in the unit of the target"},
       config.goal);
   visit(StudyOption{.key = "indifference",
@@ -202,24 +202,27 @@ void ForStudyOptions(Config& config, const Visit& visit) {
           .key = "choose",
           .help =
               "The map to recommend\nbest: the lowest error. auto: the blend, "
-              "unless a baseline errs less or days prove a single map better"},
+              "unless a baseline errs less or days prove a single map better",
+          .seldom = true},
       config.choose,
       std::vector{models::Choose::kAuto,
                   models::Choose::kBest,
                   models::Choose::kBlend});
   visit(StudyOption{.key = "prefer",
-                    .help = "small: fewest sensors, at most 5 % more error"},
+                    .help = "small: fewest sensors, at most 5 % more error",
+                    .seldom = true},
         config.prefer,
         std::vector{models::Prefer::kLeastError, models::Prefer::kSmall});
   visit(
       StudyOption{
           .key = "rezero",
           .value = "2h|session|probe",
-          .help = "Judge maps that are re-zeroed this often\nAn interval is 2h "
-                  "or 90min, or 5 where time counts cycles. session: where one "
-                  "begins. probe: every cycle, or every row without cycles. "
-                  "2h:noise=0.5um: by probes of this noise. The error without "
-                  "a map is re-zeroed alike",
+          .help =
+              "Judge maps that are re-zeroed this often\nAn interval is 2h "
+              "or 90min, or 5 where time counts cycles. session: at its start. "
+              "probe: every cycle, or every row without cycles. "
+              "2h:noise=0.5um: with probes of this noise. The error without "
+              "a map is re-zeroed, too",
           .check = [](const std::string& text) { CheckRezero(text); }},
       config.rezero);
 }

@@ -35,7 +35,7 @@ MachineFile ReadMachineOutline(const std::string& path);
 struct MachineStudy {
   std::string path;  // of machine.toml
   std::string folder;
-  MachineFile file;                // sources with files, without maps
+  MachineFile file;                // sources name files, without maps
   std::vector<std::string> stems;  // distinct, in the machine's order
   data::CsvTable points;           // tool_tip.csv
   std::optional<data::CsvTable> diagonals;
@@ -47,9 +47,9 @@ struct MachineStudy {
 };
 
 /// Reads machine and points; `later` is the number of sessions to judge by,
-/// `session` their column ("": one of kSessionColumns).
-/// Throws data::InputError if a file is missing, the points have no column
-/// of sessions, or no session but the later ones.
+/// `session` their column ("": one of kSessionColumns). Throws data::InputError
+/// if a file is missing, the points have no column of sessions, or all its
+/// sessions are later ones.
 MachineStudy ReadMachineStudy(const std::string& machine,
                               const std::string& folder,
                               int later = 1,

@@ -51,6 +51,7 @@ struct Series {
   double size = 1.0;  // of points in diameters of 4.4 px, of lines in pixels
   Shape shape = Shape::kDot;
   bool dashed = false;
+  bool on_top = false;  // drawn after the others, in the legend as listed
   /// The browser's tooltip for each point or bar; or empty.
   std::vector<std::string> hints = {};
 

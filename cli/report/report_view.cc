@@ -24,8 +24,7 @@ void ReadHoldouts(ReportView* view) {
   view->decisive_is_unseen = decisive != nullptr && (decisive->whole_groups ||
                                                      decisive->whole_sessions);
   for (const models::HoldoutRecord& holdout : component.holdouts) {
-    if (holdout.whole_sessions && holdout.name.starts_with("forward:") &&
-        holdout.name != view->decisive) {
+    if (IsOfLaterSessions(holdout) && holdout.name != view->decisive) {
       view->later = holdout.name;
     }
   }
@@ -147,6 +146,15 @@ std::string PrettyUnit(const std::string& symbol) {
   if (symbol == "degC") return "°C";
   if (symbol == "urad") return "µrad";
   return symbol;
+}
+
+bool IsOfLaterSessions(const models::HoldoutRecord& holdout) {
+  return holdout.whole_sessions && holdout.name.starts_with("forward:");
+}
+
+std::string UnseenUnit(const models::HoldoutRecord& holdout) {
+  return (IsOfLaterSessions(holdout) ? "later " : "unseen ") +
+         holdout.unit_of_analysis;
 }
 
 }  // namespace errmap::report

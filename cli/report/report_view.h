@@ -58,4 +58,10 @@ ErrorText ErrorTextOf(const ComponentRecord& component);
 /// Returns a unit's symbol for display: "um" -> "µm", "degC" -> "°C".
 std::string PrettyUnit(const std::string& symbol);
 
+/// True if whole sessions are held out and predicted from those before them.
+bool IsOfLaterSessions(const models::HoldoutRecord& holdout);
+/// What a hold-out of whole sessions or groups judges: "unseen cycle", "later
+/// day". Every table, picture and sentence names it so.
+std::string UnseenUnit(const models::HoldoutRecord& holdout);
+
 }  // namespace errmap::report

@@ -84,7 +84,12 @@ const Option& Option::OneAtATime() const {
 }
 
 const Option& Option::Seldom() const {
-  option_->group(kSeldom);
+  option_->group(std::string(kSeldom) + option_->get_group());
+  return *this;
+}
+
+const Option& Option::Under(std::string_view heading) const {
+  option_->group(std::string(heading));
   return *this;
 }
 

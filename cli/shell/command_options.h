@@ -6,9 +6,11 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/shell/command_reference.h"
 
 namespace CLI {
 class App;
@@ -89,6 +91,8 @@ class Option {
   const Option& OneAtATime() const;
   /// Shown only by help COMMAND --all.
   const Option& Seldom() const;
+  /// Shown under this heading.
+  const Option& Under(std::string_view heading) const;
   const Option& About(const std::string& text) const;
 
  private:

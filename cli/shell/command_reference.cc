@@ -21,14 +21,18 @@ std::vector<std::string> Choices(const CLI::Option& option) {
 }
 
 OptionReference DescribeOption(const CLI::Option& option) {
-  OptionReference reference{.names = {},
-                            .value = ValueName(option),
-                            .choices = Choices(option),
-                            .description = option.get_description(),
-                            .fallback = option.get_default_str(),
-                            .required = option.get_required(),
-                            .repeatable = option.get_items_expected_max() > 1,
-                            .seldom = option.get_group() == kSeldom};
+  const std::string& group = option.get_group();
+  const bool seldom = group.starts_with(kSeldom);
+  OptionReference reference{
+      .names = {},
+      .value = ValueName(option),
+      .choices = Choices(option),
+      .description = option.get_description(),
+      .fallback = option.get_default_str(),
+      .required = option.get_required(),
+      .repeatable = option.get_items_expected_max() > 1,
+      .seldom = seldom,
+      .heading = group.substr(seldom ? kSeldom.size() : 0)};
   for (const std::string& name : option.get_snames()) {
     reference.names.push_back("-" + name);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace CLI {
@@ -9,8 +10,13 @@ class App;
 
 namespace errmap::cli {
 
-/// The group (CLI11's term) of options that help shows only with --all.
-inline constexpr const char* kSeldom = "Seldom needed";
+/// What the group (CLI11's term) of an option begins with if help shows it only
+/// with --all. The heading follows.
+inline constexpr std::string_view kSeldom = "Seldom needed: ";
+
+/// Headings of options in help; all others stand between these two.
+inline constexpr std::string_view kDataOptions = "Data";
+inline constexpr std::string_view kOutputOptions = "Output";
 
 /// An option or a positional argument of a command, as in its help.
 struct OptionReference {
@@ -22,6 +28,7 @@ struct OptionReference {
   bool required = false;
   bool repeatable = false;
   bool seldom = false;
+  std::string heading{};  // above it in help
 };
 
 struct CommandReference {

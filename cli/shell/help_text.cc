@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/report/shell_word.h"
 #include "cli/report/wrap_text.h"
 #include "data/text.h"
 
@@ -46,6 +47,18 @@ bool BeginsAnew(const std::string& line) {
       kBegins, [&](const char* begin) { return line.starts_with(begin); });
 }
 
+// An example on a line of its own, and continued as a shell reads it.
+std::string WrappedExample(const std::string& line, std::size_t width) {
+  const std::size_t command = line.find(": ") + 2;
+  if (report::WidthOf(line) <= width) return line + "\n";
+  constexpr std::size_t kIndent = 2;
+  std::istringstream text(line.substr(command));
+  std::vector<std::string> words;
+  for (std::string word; text >> word;) words.push_back(word);
+  return line.substr(0, command - 1) + "\n" + std::string(kIndent, ' ') +
+         report::ShellCommand(words, width, kIndent) + "\n";
+}
+
 std::string Wrapped(const std::string& text, std::size_t width) {
   std::istringstream lines(text);
   std::vector<std::string> paragraphs;
@@ -59,7 +72,9 @@ std::string Wrapped(const std::string& text, std::size_t width) {
   }
   std::string wrapped;
   for (const std::string& paragraph : paragraphs) {
-    wrapped += report::WrapText(paragraph, width) + "\n";
+    wrapped += paragraph.starts_with("Example: ")
+                   ? WrappedExample(paragraph, width)
+                   : report::WrapText(paragraph, width) + "\n";
   }
   return wrapped;
 }
@@ -82,6 +97,47 @@ std::string OptionEntry(const OptionReference& option,
   std::string name = data::JoinWords(option.names, ",");
   if (!option.value.empty()) name += " " + option.value;
   return Entry(name, Explained(option, options), kColumn, width);
+}
+
+std::vector<OptionReference> Shown(const CommandReference& command,
+                                   HelpOptions options) {
+  std::vector<OptionReference> shown;
+  for (const OptionReference& option : command.options) {
+    if (option.seldom && options == HelpOptions::kUsual) continue;
+    shown.push_back(option);
+  }
+  return shown;
+}
+
+// Their headings in order, those of the output last.
+std::vector<std::string> HeadingsOf(const std::vector<OptionReference>& shown) {
+  std::vector<std::string> headings;
+  bool has_output = false;
+  for (const OptionReference& option : shown) {
+    if (option.heading == kOutputOptions) {
+      has_output = true;
+    } else if (std::ranges::find(headings, option.heading) == headings.end()) {
+      headings.push_back(option.heading);
+    }
+  }
+  if (has_output) headings.emplace_back(kOutputOptions);
+  return headings;
+}
+
+// Options under their headings, if there are enough to look for one.
+std::string OptionEntries(const std::vector<OptionReference>& shown,
+                          HelpOptions options,
+                          std::size_t width) {
+  constexpr std::size_t kFew = 10;
+  std::string text;
+  for (const std::string& heading : HeadingsOf(shown)) {
+    if (shown.size() > kFew) text += heading + ":\n";
+    for (const OptionReference& option : shown) {
+      if (option.heading != heading) continue;
+      text += OptionEntry(option, options, width);
+    }
+  }
+  return text;
 }
 
 }  // namespace
@@ -127,22 +183,17 @@ std::string CommandHelp(const CommandReference& command,
   for (const OptionReference& positional : command.positionals) {
     text += OptionEntry(positional, options, width);
   }
-  std::vector<std::string> left_out;
-  for (const OptionReference& option : command.options) {
-    if (option.seldom && options == HelpOptions::kUsual) {
-      left_out.push_back(option.names.back());
-      continue;
-    }
-    text += OptionEntry(option, options, width);
-  }
+  const std::vector<OptionReference> shown = Shown(command, options);
+  text += OptionEntries(shown, options, width);
   std::string footer = command.footer;
   if (footer.find("Exit status") == footer.npos) {
     footer += (footer.empty() ? "" : "\n") + std::string(kExitStatus);
   }
   text += "\n" + Wrapped(footer, width);
-  if (!left_out.empty()) {
-    text += Wrapped(fmt::format("{} options more: errmap help {} --all",
-                                left_out.size(),
+  if (const std::size_t more = command.options.size() - shown.size()) {
+    text += Wrapped(fmt::format("{} more option{}: errmap help {} --all",
+                                more,
+                                more == 1 ? "" : "s",
                                 command.name),
                     width);
   }

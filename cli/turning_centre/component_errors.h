@@ -43,7 +43,7 @@ enum class Slide { kNone, kX, kZ };
 /// Forward is away from home, towards the work: X downwards, Z to the left.
 enum class Direction { kForward, kReverse };
 
-/// What is fixed about a component.
+/// Fixed properties of a component.
 struct ComponentTraits {
   std::string_view stem;     // of file names: "x_displacement"
   std::string_view letters;  // of ISO 230-1, as machine.toml names it: "EXX"
@@ -67,21 +67,20 @@ inline constexpr double kToolTipZ = -120.0;
 /// Expansion coefficient of steel and of the bed's cast iron, 1/K.
 inline constexpr double kExpansion = 11.5e-6;
 
-/// Temperatures of the bodies above 20 degC, at which lengths are measured (ISO
-/// 1), K.
+/// Temperatures of the bodies above 20 degC, the reference of ISO 1, in K.
 using TemperatureRise = std::array<double, kNumBodies>;
 TemperatureRise RiseOf(const std::vector<double>& temperatures);
 
 // Each returns mm, or urad for an angle; `position` (mm) is that of the
-// component's slide and is not looked at where there is none.
+// component's slide and is ignored if it has none.
 
-/// What the temperatures add; 0 where all rises are 0.
+/// The error due to temperatures; 0 if all rises are 0.
 double ThermalError(Component component,
                     double position,
                     const TemperatureRise& rise);
 
-/// That of the machine at 20 degC throughout, what the temperatures add and
-/// what motion in reverse adds.
+/// The sum of the error at 20 degC throughout, that due to temperatures, and
+/// that due to motion in reverse.
 double TrueError(Component component,
                  double position,
                  Direction direction,
@@ -94,9 +93,9 @@ struct ToolTipError {
   double z = 0.0;
 };
 
-/// The components added up along the chain bed - parallelism - Z slide -
-/// orthogonality - X slide - tool, less bed - spindle, to first order in the
-/// errors (NISTIR 5367, Eq. 5 and 6); the second order is some 1e-6 mm.
+/// Returns the sum of the components along the chain bed - parallelism - Z
+/// slide - orthogonality - X slide - tool, less bed - spindle, to first order
+/// in the errors (NISTIR 5367, Eq. 5 and 6); the second order is some 1e-6 mm.
 ToolTipError ToolTipErrorAt(double x,
                             Direction x_direction,
                             double z,

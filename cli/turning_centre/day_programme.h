@@ -37,29 +37,29 @@ struct Climate {
   double AirAt(double hours) const;
 };
 
-/// What happens on one day: from kRestHours before midnight the machine rests,
-/// at start_s it is switched on and goes through its cycles.
+/// A day of the machine: it rests from kRestHours before midnight, is switched
+/// on at start_s and then runs its cycles.
 struct DayProgramme {
   Climate climate;
   int start_s = 0;  // seconds from midnight, a multiple of kStepSeconds
   std::vector<CyclePlan> cycles;
 };
 
-/// All bodies have the temperature of the air when the rest begins.
+/// All bodies are at air temperature when the rest begins.
 inline constexpr int kRestHours = 5;
 
-/// How hard days are worked.
+/// How hard the machine works.
 struct Workload {
   double duty = 1.0;   // multiplies every feed duty (the product at most 1)
   double speed = 1.0;  // multiplies every spindle speed
 };
 
-/// The first `num_cycles` cycles of the day on which the X displacement is
-/// calibrated (README.md); from the 36th on as the 35th.
+/// Returns the first `num_cycles` cycles of the day to which the X displacement
+/// is calibrated (README.md). From the 36th on they equal the 35th.
 DayProgramme ReportDay(const Workload& workload, int num_cycles);
 
-/// A day drawn from (seed, day_number): season, weather, start, and in blocks
-/// of cycles speed, duty, breaks and coolant.
+/// Returns a day drawn from (seed, day_number): season, weather and start, and
+/// in blocks of cycles speed, duty, breaks and coolant.
 DayProgramme DrawDay(const Workload& workload,
                      std::uint64_t seed,
                      int day_number,

@@ -6,9 +6,9 @@
 
 namespace errmap::turning_centre {
 
-/// The bodies of the turning centre. Left is the spindle's end of the bed,
-/// right the home of the Z slide. The front of the spindle head is the nose,
-/// its rear the pulley. The X column stands on the Z slide. Its right face
+/// The bodies of the turning centre. Left is the spindle's end of the bed, and
+/// right is the home of the Z slide. The spindle head has the nose in front and
+/// the pulley at the rear. The X column stands on the Z slide. Its right face
 /// carries the vertical X ways and the X screw. On its left is the turret,
 /// which the X slide carries.
 enum Body : std::size_t {
@@ -68,7 +68,8 @@ struct DriveState {
 /// Throws std::invalid_argument unless air_factor is positive and finite.
 ThermalNetwork MakeTurningCentreNetwork(double air_factor);
 
-/// Heat in W into each body, forced air and coolant of a phase.
+/// Returns the heat (W) into each body, the forced air and the coolant of a
+/// phase.
 ThermalLoad LoadOf(const DriveState& state);
 
 }  // namespace errmap::turning_centre

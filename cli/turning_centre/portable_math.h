@@ -2,9 +2,9 @@
 
 namespace errmap::turning_centre {
 
-// The C library's sin and log differ in the last digits from one version to
-// the next, and an output file must not. These use only + - * / and std::floor
-// or std::frexp, all of them exact or correctly rounded everywhere.
+// The C library's sin and log differ in the last digits between versions, but
+// output files must not. These use only + - * / and std::floor or std::frexp,
+// which are exact or correctly rounded everywhere.
 
 /// sin(2 pi turns), absolute error below 1e-15 for |turns| <= 1000.
 double SinOfTurns(double turns);

@@ -8,9 +8,9 @@
 
 namespace errmap::turning_centre {
 
-/// What a stream of random numbers is for. Each has its own, so that more
-/// noise on a sensor leaves the day programmes as they were, and an added day
-/// leaves the days before it.
+/// Purpose of a stream of random numbers. Each purpose has its own stream, so
+/// that more sensor noise does not change the day programmes, and an added day
+/// does not change earlier days.
 enum class Purpose : std::uint64_t {
   kProgramme = 1,
   kSensorErrors = 2,
@@ -20,8 +20,8 @@ enum class Purpose : std::uint64_t {
   kLogNoise = 6,
 };
 
-/// Random numbers that are the same with every standard library and machine:
-/// the engine is the standard's mt19937_64, the mappings are ours.
+/// Random numbers that are the same with every standard library and machine.
+/// The engine is mt19937_64 of the standard; the mappings are our own.
 class RandomStream {
  public:
   /// Stream of (seed, purpose, index); different ones are unrelated.

@@ -9,7 +9,7 @@
 
 namespace errmap::turning_centre {
 
-/// What is simulated. Validate() says what may be.
+/// Options of a simulation.
 struct SimulationOptions {
   std::uint64_t seed = 1;
   int days = 2;     // 1 to 366; day 1 is ReportDay, the others are drawn
@@ -19,7 +19,7 @@ struct SimulationOptions {
   /// stands for kWarmBreakSeconds before the first cycle: a session that
   /// starts warm. Hours, 0 to 24.
   double warm_hours = 0.0;
-  double air_factor = 1.0;  // of every conductance to the air, > 0, <= 100
+  double air_factor = 1.0;  // on conductances to the air, > 0, <= 100
   /// Standard deviation of a reading of a displacement, um: a laser
   /// interferometer in a shop.
   double noise_um = 0.15;
@@ -33,8 +33,8 @@ struct SimulationOptions {
   std::vector<int> noisy = {};
   /// Day on which the sensors' faults and the shift begin, 1 to days.
   int from_day = 1;
-  /// From then on both slides' displacements are larger by this, um: a scale
-  /// that slipped in a collision. -1000 to 1000.
+  /// Added to both slides' displacements from then on, um, as if a scale
+  /// slipped in a collision. -1000 to 1000.
   double shift_um = 0.0;
   int points_per_day = 100;  // of tool_tip.csv, 0 to 100000
 
@@ -44,7 +44,7 @@ struct SimulationOptions {
 
 inline constexpr int kWarmBreakSeconds = 1200;
 
-/// The four measuring sweeps of a cycle, in their order.
+/// The four measuring sweeps of a cycle, in order.
 enum class Sweep { kXForward, kXReverse, kZForward, kZReverse };
 inline constexpr int kNumSweeps = 4;
 
@@ -52,11 +52,11 @@ inline constexpr int kNumSweeps = 4;
 struct Stop {
   int day = 0;         // from 1
   double shift = 0.0;  // of the slides' displacements, mm
-  int cycle = 0;       // from 1, counting on through the days
+  int cycle = 0;       // from 1, through all days
   Sweep sweep = Sweep::kXForward;
   int index = 0;       // place in the sweep, 0 to kStopsPerSweep - 1
   double hours = 0.0;  // from midnight
-  /// From midnight before the first day, breaks and nights included, s.
+  /// Seconds from midnight before the first day, including breaks and nights.
   std::int64_t time_s() const;
   TemperatureRise rise = {};
   Thermocouples::Readings readings = {};
@@ -67,8 +67,8 @@ struct Stop {
   double position() const;
 };
 
-/// A row of the logger, which writes all channels down every kLogSeconds from
-/// the moment that the machine is switched on.
+/// A row of the logger. It records all channels every kLogSeconds while the
+/// machine is on.
 struct LogEntry {
   int day = 0;              // from 1
   std::int64_t time_s = 0;  // as that of a Stop

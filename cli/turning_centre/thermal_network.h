@@ -6,7 +6,7 @@
 
 namespace errmap::turning_centre {
 
-/// One lump of a thermal network, of one temperature.
+/// A lump of a thermal network, with one temperature.
 struct ThermalBody {
   std::string name;
   double heat_capacity = 0.0;    // J/K, > 0
@@ -20,29 +20,29 @@ struct ThermalLink {
   std::size_t a = 0;  // indices of bodies
   std::size_t b = 0;
   double conductance = 0.0;   // W/K, >= 0
-  bool only_coolant = false;  // open only where and as far as coolant flows
+  bool only_coolant = false;  // proportional to the coolant flow
 };
 
-/// What acts on the network; constant over a step apart from the air.
+/// What acts on the network; constant over a step, except the air.
 struct ThermalLoad {
   std::vector<double> heat;  // (bodies) W
   double forced_air = 0.0;   // >= 0
   double coolant = 0.0;      // 0 (off) to 1 (full flow)
 };
 
-/// Air temperature over one step, which the classical Runge-Kutta formula
-/// looks at in three places.
+/// Air temperature at the three times of a step that the classical Runge-Kutta
+/// formula needs.
 struct AirOfStep {
   double start = 0.0;
   double middle = 0.0;
   double end = 0.0;
 };
 
-/// Bodies joined by conductances, and to the air:
+/// Bodies connected by conductances to each other and to the air:
 ///
 ///   C_i dT_i/dt = q_i + G_i (T_air - T_i) + sum_j G_ij (T_j - T_i)
 ///
-/// Plain loops in a fixed order: the same bits on every machine.
+/// Plain loops in a fixed order give the same bits on every machine.
 class ThermalNetwork {
  public:
   /// Throws std::invalid_argument naming the body or link: no body, a heat

@@ -13,7 +13,7 @@ namespace errmap::turning_centre {
 
 inline constexpr std::size_t kNumThermocouples = 40;
 
-/// One line of NISTIR 5367, Table 1, and what it reads here.
+/// A line of NISTIR 5367, Table 1, with what the sensor reads here.
 struct ThermocoupleSite {
   std::string_view location;  // as the table has it
   std::string_view axis;      // "x", "z", "spindle", "bed" or "none"
@@ -22,17 +22,17 @@ struct ThermocoupleSite {
   double share_of_first;      // the rest is that of the second
 };
 
-/// Stands for the air among the bodies of a ThermocoupleSite.
+/// Means the air in place of a body in a ThermocoupleSite.
 inline constexpr std::size_t kAir = kNumBodies;
 
 const std::array<ThermocoupleSite, kNumThermocouples>& ThermocoupleSites();
 
-/// What ails a sensor.
+/// Fault of a sensor.
 enum class SensorFault {
   kNone,
   kDead,      // reads 0
-  kStuck,     // reads for ever what it read at a drawn moment of the first day
-  kDrifting,  // gains kDriftPerHour in every hour that the machine is on
+  kStuck,     // keeps its reading from a random moment of the first day
+  kDrifting,  // gains kDriftPerHour while the machine is on
   kNoisy,     // kNoisyFactor times the noise
 };
 
@@ -53,24 +53,24 @@ class Thermocouples {
                 const std::array<SensorFault, kNumThermocouples>& faults,
                 int first_day_cycles);
 
-  /// No fault shows until BeginFaults.
+  /// No faults until BeginFaults.
   void PostponeFaults() { has_faults_ = false; }
-  /// From now on faults show: hours_on as for Read, `cycles` gone by.
+  /// Begins the faults now: `hours_on` as for Read, after `cycles` cycles.
   void BeginFaults(double hours_on, int cycles);
 
   /// Starts a day: every sensor has the temperature of its site.
   void StartDay(int day, const std::vector<double>& temperatures, double air);
 
-  /// Follows the sites over one step of kStepSeconds.
+  /// Advances the sensors by one step of kStepSeconds.
   void Step(const std::vector<double>& temperatures, double air);
 
-  /// Readings in degC at hours_on (h, since the first switching on) in a
+  /// Returns readings in degC at `hours_on` (h since first switched on), in a
   /// cycle counted from 1 through all days.
   Readings Read(double hours_on, int cycle);
 
-  /// What the logger writes down between the measurements, hours_on as for
-  /// Read: noise of its own, so that a log changes no reading of Read. A sensor
-  /// that stops does so at a Read.
+  /// Returns the logger's readings between measurements; `hours_on` as for
+  /// Read. They have noise of their own, so that a log changes no result of
+  /// Read. Sensors stop only at a Read.
   Readings Log(double hours_on);
 
  private:
@@ -86,7 +86,7 @@ class Thermocouples {
     double own = 0.0;   // the sensor's own temperature
   };
 
-  // To the logger's resolution; `deviate` is standard normal.
+  // Returns a reading at the logger's resolution; `deviate` is standard normal.
   double Reading(const Sensor& sensor, double hours_on, double deviate) const;
   bool Has(const Sensor& sensor, SensorFault fault) const {
     return has_faults_ && sensor.fault == fault;
@@ -96,7 +96,7 @@ class Thermocouples {
   double noise_sd_;
   std::array<Sensor, kNumThermocouples> sensors_;
   bool has_faults_ = true;
-  double fault_hours_ = 0.0;  // on, when the faults began
+  double fault_hours_ = 0.0;  // hours_on when the faults began
   RandomStream noise_;
   RandomStream log_noise_;
 };

@@ -56,7 +56,7 @@ std::string Escaped(const std::string& path) {
 DamagedDatabase::DamagedDatabase(const std::string& file,
                                  const std::string& why)
     : InputError(PrintablePath(file) + " is damaged (" + why +
-                 "); errmap merge STORE writes it anew, and deployed maps "
+                 "); errmap merge STORE rewrites it, and deployed maps "
                  "stand in its folder maps") {}
 
 bool SqliteError::is_busy() const { return (code_ & kPrimary) == SQLITE_BUSY; }

@@ -13,7 +13,7 @@ namespace errmap::data {
 struct ColumnInfo;
 
 enum class FaultKind {
-  kImpossible,  // a temperature that no thermometer of a machine shows
+  kImpossible,  // a temperature that no machine reaches
   kOutlying,    // far beyond all other values, such as the code 9999
   kJump,        // a temperature that leaves its neighbours for 1 to 3 rows
   kStep,        // a temperature that steps where no other moves
@@ -33,25 +33,25 @@ std::string_view ToString(FaultKind kind);
 struct ColumnFault {
   FaultKind kind = FaultKind::kOutlying;
   Eigen::Index input = -1;  // index of the column among the inputs; -1: target
-  /// Data rows of the file concerned, ascending. Of kNoisy and kDrifting none.
+  /// Data rows of the file concerned, ascending; none for kNoisy and kDrifting.
   std::vector<Eigen::Index> rows;
-  /// Single cells are wrong, so that their rows can be left out; otherwise the
-  /// column as a whole is not to be trusted.
+  /// True: single cells are wrong, and their rows can be left out. False: the
+  /// whole column cannot be trusted.
   bool of_cells = false;
-  /// The first row's value; of kStep the height; of kNoisy the standard
-  /// deviation of the noise; of kDrifting the change from first to last row; of
-  /// kOtherUnit how many times larger the others are.
+  /// The first row's value. For kStep: the height; kNoisy: the noise's standard
+  /// deviation; kDrifting: the change from first to last row; kOtherUnit: how
+  /// many times larger the others are.
   double value = 0.0;
-  /// What to hold it against: the range of all other values (kImpossible,
-  /// kOutlying), the neighbours (kJump, both the same), the change of the
-  /// others meanwhile (kStuck: low 0, high their median range), their noise
-  /// (kNoisy, likewise), the scatter about the drift (kDrifting; low is the
-  /// number of others); of kZero low is what a linear map makes of the worst.
+  /// What to compare it with. For kImpossible and kOutlying: the range of all
+  /// other values; kJump: the neighbours (both the same); kStuck: low 0, high
+  /// the median range of the others meanwhile; kNoisy: the same of their noise;
+  /// kDrifting: high the scatter about the drift, low the number of others;
+  /// kZero: low what a linear map predicts for the worst row.
   double low = 0.0;
   double high = 0.0;
 };
 
-/// Data rows with single cells that are wrong, ascending, each once.
+/// Returns the data rows with wrong single cells, ascending, each once.
 std::vector<Eigen::Index> RowsOfCellFaults(
     const std::vector<ColumnFault>& faults);
 
@@ -65,14 +65,14 @@ struct MeasuredColumns {
   Eigen::Index num_sessions = 0;          // 0: not known
 };
 
-/// One sentence where rows like these change what every figure of a study
-/// means, and what leaves them out; "" otherwise.
+/// Returns a sentence if such rows affect every figure of a study, with the
+/// option that leaves them out; else "".
 std::string DoubtOfRows(const ColumnFault& fault,
                         const MeasuredColumns& measured);
 
-/// Looks through target and inputs for readings that no machine made.
-/// Thresholds are set so that healthy machines give none; the test of this unit
-/// has the measurements. Drift is looked for over three sessions or more.
+/// Searches target and inputs for faulty readings. The thresholds are such that
+/// healthy machines give none; the test of this unit has the measurements.
+/// Drift is sought over three sessions or more.
 std::vector<ColumnFault> FindColumnFaults(const MeasuredColumns& measured);
 
 }  // namespace errmap::data

@@ -300,7 +300,11 @@ std::string WordFor(const Grouping& grouping) {
         const auto read = ParseDateTime(label);
         return read && read->has_date && !read->has_time;
       });
-  return are_dates && !grouping.labels.empty() ? "day" : grouping.column;
+  if (are_dates && !grouping.labels.empty()) return "day";
+  // Columns that are found by their German names.
+  if (IsOneOf(grouping.column, "Zyklus zyklus")) return "cycle";
+  if (IsOneOf(grouping.column, "Tag tag")) return "day";
+  return grouping.column;
 }
 
 Grouping GroupByColumn(const CsvTable& table,

@@ -16,13 +16,13 @@
 
 namespace errmap::data {
 
-/// What a column means to a map, decided once by the Reading of its data.
+/// The role of a column in a map. Only the Reading of its data decides it.
 enum class Role {
   kUnknown,
   kPosition,  // commanded: neither filtered nor zeroed
   kSensor,
   kSwitch,   // has two values
-  kCounter,  // counts cycles, runs or alike
+  kCounter,  // counts cycles, runs or the like
 };
 /// "", "position", "sensor", "switch", "counter".
 std::string_view ToString(Role role);
@@ -38,10 +38,10 @@ struct ColumnInfo {
   }
 };
 
-/// Whether a column is one of commanded positions.
+/// True if a column holds commanded positions.
 bool IsPosition(const ColumnInfo& column);
 
-/// Whether a column is read by a sensor, or switched.
+/// True if a column is a sensor's or a switch's.
 bool IsReadBySensor(const ColumnInfo& column);
 
 /// The role of a column by its name alone: for maps written before roles were
@@ -57,33 +57,33 @@ struct Grouping {
   std::vector<Eigen::Index> codes;  // (rows) index into labels
 };
 
-/// What one of them is called: "day" where all labels are dates, "session"
-/// where the column is "", else by the column.
+/// Returns the word for one group: "day" if all labels are dates, "session" if
+/// the column is "", else a word from the column's name.
 std::string WordFor(const Grouping& grouping);
 
-/// Every row of the table as it was read, in file order, rows dropped or held
-/// out included: what filters of the inputs run through.
+/// Every row of the table as read, in file order. It includes rows dropped or
+/// held out, since filters of the inputs run through all of them.
 struct SessionLog {
-  /// Of all rows. A session is an uninterrupted run; column "" where sessions
-  /// were cut by time or the table is one.
+  /// Sessions of all rows. A session is an uninterrupted run. The column is ""
+  /// if time separates sessions, or if there is only one.
   Grouping sessions;
   std::vector<Eigen::Index> first_rows;  // (sessions) sessions.h: FirstRows
-  Eigen::VectorXd time;     // (rows) finite, never falling within a session
-  std::string time_unit;    // "s", or "rows": the number of the row
-  std::string time_column;  // "" where time is the number of the row
-  bool dated = false;       // the time counts from 1970, by dates
-  bool ordered = true;      // false: the order of the rows tells no history
-  double gap = 0.0;         // s: longer pauses parted sessions; 0: a column did
+  Eigen::VectorXd time;          // (rows) finite, never decreases in a session
+  std::string time_unit;         // "s", or "rows": the number of the row
+  std::string time_column;       // "" where time is the number of the row
+  bool dated = false;            // true: dates, in seconds since 1970
+  bool ordered = true;           // false: rows are not in order of time
+  double gap = 0.0;              // s: longer pauses part sessions; 0: a column
   Eigen::MatrixXd input_values;  // (rows x p) NaN: no number; (0 x 0): made
 };
 
-/// What is taken off the target: the value of the session's first row, as of a
-/// shop that re-zeroes at the start.
+/// What is subtracted from the target: nothing, or its value in the session's
+/// first row, as in a shop that re-zeroes at the start.
 enum class Alignment { kNone, kFirst };
 /// "none", "first".
 std::string_view ToString(Alignment align);
 
-/// Measurements ready to be mapped: m finite rows of p inputs, one target.
+/// Measurements ready for a fit: m finite rows of p inputs, one target.
 ///
 /// Immutable once built; constructed by MakeDataset, or from its parts for
 /// data that are already in memory.
@@ -92,16 +92,16 @@ class Dataset {
   struct Parts {
     std::string source;              // file or name, for messages
     std::vector<ColumnInfo> inputs;  // (p)
-    /// (m x p); empty where the rows are those of the log: its values.
+    /// (m x p); empty: the log's values are used, with all its rows.
     Eigen::MatrixXd input_values;
     ColumnInfo target;
     Eigen::VectorXd target_values;   // (m)
     Grouping groups;                 // column "" where there are none
     Eigen::VectorXd weights;         // (m) positive, or (0): all equal
     std::vector<Eigen::Index> rows;  // (m) data row in the file; empty: 0..m-1
-    /// What was taken off the target.
+    /// What was subtracted from the target.
     Alignment align = Alignment::kNone;
-    /// Null where nothing is known of sessions and times.
+    /// Null if sessions and times are unknown.
     std::shared_ptr<const SessionLog> log = {};
     std::vector<Eigen::Index> log_rows = {};  // (m) rows of the log
   };
@@ -133,7 +133,7 @@ class Dataset {
   /// Session of each row (m), an index into log()->sessions.labels; empty
   /// without a log.
   std::vector<Eigen::Index> session_codes() const;
-  /// Sessions that these rows are of; 0 without a log.
+  /// Number of sessions among these rows; 0 without a log.
   Eigen::Index num_sessions() const;
   bool has_sessions() const { return num_sessions() >= 2; }
 
@@ -146,14 +146,14 @@ class Dataset {
                : parts_.inputs[static_cast<std::size_t>(fault.input)];
   }
 
-  /// The rows of these indices, in this order (group labels and log kept).
+  /// Returns these rows, in this order; keeps group labels and log.
   Dataset SelectRows(const std::vector<Eigen::Index>& indices) const;
 
-  /// The same rows with another log of theirs.
+  /// Returns the same rows with another log.
   Dataset WithLog(std::shared_ptr<const SessionLog> log,
                   std::vector<Eigen::Index> log_rows) const;
 
-  /// The same rows with other inputs (m x p), without a log.
+  /// Returns the same rows with other inputs (m x p), without a log.
   Dataset WithInputs(std::vector<ColumnInfo> inputs,
                      Eigen::MatrixXd input_values) const;
 
@@ -165,7 +165,7 @@ class Dataset {
   Parts parts_;
 };
 
-/// The data set less these data rows of the file (ascending).
+/// Returns the data set without these data rows of the file (ascending).
 Dataset WithoutRows(const Dataset& dataset,
                     const std::vector<Eigen::Index>& rows);
 
@@ -173,13 +173,13 @@ enum class MissingPolicy { kError, kDropRows };
 /// "error", "drop-rows".
 std::string_view ToString(MissingPolicy policy);
 
-/// Rows with readings that no machine made (RowsOfCellFaults).
+/// What to do with rows that have faulty readings (RowsOfCellFaults).
 enum class FaultPolicy { kKeep, kDropRows };
 /// "keep", "drop-rows".
 std::string_view ToString(FaultPolicy policy);
 
-/// Rows whose cell in `column` is this number, or this text (a number's text
-/// is its shortest form).
+/// Selects rows whose cell in `column` is this number, or this text (a number's
+/// text is its shortest form).
 struct ColumnFilter {
   std::string column;
   std::variant<std::string, double> value;
@@ -190,8 +190,9 @@ struct ColumnFilter {
 /// The value as text: "down", "2".
 std::string ValueText(const ColumnFilter& filter);
 
-/// What of a table becomes the data set; empty means the default of the
-/// command line. (The `= {}` let designated initialisers leave fields out.)
+/// Selects the part of a table that becomes the data set; empty fields have the
+/// command line's defaults. (The `= {}` let designated initialisers leave
+/// fields out.)
 struct DatasetSelection {
   /// Default: the only column "error*". Also derived: "-correction_um",
   /// "actual_mm-nominal_mm", "Error [um]" (reading/derived_columns.h).
@@ -204,20 +205,20 @@ struct DatasetSelection {
   std::string weight = {};     // default: none
   std::string position = {};   // default: by values and name; reading/axis.h
   std::string direction = {};  // "up", "down": rows of one way; or a column
-  std::string gap = {};        // "2h": a longer pause parts sessions
+  std::string gap = {};        // "2h": longer pauses part sessions
   std::string time_unit = {};  // of a column of numbers; default: reading.h
   std::string with = {};       // a log of more columns, joined by time
-  std::string clock_offset = {};  // what the clock of that log is ahead: "3s"
+  std::string clock_offset = {};  // how far that log's clock is ahead: "3s"
   Alignment align = Alignment::kNone;
   MissingPolicy missing = MissingPolicy::kError;
   FaultPolicy faults = FaultPolicy::kKeep;
   bool keep_dead = false;
   /// Only rows that pass all of these are used and checked.
   std::vector<ColumnFilter> where = {};
-  /// Rows that a fitted map is judged on: exactly the named inputs, be there
-  /// none, and a target that need not vary.
+  /// True for rows that only judge a fitted map: they have exactly the named
+  /// inputs, if any, and their target need not vary.
   bool only_to_judge = false;
-  /// Without sessions and times the data set has no log.
+  /// False: the data set gets no log.
   bool with_log = true;
 };
 
@@ -226,26 +227,26 @@ struct DroppedColumn {
   std::string why;
 };
 
-/// A data set and what was decided on the way to it.
+/// A data set and the decisions made in building it.
 struct PreparedDataset {
   Dataset dataset;
   std::vector<DroppedColumn> dropped;  // would-be inputs left out, and why
   std::vector<std::string> remarks;    // one line each, for people
-  /// Of these, whole sentences that an answer must not go without.
+  /// Those remarks that every answer must show, as whole sentences.
   std::vector<std::string> doubts = {};
-  std::string time_column = {};          // "": the numbers of the rows
-  std::vector<ColumnFilter> where = {};  // which its rows meet
-  /// What was found in the columns in use, rows left out for it included.
+  std::string time_column = {};          // "": rows are counted
+  std::vector<ColumnFilter> where = {};  // its rows meet these
+  /// Faults found in the columns in use, also in rows left out because of them.
   std::vector<ColumnFault> faults;
   Reading reading = {};
 };
 
 /// Picks target, inputs, group and weight from a table and checks the columns
-/// in use. All others may hold anything.
+/// in use. Other columns may hold anything.
 ///
 /// Default inputs are the numeric columns other than target, group, weight,
 /// time and session. Columns that only keep records (KeepsRecord), or name the
-/// machine or tool, are none. Errors measured beside the target are left out
+/// machine or tool, are not. Errors measured beside the target are left out
 /// with a remark unless named in `inputs`. These are columns of its stem
 /// (StemOfColumn), columns of its unit whose name differs only in the letter of
 /// an axis, and columns named `error*`. So are columns in nm, um, uin, arcsec
@@ -253,10 +254,10 @@ struct PreparedDataset {
 /// with a remark unless `keep_dead`: one value in all rows, or an unnamed
 /// thermometer stuck from a row on. So are inputs that together give the target
 /// (FindLeaks). An input that repeats another, or has one value in nearly all
-/// rows, is kept with a remark. Columns of `where`, and those that the header
-/// leaves unnamed, are no default inputs. The log holds the rows that `where`
-/// lets pass. kFirst takes the first value kept of each session off the target,
-/// with a remark. Readings that no machine made come back as `faults`.
+/// rows, is kept with a remark. Neither are columns of `where`, nor those
+/// without a name in the header. The log holds the rows that `where` selects.
+/// kFirst subtracts from the target the first value kept of each session, with
+/// a remark. Faulty readings are returned in `faults`.
 ///
 /// Throws InputError naming file, row, column and remedy. Causes:
 /// - an unknown column, or no or several candidates for the target
@@ -268,14 +269,14 @@ struct PreparedDataset {
 PreparedDataset MakeDataset(const CsvTable& table,
                             const DatasetSelection& selection);
 
-/// Grouping of a column of the table, for the given data rows. Text and
-/// numbers both serve; empty cells are an InputError.
+/// Groups the given data rows by a column of text or numbers. Throws InputError
+/// for an empty cell.
 Grouping GroupByColumn(const CsvTable& table,
                        const std::string& column,
                        const std::vector<Eigen::Index>& rows);
 
-/// Values of a numeric column for all rows, checked as MakeDataset checks; the
-/// rows kept come back in `rows` (may be null).
+/// Returns the values of a numeric column for all rows, checked as in
+/// MakeDataset. `rows` (may be null) receives the rows kept.
 Eigen::VectorXd NumericColumn(const CsvTable& table,
                               const std::string& column,
                               MissingPolicy missing,

@@ -68,7 +68,7 @@ class SessionFinder : private RowColumns {
     const bool in_files = BeginsAnewIn(FilesOfSessions());
     if (!in_files && !BeginsAnewIn(passes_)) return;
     PassOver(false,
-             QuotedName(TimeColumn().name) + " begins anew with each " +
+             QuotedName(TimeColumn().name) + " restarts with each " +
                  (in_files ? "file, so it tells no time"
                            : "pass along the axis, so it tells no pauses") +
                  " between them",

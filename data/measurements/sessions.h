@@ -14,25 +14,25 @@
 
 namespace errmap::data {
 
-/// What a column of sessions is called where nobody names one, in this order.
+/// Default names of the column of sessions; the first one found is used.
 inline constexpr auto kSessionColumns =
     std::to_array<const char*>({"session", "day", "run", "tag"});
 inline constexpr const char* kSessionColumnsText = "session, day, run or tag";
 
-/// What a column of times begins with where nobody names one, in this order.
+/// Default beginnings of the name of the column of times, in this order.
 inline constexpr auto kTimeWords = std::to_array<const char*>({"time", "zeit"});
 bool NamesTime(std::string_view name);  // by one of these
 
-/// A step of time of more than this many median ones is a break.
+/// A time step of more than this many median steps is a break.
 inline constexpr double kLeapSteps = 20.0;
 
 /// Where runs of equal codes begin.
 std::vector<Eigen::Index> RunStarts(const std::vector<Eigen::Index>& codes);
 
-/// The median of the steps above 0 (the lower of two), infinite where there is
-/// none.
+/// Returns the median of the steps above 0 (the lower of two), infinite if
+/// there is none.
 double MedianStep(std::vector<double> steps);
-/// Of times one after another, and how many of them are before the one before.
+/// The same for the steps of `time`; and the number of times that go back.
 double MedianStepOf(const Eigen::VectorXd& time);
 Eigen::Index TimesBack(const Eigen::VectorXd& time);
 
@@ -44,21 +44,21 @@ inline constexpr double kShortestNight = 3.5 * 3600.0;
 std::vector<Eigen::Index> FirstRows(const Grouping& sessions,
                                     const Eigen::MatrixXd& input_values);
 
-/// What a table says of sessions and times in the rows asked for (n).
+/// The sessions and times of the rows asked for (n).
 struct FoundSessions {
   Grouping sessions;  // (n) column "" where cut by time, or one run
   Eigen::VectorXd time;
   std::string time_unit;            // "s" or "rows"
   std::ptrdiff_t time_column = -1;  // index into the table; -1: row numbers
-  std::ptrdiff_t date_column = -1;  // of its days, where they stand apart
-  bool dated = false;               // the time counts from 1970, by dates
+  std::ptrdiff_t date_column = -1;  // of dates beside times of day
+  bool dated = false;               // true: dates, in seconds since 1970
   std::vector<bool> known;          // (n) false: the time or session is missing
-  bool ordered = true;     // false: sorted by something else, no time is known
-  std::string by = "one";  // Reading::Sessions
-  std::string counter = {};  // column that begins anew with each, if one does
-  double gap = 0.0;          // s, of a night; 0: not looked for
+  bool ordered = true;              // false: rows are not in order of time
+  std::string by = "one";           // Reading::Sessions
+  std::string counter = {};         // column that restarts with each session
+  double gap = 0.0;                 // s, of a night; 0: not looked for
   Evidence evidence = Evidence::kNone;
-  /// What was found, one line each; nothing of one run without a time.
+  /// What was found, one line each; empty for one run without times.
   std::vector<std::string> remarks;
 };
 
@@ -71,20 +71,20 @@ struct FoundSessions {
 /// one, rows are counted. Sessions are the column named, else the first of
 /// kSessionColumns, else the file (kFileColumn), else the only column of dates,
 /// if time has none. Without one, sessions are cut where time goes back or
-/// leaps by more than 20 median steps. A word that comes again after another
-/// ("day", "night", "day") begins another session. A column that nobody named
-/// is passed over with a remark if it is unusable. "none" names none, unless a
-/// column has that name. The target and the weight are neither.
+/// leaps by more than 20 median steps. A word that returns after another
+/// ("day", "night", "day") begins a new session. A default column that is
+/// unusable is skipped with a remark. "none" means no column, unless one has
+/// that name. The target and the weight are never used.
 ///
 /// Throws InputError, with row and remedy, if a named column is missing, is the
 /// target or the weight, holds no times, or is not in order. Also if a cell is
-/// missing (kDropRows: such rows are not known), or time goes back within a
-/// session of a column.
+/// missing (with kDropRows such rows count as unknown), or if time goes back
+/// within a session named by a column.
 FoundSessions FindSessions(const CsvTable& table,
                            const DatasetSelection& selection,
                            const std::vector<Eigen::Index>& rows);
 
-/// What tells sessions apart besides columns that are called so.
+/// What separates sessions besides columns with such names.
 struct SessionClues {
   Clock clock;
   Nights nights;
@@ -92,7 +92,7 @@ struct SessionClues {
   std::vector<std::ptrdiff_t> cycles = {};  // columns that count them; -1: none
   std::ptrdiff_t blocks = -1;  // column that counts blocks of several cycles
   bool ordered = true;
-  bool rows_repeat = false;  // some stand twice: what comes again is the same
+  bool rows_repeat = false;  // some rows occur twice
 };
 FoundSessions FindSessions(const CsvTable& table,
                            const DatasetSelection& selection,

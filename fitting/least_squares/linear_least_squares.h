@@ -44,8 +44,8 @@ struct LeastSquaresOptions {
   /// `aliased`.
   double confirmed = 1e-13;
   /// Digits wanted in every coefficient, 0 to 15. If condition and residuals
-  /// show that double may give fewer, the solution is refined, with residuals
-  /// in 106 bits, to all 15. 0: as many as double gives.
+  /// show that double may give fewer, the solution is refined to all 15, with
+  /// residuals in 106 bits. 0: as many digits as double gives.
   double digits = 0.0;
   /// True to compute their standard deviations to the same digits, at many
   /// times the cost. Changes nothing else.

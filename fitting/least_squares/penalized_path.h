@@ -86,7 +86,7 @@ class PenalizedPath {
   VectorXd covariance_;  // (k) of the scaled columns and the response
   // In the space of the rows, where correlation_ is (n x n) of the rows.
   MatrixXd rows_;      // (n x k) scaled, times the root of the weight
-  VectorXd response_;  // (n) less its mean, times the same
+  VectorXd response_;  // (n) minus its mean, times the same
 };
 
 }  // namespace errmap::fitting

@@ -29,8 +29,8 @@ std::string CeresVersion();
 struct CeresOptions {
   StoppingRules stopping = {};
   CeresMethod method = CeresMethod::kAuto;
-  /// Number of vector pairs that L-BFGS keeps; at least 1. More take as long as
-  /// a gradient of a net, fewer cost iterations.
+  /// Number of vector pairs that L-BFGS keeps; at least 1. More pairs take as
+  /// long as a gradient of a net; fewer pairs cost iterations.
   int memory = 5;
 
   /// Throws std::invalid_argument naming field, value and range.

@@ -174,10 +174,9 @@ struct RegressionFit {
 /// Minimises `function` from `start` (p) by Levenberg-Marquardt with several
 /// strategies: scalings, first dampings, and the ProjectedObjective if there
 /// are linear parameters. Polishes the result with the lowest sum of squares.
-/// Every strategy is always run: a curved valley that defeats one does not
-/// trouble the next. Ends with kGradient if polishing has converged, else as
-/// the best run did. Throws std::invalid_argument as Optimizer::Minimize
-/// does.
+/// Every strategy is always run: a curved valley may stop one but not the next.
+/// Ends with kGradient if polishing has converged, else as the best run did.
+/// Throws std::invalid_argument as Optimizer::Minimize does.
 RegressionFit FitNonlinearRegression(const RegressionFunction& function,
                                      const VectorXd& start,
                                      const StoppingRules& stopping);

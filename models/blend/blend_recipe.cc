@@ -176,7 +176,7 @@ class BlendRecipe final : public ModelRecipe {
     return MakeRecipe(net)->Fit(training, alone);
   }
 
-  // "curves along the axis over readings and slow averages".
+  // "curves along the axis from readings and slow averages".
   static std::string PlainName(View view, TermSet terms) {
     constexpr const char* kTerms[] = {
         "lines", "curves", "curves along the axis", "curves and products"};
@@ -184,12 +184,12 @@ class BlendRecipe final : public ModelRecipe {
                                        "readings and slow averages",
                                        "changes since the start",
                                        "slow changes since the start"};
-    return fmt::format("{} over {}",
+    return fmt::format("{} from {}",
                        kTerms[static_cast<int>(terms)],
                        kInputs[static_cast<int>(view)]);
   }
 
-  // "74 % curves over readings", ..., largest first.
+  // "74 % curves from readings", ..., largest first.
   static std::vector<std::string> SharesOf(std::vector<Part> parts) {
     std::ranges::stable_sort(parts, std::greater(), &Part::weight);
     std::vector<std::string> shares;

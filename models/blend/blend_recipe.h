@@ -11,16 +11,16 @@ namespace errmap::models {
 
 /// blend: the weighted average of candidates (family x view x terms, each at
 /// its best penalty, and a net if requested). Weights are error^-p from inner
-/// hold-outs of the training rows only. Unless an input only grows, they are
-/// averaged with such weights of the straight lines alone. The power p is the
-/// number of groups held out, at most 8 (their likelihood if each were one
-/// error), or of sessions less one (3 to 7). To choose one of several
+/// hold-outs of the training rows only. Unless an input only grows, these
+/// weights are averaged with those of a blend of straight lines. The power p is
+/// the number of groups held out, at most 8 (their likelihood if each were one
+/// error), or of sessions minus one (3 to 7). To choose one of several
 /// near-equals is a gamble; to average them is not.
 struct BlendOptions {
   /// Adds NetInViews in its views, unless an input only grows. Its figures
   /// depend on the processor.
   bool net = false;
-  /// Averaging profits from different views: without a `view` it is auto.
+  /// Averages gain from different views, so the default is view=auto.
   BasisOptions bases = {.view = ViewOptions()};
 
   std::string_view type() const { return "blend"; }

@@ -40,7 +40,7 @@ ComponentStudy CompareMaps(const std::string& file,
                            const data::DatasetSelection& selection,
                            const ComparisonOptions& options);
 
-/// The same for measurements in memory; a caller may add recipes of his own.
+/// The same for measurements in memory; a caller may add recipes.
 /// The data set's source becomes the component's name. A map may be tested on a
 /// file (`file:TEST.csv`) that has the data set's columns.
 ComponentStudy CompareMaps(const data::Dataset& dataset,

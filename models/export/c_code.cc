@@ -81,7 +81,7 @@ enum {{
 }};
 
 /* All that is kept from step to step; without a pointer, so that it may be
- * copied. The limits may be set anew after {0}_init; one that is not above 0,
+ * copied. The limits may be changed after {0}_init; one that is not above 0,
  * or an error above ten times the map's own, is not heeded: PARAMETER. */
 typedef struct {{
 {5}}} {0}_state;
@@ -98,7 +98,7 @@ void {0}_begin({0}_state *state);
 void {0}_get_state(const {0}_state *state, double saved[]);
 int {0}_set_state({0}_state *state, const double saved[], double age_s);
 
-/* The next step taken takes the zero anew. */
+/* The next step taken takes the zero again. */
 void {0}_zero({0}_state *state);
 
 /* dt_s seconds after the call before: the error at these inputs, within the
@@ -476,7 +476,7 @@ std::string CWriter::Source(const std::vector<SelfTestRow>& rows,
   std::string text = Comment() + header +
                      fmt::format(R"(
 #if {0}_EXPORT != {1:.0f}
-#error "{0}.h and {0}.c are of two exports: export both anew"
+#error "{0}.h and {0}.c are from two exports: export both again"
 #endif
 
 #include <math.h>

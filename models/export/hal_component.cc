@@ -51,7 +51,7 @@ option extra_setup yes;
 modparam int export_of = 0 "The export that a .hal file is of; 0: not asked";
 include <rtapi_math.h>;
 {3}pin in bit begin "Rising edge: a session begins, filters steady";
-pin in bit zero "Rising edge: take the zero anew";
+pin in bit zero "Rising edge: take the zero again";
 pin in bit step "Rising edge: a step of step-s seconds";
 pin in float step_s = 0.0 "0: a step in every period of the thread";
 pin in bit machine_on = 1 "For external offsets: on and homed";

@@ -219,7 +219,7 @@ def _total(saved):
 
 class Map:
     """A session of the map: step() gives the error, within the limits. The
-    limits, max_error and max_rate, may be set anew; one that is not above
+    limits, max_error and max_rate, may be changed; one that is not above
     0, or an error above ten times the map's own, is not heeded: PARAMETER."""
 
     def __init__(self):
@@ -262,7 +262,7 @@ class Map:
 {forgive}        return True
 
     def zero(self):
-        """The next step taken takes the zero anew."""
+        """The next step taken takes the zero again."""
         self.zero_due = 1.0
 
     def step(self, dt_s, inputs):

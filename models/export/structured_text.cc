@@ -315,12 +315,12 @@ std::vector<TextVariable> Inputs(const MapProgram& program,
                   "filters in their steady state, the zero taken"},
       {.name = "TakeZero",
        .type = Type::kBool,
-       .comment = "rising edge: the next step taken takes the zero anew"},
+       .comment = "rising edge: the next step taken takes the zero again"},
       {.name = "DtSeconds", .comment = "since the call before"},
       {.name = "AwaySeconds",
        .initial = {1e30},
        .comment = "in the first call after a restart: how long it was; from an "
-                  "hour on it begins anew"}};
+                  "hour on it starts again"}};
   for (std::size_t i = 0; i < names.size(); ++i) {
     const data::ColumnInfo& column = program.readings[i].column;
     const std::string unit = CommentText(column.unit.symbol);

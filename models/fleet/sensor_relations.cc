@@ -99,7 +99,7 @@ std::string SensorRelations::ToJsonText() const {
 
 SensorRelations SensorRelations::FromJsonText(std::string_view text) {
   const auto record = RecordFromText<RelationsRecord>(
-      text, kSchema, "errmap compare and errmap deploy write it anew");
+      text, kSchema, "errmap compare and errmap deploy rewrite it");
   SensorRelations found;
   for (const RelationsColumn& column : record.columns) {
     found.columns.push_back(

@@ -14,7 +14,7 @@ namespace errmap::models {
 enum class Filter {
   kEma,   // a first-order lag, dy/dt = (x - y) / tau, begun in its steady
           // state y = x (models/history/lag.h)
-  kZero,  // less its value where the session's zero is taken
+  kZero,  // minus its value at the session's zero
   kSine,  // sine of an angle
   kCosine,
 };
@@ -53,7 +53,7 @@ struct RowChange {
   double mean = 0.0;     // likewise
 };
 
-/// A remembered column, less the mean of all remembered ones, in the first rows
+/// A remembered column minus the mean of all remembered ones, in the first rows
 /// of the training sessions.
 struct StartReading {
   std::string column;
@@ -69,19 +69,19 @@ struct History {
   std::string time = {};  // column; "" if time is rows, or unknown
   double gap = 0.0;       // s: a longer pause separates sessions; 0: unknown
   /// Latest start of the training sessions plus 5 median steps, if all began
-  /// within kLeapSteps median steps of each other. NaN if clocks tell
-  /// nothing.
+  /// within kLeapSteps median steps of each other; else NaN.
   double latest_start = stats::kNaN;
-  /// Start of the training sessions (models/history/session_start.h). A first
-  /// row whose weighted readings are above the limit is like none of theirs.
-  /// NaN: too many of theirs are like any row.
+  /// Start of the training sessions (models/history/session_start.h). If the
+  /// weighted readings of a session's first row exceed the limit, it began like
+  /// no training session. NaN: training sessions begin too much like other
+  /// rows.
   std::vector<StartReading> start_readings = {};
   double start_limit = stats::kNaN;
-  /// Time of day at which sessions begin: its mean (s), and how much later one
-  /// may still begin. NaN if it tells nothing.
+  /// Time of day at which sessions begin: its mean (s), and the allowed delay
+  /// (s). NaN if it varies too much.
   double start_clock = stats::kNaN;
   double start_clock_late = stats::kNaN;
-  /// Used if time is rows, which cannot show that some are missing.
+  /// Used if rows are counted as time: they cannot show gaps.
   std::vector<RowChange> row_changes = {};
   /// Longest step between readings within the training sessions; NaN if
   /// unknown.
@@ -94,11 +94,11 @@ struct History {
   /// three times the shortest time constant if that is more. Infinity if
   /// unknown or nothing is filtered.
   double longest_bridged() const;
-  /// Returns the time after which filters that began inside a session, in the
-  /// steady state of its readings there, have forgotten that. It is
-  /// kSettledTaus times the longest time constant; those of filters of filters
-  /// add up. Infinity if an input is zeroed, since the zero was taken
-  /// elsewhere; 0 if nothing is remembered.
+  /// Returns the time after which filters have forgotten a start in the middle
+  /// of a session, where they began in a steady state. It is kSettledTaus times
+  /// the longest time constant; those of filters of filters add up. Infinity if
+  /// an input is zeroed, since the zero was taken elsewhere; 0 if nothing is
+  /// remembered.
   double settles_after() const;
   /// Returns true if any filter runs in time.
   bool needs_time() const;
@@ -148,7 +148,7 @@ enum class Missing {
 };
 
 /// Returns one value per row of a log whose inputs are columns() of the
-/// history. `from_rest`: its sessions are known to begin where the log does.
+/// history. `from_rest`: sessions are known to begin with the log's rows.
 std::vector<Missing> FindMissing(const data::SessionLog& log,
                                  const History& history,
                                  bool from_rest = false);

@@ -17,8 +17,8 @@ namespace errmap::models {
 enum class View {
   kRaw,             // as measured
   kHistory,         // and passed through first-order filters
-  kZero,            // less their values in the session's first row
-  kHistoryAndZero,  // both: inputs and filtered inputs less those values
+  kZero,            // minus their values in the first row
+  kHistoryAndZero,  // inputs and filtered inputs minus those
 };
 /// Returns "raw", "history", "zero", "history+zero": values of view=, in order.
 const std::vector<std::string>& ViewWords();

@@ -63,7 +63,7 @@ OptionList<ViewOptions> List() {
                            &ViewOptions::time_constants,
                            TimeConstants()));
   list.push_back(OptionFor("zero",
-                           "less the values where a session begins",
+                           "minus the values at the start of a session",
                            &ViewOptions::zero,
                            OneOf<bool>{{{"session", true}, {"none", false}}}));
   list.push_back(OptionFor("intercept",

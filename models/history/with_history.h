@@ -13,7 +13,7 @@ FittedModel WithHistory(FittedModel fitted,
                         const data::Dataset& training,
                         const History& history);
 
-/// Returns true if its filters count rows, which only training files have.
+/// Returns true if its filters count rows. Only training files have rows.
 bool CountsRows(const FittedModel& fitted);
 
 /// Returns such a map for rows that come every `seconds` (above 0). Its filters

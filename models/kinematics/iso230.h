@@ -7,8 +7,8 @@
 
 namespace errmap::models {
 
-// Figures of ISO 230, by which users of machine tools know errors. All are in
-// the unit of the deviations. A deviation is actual - nominal.
+// Figures of ISO 230, in the unit of the deviations. A deviation is actual -
+// nominal.
 
 /// Deviations of one axis along itself, one per approach to a target position.
 struct PositioningTest {
@@ -33,13 +33,13 @@ struct PositioningPoint {
   double reversal() const { return up.mean - down.mean; }
 };
 
-/// Ascending. Throws std::invalid_argument if the sizes do not agree or
-/// there is no deviation.
+/// Returns the points in ascending order. Throws std::invalid_argument if the
+/// sizes do not agree or there is no deviation.
 std::vector<PositioningPoint> PositioningPointsOf(const PositioningTest& test);
 
 /// ISO 230-2:2014, clause 3, with the means and standard deviations (n - 1) of
-/// the runs at each target position and direction. NaN where runs of one
-/// direction, or fewer than two in a direction, leave a figure open.
+/// the runs at each target position and direction. A figure is NaN if it needs
+/// runs in both directions, or two in one, and there are fewer.
 struct PositioningFigures {
   /// Bidirectional systematic positioning error E: range of all means.
   double systematic = 0.0;
@@ -52,9 +52,9 @@ struct PositioningFigures {
   double repeatability = 0.0;
   /// Bidirectional accuracy A: range of the means +- 2 s.
   double accuracy = 0.0;
-  double mean_reversal = 0.0;  // of up less down, signed
+  double mean_reversal = 0.0;  // mean of up minus down
 
-  /// The same of the runs in one direction: E, R = largest 4 s, A.
+  /// The same for the runs in one direction, with R = largest 4 s.
   struct OneWay {
     double systematic = 0.0;
     double repeatability = 0.0;
@@ -69,17 +69,18 @@ PositioningFigures PositioningFiguresOf(const PositioningTest& test);
 PositioningFigures PositioningFiguresOf(
     const std::vector<PositioningPoint>& points);
 
-/// Whether each row approached its position upwards, from the order of
-/// `positions` (n). The step before tells, or the step after where a sweep
-/// begins: at a step of 0 or of more than half the travel.
+/// Returns, for each row, true if it approached its position upwards, from the
+/// order of `positions` (n). The step before the row decides. If that is 0 or
+/// more than half the travel, a sweep begins, and the step after decides.
 std::vector<bool> ApproachedUpwards(const VectorXd& positions);
 
 /// The test of positions along a diagonal, from runs both ways. The name has
 /// the signs of X, Y and Z along it: "ppp", or "p0n" if Y does not move.
-/// `points` (n x 3) are nominal, `errors` (n x 3) were found there, and the
-/// flags tell which rows ran along the signs. Its figures are those of ISO
-/// 230-6:2002, clause 5. Throws std::invalid_argument if the name is not a
-/// diagonal, the sizes do not agree or the points have no length along it.
+/// `points` (n x 3) are nominal, `errors` (n x 3) were measured there, and
+/// `upwards` is true for rows that ran in the direction of the signs. Its
+/// figures are those of ISO 230-6:2002, clause 5. Throws std::invalid_argument
+/// if the name is not a diagonal, the sizes do not agree or the points have no
+/// length along it.
 PositioningTest AlongDiagonal(const std::string& name,
                               const Eigen::MatrixX3d& points,
                               const Eigen::MatrixX3d& errors,

@@ -15,16 +15,18 @@ enum class Branch { kTool, kWork };
 
 enum class Joint { kFixed, kLinear, kRotary };
 
-/// What an error moves its link along, or turns it about: an axis of the frame
-/// of the link before it, X, Y or Z. The letters of ISO 230-1, clause 3.
+/// Direction of an error: its link moves along (X, Y, Z) or turns about (A, B,
+/// C) an axis of the frame of the link before it. The letters are those of ISO
+/// 230-1, clause 3.
 enum class ErrorDirection { kX, kY, kZ, kA, kB, kC };
 inline constexpr int kNumErrorDirections = 6;
 
 /// A, B and C: rad, positive by the right-hand rule; the others are lengths.
 bool IsRotation(ErrorDirection direction);
 
-/// A rigid element of the machine, from the one before it on its branch.
-/// Lengths are in one unit of the caller's choice, say mm; angles in rad.
+/// A rigid element of the machine, placed relative to the one before it on its
+/// branch. Lengths are in one unit of the caller's choice, say mm; angles in
+/// rad.
 struct KinematicLink {
   std::string name;
   Branch branch = Branch::kTool;
@@ -47,12 +49,12 @@ struct KinematicLink {
 ///   T(offset + d) R(e) R(axis, q)             rotary
 ///
 /// R(e) turns by |e| about e, so that no order of the three is preferred. An
-/// error turns all that follows on its branch, about the link's own origin. The
-/// error at the tool is tool less work in the base frame. That is the place of
-/// the tip, less that of the workpiece point which the nominal tip touches.
-/// Zero where there are no errors.
+/// angular error turns all later links of its branch about the link's own
+/// origin. The error at the tool is tool minus work in the base frame: the
+/// position of the tip minus that of the workpiece point which the nominal tip
+/// touches.
 ///
-/// `coordinates` of the functions below are those of the links that move,
+/// In the functions below, `coordinates` are those of the moving links and
 /// `errors` those of all links, both in the order of the links.
 class KinematicChain {
  public:
@@ -72,19 +74,19 @@ class KinematicChain {
   Index num_coordinates() const { return num_coordinates_; }
   Index num_errors() const { return std::ssize(errors_); }
 
-  /// The tip less the work's origin (3), without errors, along the axes of the
-  /// base: the place of the tool on the work. Throws std::invalid_argument for
-  /// another number of coordinates or errors, as all functions below do.
+  /// Returns the tip minus the work's origin (3), without errors, along the
+  /// axes of the base. Like all functions below, it throws
+  /// std::invalid_argument for a wrong number of coordinates or errors.
   Eigen::Vector3d NominalReach(const VectorXd& coordinates) const;
 
-  /// Tool less work (3) by the product of the matrices.
+  /// Returns tool minus work (3) by the product of the matrices.
   Eigen::Vector3d ExactError(const VectorXd& coordinates,
                              const VectorXd& errors) const;
 
-  /// Its derivatives (3 x errors) at errors of 0. A length has its unit vector,
-  /// an angle its rotation axis times the arm, with minus on the work's branch.
-  /// Times errors they are what remains of ExactError by the algebra of
-  /// infinitesimals (section 3.1), without products of errors.
+  /// Returns the derivatives (3 x errors) of ExactError at errors of 0. For a
+  /// length this is its unit vector, for an angle its rotation axis times the
+  /// arm; both are negative on the work's branch. Times the errors they give
+  /// ExactError to first order (section 3.1).
   Eigen::Matrix3Xd Sensitivities(const VectorXd& coordinates) const;
 
  private:

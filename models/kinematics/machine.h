@@ -13,7 +13,7 @@
 
 namespace errmap::models {
 
-/// What says how large an error is: a map, or the same everywhere.
+/// Source of an error's size: a map or a constant.
 struct ErrorSource {
   double constant = 0.0;                   // the chain's length unit, or rad
   std::shared_ptr<const FittedModel> map;  // null: `constant`
@@ -23,7 +23,7 @@ struct ErrorSource {
 /// An error of a machine's chain.
 struct MachineError {
   std::string name;  // ISO 230-1: "EXX"
-  /// One, or those of forward and of reverse motion of its link.
+  /// One source, or one each for forward and reverse motion of its link.
   std::vector<ErrorSource> sources;
 };
 
@@ -34,7 +34,7 @@ struct Machine {
   KinematicChain chain;
   std::vector<std::string> columns;  // of the chain's coordinates
   std::vector<MachineError> errors;  // as chain.errors()
-  /// Directions X, Y and Z of the base in which an error shows on the work.
+  /// Directions X, Y and Z of the base in which an error affects the work.
   std::array<bool, 3> sensitive = {true, true, true};
 };
 
@@ -48,7 +48,8 @@ VectorXd SensitiveLengths(const Machine& machine,
 /// "X" ... "C".
 std::string_view LetterOf(ErrorDirection direction);
 
-/// The column that tells which way a link moves: "x_direction" for "x_mm".
+/// Returns the column with a link's direction of motion: "x_direction" for
+/// "x_mm".
 std::string DirectionColumn(std::string_view coordinate);
 
 }  // namespace errmap::models

@@ -9,18 +9,19 @@
 
 namespace errmap::models {
 
-/// The plane that a machine works in, as it is drawn: 0 X, 1 Y, 2 Z.
+/// The working plane of a machine as drawn: 0 X, 1 Y, 2 Z.
 struct WorkingPlane {
   Index across = 0;
   Index up = 1;
 };
 
-/// That of the sensitive directions: of X and Z with Z across, as lathes are
-/// drawn; of all three X and Y. Nothing where fewer than two are sensitive.
+/// Returns the plane of the sensitive directions: for X and Z with Z across, as
+/// lathes are drawn; for all three X and Y. Empty if fewer than two are
+/// sensitive.
 std::optional<WorkingPlane> WorkingPlaneOf(
     const std::array<bool, 3>& sensitive);
 
-/// The errors at the points of a part of the plane; NaN where not known.
+/// The errors at the points in a cell of the plane; NaN if unknown.
 struct PlaneCell {
   double across = stats::kNaN;  // its middle
   double up = stats::kNaN;
@@ -30,7 +31,7 @@ struct PlaneCell {
   double rms = stats::kNaN;  // of their lengths in the plane
 };
 
-/// Cells that have points, row by row from below; where none were is no cell.
+/// Cells that have points, row by row from below.
 struct PlaneCells {
   double width = 0.0;  // of a cell
   double height = 0.0;

@@ -9,14 +9,14 @@
 
 namespace errmap::models {
 
-/// An error of a chain at m points, and how far it may be off.
+/// An error of a chain at m points, with its uncertainty.
 struct ComponentAtPoints {
   VectorXd values;  // (m) the chain's length unit, or rad
   /// (m) A share `coverage` of errors lies within it of `values`. 0: exact;
   /// NaN: not known.
   VectorXd half_widths;
-  /// Of the standard deviation behind half_widths, which are it times Student's
-  /// t. Infinite if it is known.
+  /// Degrees of freedom of the standard deviation; half_widths are it times
+  /// Student's t. Infinite if it is known.
   double degrees_of_freedom = std::numeric_limits<double>::infinity();
 };
 
@@ -29,17 +29,18 @@ struct VolumetricOptions {
   void Validate() const;
 };
 
-/// Errors at the tool, tool less work in the base frame, in the chain's length
-/// unit. Compensate by minus that.
+/// Errors at the tool: tool minus work in the base frame, in the chain's length
+/// unit. The compensation is their negative.
 struct VolumetricErrors {
   Eigen::MatrixX3d exact;        // (m x 3)
   Eigen::MatrixX3d first_order;  // (m x 3)
-  /// What each error of the chain adds to first_order (errors)(m x 3).
+  /// (errors)(m x 3) The contribution of each error of the chain to
+  /// first_order.
   std::vector<Eigen::MatrixX3d> contributions;
   /// (m x 3) The same share for independent components, to first order (JCGM
-  /// 100:2008, 5.1.2 and G.4.1). Standard deviations times sensitivities add up
-  /// as squares. Student's t has the degrees of freedom of Welch and
-  /// Satterthwaite. NaN where a component that matters is not known.
+  /// 100:2008, 5.1.2 and G.4.1). The squares of standard deviations times
+  /// sensitivities add up. Student's t has the degrees of freedom of Welch and
+  /// Satterthwaite. NaN if a component with an effect is unknown.
   Eigen::MatrixX3d half_widths;
   /// (m x 3) Quantiles of the exact form over `draws` of the same components,
   /// each from its Student's t (JCGM 101:2008, 6.4.9). NaN like half_widths, or
@@ -51,9 +52,9 @@ struct VolumetricErrors {
   double LargestDifference() const;
 };
 
-/// Combines what `components` (errors of the chain, in their order) say at m
-/// points of `coordinates` (m x coordinates of the chain). The same seed gives
-/// the same bounds; the draws are shared by all points, as the maps are. Throws
+/// Combines `components` (errors of the chain, in their order) at m points of
+/// `coordinates` (m x coordinates of the chain). The same seed gives the same
+/// bounds; the draws are shared by all points, as the maps are. Throws
 /// std::invalid_argument if the shapes do not agree.
 VolumetricErrors CombineErrors(const KinematicChain& chain,
                                const MatrixXd& coordinates,

@@ -57,7 +57,7 @@ LearningRecord LearningFromJsonText(std::string_view text) {
   return RecordFromText<LearningRecord>(
       text,
       kLearningSchema,
-      fmt::format("errmap learn with {} writes it anew",
+      fmt::format("errmap learn with {} rewrites it",
                   data::ArgumentName("out")));
 }
 

@@ -16,7 +16,7 @@ namespace errmap::models {
 /// are not positions). The map is simple: linear in the view of each sensor,
 /// with a slope linear in the position, and quadratic in the position. Its
 /// ridge penalty is from inner hold-outs. The view is whichever does best with
-/// all sensors: raw, filtered, less the session's first value, or both.
+/// all sensors: raw, filtered, minus the session's first value, or both.
 struct SensorCurve {
   struct Point {
     Index sensors = 0;
@@ -58,8 +58,8 @@ struct SensorSearch {
 
 /// Chooses sensors by sequential replacement from several starting sets: inside
 /// folds of whole units for `points`, and from all rows for `chosen`. Throws
-/// std::invalid_argument if there are fewer than two sensors or units,
-/// fitting::Interrupted on a stop.
+/// std::invalid_argument if there are fewer than two sensors or units, and
+/// fitting::Interrupted if stopped.
 SensorCurve LearnSensors(const data::Dataset& dataset,
                          const SensorSearch& search);
 

@@ -46,7 +46,7 @@ struct NetKernels {
                    Scalar* s);
 
   /// Computes d_w1 += delta x' for delta (height x columns) and the same x. If
-  /// `anew`, d_w1 starts at 0.
+  /// `anew`, d_w1 starts from 0.
   void (*add_products)(BlockSize size,
                        std::ptrdiff_t inner,
                        const Scalar* delta,

@@ -44,8 +44,8 @@ enum class PositionTemperatureForm {
 /// poly:position, poly:temperature, poly:eq7, poly:eq8, poly:eq9.
 struct PositionTemperatureOptions {
   PositionTemperatureForm form = PositionTemperatureForm::kEq8;
-  std::string position = {};     // "": the first input called so
-  std::string temperature = {};  // T; "": the one of least residual
+  std::string position = {};     // "": the first position
+  std::string temperature = {};  // T; "": the input that fits best
   bool clip = true;              // true: the map is guarded (Guards)
 
   std::string_view type() const;
@@ -132,7 +132,7 @@ struct PenaltyRule {
 /// Bases of a penalised family.
 struct BasisOptions {
   std::optional<ViewOptions> view = {};
-  std::optional<TermSet> terms = {};  // empty: those that serve, if a view is
+  std::optional<TermSet> terms = {};  // empty: those that suit, if a view is
                                       // given, else full
   std::optional<int> degree = {};     // 1 .. 4; empty: that of the terms
   Centring centring = Centring::kStandardised;  // or kAll, kNone

@@ -14,39 +14,39 @@ namespace errmap::models {
 
 struct Holdout;
 
-/// Of rows given as thermal states (m x s), against trained ones.
+/// How far thermal states (m x s) are from the trained ones.
 struct StateMeasures {
   Eigen::VectorXd distance;  // (m) to the nearest trained state, whitened
   Eigen::VectorXd leverage;  // (m) of a linear map in the scores
-  /// (m x s) each column less its value by the others, over the standard
-  /// deviation of that in the factor model.
+  /// (m x s) Each column minus its value expected from the others, over the
+  /// standard deviation of this difference in the factor model.
   Eigen::MatrixXd relation;
-  Eigen::MatrixXd expected;  // (m x s) its value by the others, input's unit
+  Eigen::MatrixXd expected;  // (m x s) from the others, input's unit
 };
 StateMeasures MeasureStates(const Applicability& trained,
                             const Eigen::MatrixXd& states);
 
-/// Returns that of a map fitted to these rows; nothing if all its inputs are
-/// positions or there are fewer than three rows.
+/// Returns the applicability of a map fitted to these rows; empty if all its
+/// inputs are positions or there are fewer than three rows.
 std::optional<Applicability> MakeApplicability(const FittedModel& fitted,
                                                const data::Dataset& training);
 
-/// Why a row is outside of what was trained.
+/// Why a row is outside of the training data.
 enum class Outside {
   kNo,
-  kRange,     // a column, or what is derived from one, leaves its range by
+  kRange,     // a column or derived input leaves its range by
               // more than 2 % of it
   kRelation,  // a column is not where the others say it should be
   kDistance,  // far from every trained state
-  kLeverage,  // far from the middle of them
+  kLeverage,  // far from their mean
 };
 /// "no", "range", "relation", "distance", "leverage".
 std::string_view ToString(Outside outside);
 
-/// The worst of what puts a row outside.
+/// The most severe reason why a row is outside.
 struct RowFlag {
   Outside why = Outside::kNo;
-  /// Of kRange and kRelation: the column, or what is derived.
+  /// For kRange and kRelation: the column or derived input.
   data::ColumnInfo column;
   double value = 0.0;     // of that column, its unit; else distance or leverage
   double low = 0.0;       // where it should be
@@ -63,8 +63,8 @@ std::vector<RowFlag> FlagRows(const FittedModel& fitted,
                               const Eigen::MatrixXd& inputs,
                               const Eigen::MatrixXd& form_inputs);
 
-/// (held-out rows, in the order of the folds) Whether each is inside of what
-/// the rows of its own fold's training showed.
+/// Returns, for each held-out row in the order of the folds, true if it is
+/// inside of its fold's training data.
 std::vector<bool> InsideOfFolds(const FittedModel& fitted,
                                 const data::Dataset& dataset,
                                 const Holdout& holdout);

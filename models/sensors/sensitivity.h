@@ -9,20 +9,20 @@
 
 namespace errmap::models {
 
-/// How disturbed readings change the predictions of a map, over the rows that
-/// it was fitted to, at most 5000. Target's unit.
+/// How disturbed readings change the predictions of a map, on at most 5000 of
+/// the rows that it was fitted to. In the target's unit.
 struct Sensitivity {
   /// RMS change if every sensor's reading has independent noise of this
-  /// standard deviation. Filters are assumed to average it away, and zeros to
-  /// have none.
+  /// standard deviation. Filters are assumed to average it out, and zeros to be
+  /// free of it.
   static constexpr double kNoise = 0.1;  // degC
   double per_noise = 0.0;
-  /// Largest change where one sensor reads 0 from a session's second row on,
-  /// and which.
+  /// Largest change if one sensor reads 0 from a session's second row on, and
+  /// that sensor.
   double largest_jump = 0.0;
   std::string jump_of;
-  /// Largest change where the zero is taken anew in the row at hand; 0 for a
-  /// map without one.
+  /// Largest change if the zero is taken again in a row; 0 for a map without a
+  /// zero.
   double rezero_jump = 0.0;
 };
 

@@ -14,35 +14,34 @@ namespace errmap::models {
 
 /// What is wrong with a sensor that a map reads.
 enum class SensorFault {
-  kUnit,     // its figures would fit in another unit
-  kDead,     // one reading throughout, where it cannot be, or none at all
+  kUnit,     // its values suit another unit
+  kDead,     // one impossible reading throughout, or none at all
   kFrozen,   // one reading for longer than ever in training
-  kSwapped,  // two read as each other should
-  kOff,      // it stands elsewhere than all others tell
-  kSpike,    // single readings that no state of the machine gives
+  kSwapped,  // two sensors are exchanged
+  kOff,      // it contradicts all others
+  kSpike,    // single impossible readings
 };
 /// "unit", "dead", "frozen", "swapped", "off", "spike".
 std::string_view ToString(SensorFault fault);
 
 struct SensorFaultFound {
   SensorFault fault = SensorFault::kOff;
-  std::vector<data::ColumnInfo> columns;  // one, of kSwapped two
-  /// Of kOff by how much it is too high, of kDead, kFrozen and kSpike what it
-  /// reads (NaN: nothing); the column's unit.
+  std::vector<data::ColumnInfo> columns;  // one; for kSwapped two
+  /// For kOff: how much it is too high; kDead, kFrozen and kSpike: its reading
+  /// (NaN: none). In the column's unit.
   double value = 0.0;
-  Eigen::Index row = -1;        // of kSpike, the first: in the readings
-  std::string looks_like = {};  // of kUnit: "K"
+  Eigen::Index row = -1;        // for kSpike: the first row
+  std::string looks_like = {};  // for kUnit: "K"
 };
 
-/// The sensor at fault in a session, if there is one. `readings` (n x inputs of
-/// the map, their units; n at least 1) are those of its rows in order of time,
-/// NaN where a cell is empty.
+/// Returns the faulty sensor of a session, if there is one. `readings` (n x
+/// inputs of the map, their units; n at least 1) are in order of time, NaN for
+/// empty cells.
 ///
-/// A sensor that stands elsewhere, and two that are exchanged, are held against
-/// that nothing is wrong, by how likely the readings of all sensors together
-/// are. A thermal state that is unlike those of training in all sensors accuses
-/// none. Rows with a spike are left out of that, and are told of where nothing
-/// else is wrong.
+/// For kOff and kSwapped, the likelihood of all readings is compared with and
+/// without the fault. If all sensors differ from training, the thermal state is
+/// new and no sensor is at fault. Rows with a spike are left out of this; they
+/// are reported if nothing else is wrong.
 std::optional<SensorFaultFound> FindSensorFault(
     const FittedModel& fitted, const Eigen::MatrixXd& readings);
 

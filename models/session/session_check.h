@@ -13,25 +13,25 @@
 
 namespace errmap::models {
 
-/// Whether a map holds in a session, by a few measurements of it.
+/// Result of checking a map with a few probes of a session.
 enum class SessionStatus {
   kHolds,
   kOff,
   kUnknown,
-  kHoldsSoFar,  // up to the last probe; of the rest nothing is known yet
-  kSensor,      // a sensor is at fault: its readings explain nothing
+  kHoldsSoFar,  // up to the last probe; the rest is unknown
+  kSensor,      // a sensor is at fault: nothing else is judged
 };
 /// "holds", "off", "unknown", "holds so far", "sensor".
 std::string_view ToString(SessionStatus status);
 
-/// The remedy if it does not hold.
+/// The remedy if the map does not hold.
 enum class Remedy {
   kNone,
   kRezero,   // an offset explains the error
   kRefit,    // the shape is wrong
   kUnknown,  // these probes cannot tell
-  kGain,     // the errors are so many times those predicted
-  kSign,     // they are those predicted, with the other sign
+  kGain,     // errors are a multiple of those predicted
+  kSign,     // errors have the opposite sign of those predicted
 };
 /// "none", "re-zero", "refit", "unknown", "gain", "sign".
 std::string_view ToString(Remedy remedy);
@@ -39,21 +39,21 @@ std::string_view ToString(Remedy remedy);
 /// A session is off if its RMSE is above this many times the promised one.
 inline constexpr double kOffRatio = 1.5;
 
-/// Whether an offset explains errors of this mean and RMS. It must be at least
-/// three quarters of the excess of their mean square over the promised one.
-/// Re-zeroing then halves the error, or leaves no more than was promised.
+/// True if an offset explains errors of this mean and RMS: it is at least three
+/// quarters of the excess of their mean square over the promised one.
+/// Re-zeroing then halves the error, or reduces it to the promised one.
 bool OffsetExplains(double mean, double rms, double promised);
 
-/// The RMSE of a part of the session, as probes tell it.
+/// The RMSE of a part of the session, estimated from probes.
 struct RmseForecast {
-  double low = 0.0;  // 80 % lie between; target's unit
+  double low = 0.0;  // bounds of the 80 % interval; target's unit
   double high = 0.0;
-  double off_probability = 0.0;  // that it is above kOffRatio times the promise
+  double off_probability = 0.0;  // of an RMSE above the limit
 };
 
 struct SessionCheck {
-  /// What the map's memory lacks before a probe. The map then predicts
-  /// otherwise than in use, so nothing is known.
+  /// Earlier rows that the map's memory lacks at a probe. The map would predict
+  /// something else in use, so nothing is judged.
   Missing missing = Missing::kNothing;
   std::optional<SensorFaultFound> sensor;
   SessionStatus status = SessionStatus::kUnknown;
@@ -63,45 +63,44 @@ struct SessionCheck {
   double probe_rms = 0.0;      // likewise
   double probe_mean = 0.0;     // likewise
   double probe_scatter = 0.0;  // sd about their mean; NaN for one probe
-  double gain = 1.0;           // errors over predictions, of kGain and kSign
+  double gain = 1.0;           // for kGain, kSign: errors over predictions
   RmseForecast so_far;         // up to the last probe
-  std::optional<RmseForecast> later;  // after it; empty where it ended
+  std::optional<RmseForecast> later;  // after it; empty if it ended the session
   RmseForecast session;
-  /// Of the rest of the session, once the remedy was applied: its median RMSE.
+  /// Median RMSE of the rest of the session after the remedy.
   double left = 0.0;
-  /// Time since the session began, s, after which it is not known whether the
-  /// map holds. Empty without times.
+  /// When to probe next, in s since the session began: later it is unknown
+  /// whether the map holds. Empty without times.
   std::optional<double> next_probe;
 };
 
-/// Judges the probes of a session by the errors that they forecast
-/// (ForecastSession). The limit is kOffRatio times the promise. The map holds
-/// if the errors so far, and those of the rest, are surely enough within it. It
-/// is off if those of the session surely enough are not. A remedy must surely
-/// enough not add to the error. Re-zeroing, a gain or a sign must also bring
+/// Judges a session by the errors forecast from its probes (ForecastSession).
+/// The limit is kOffRatio times the promise. The map holds if the errors so far
+/// and later are within it with sufficient probability. It is off if the whole
+/// session's errors exceed it with that probability. A remedy must be as
+/// unlikely to increase the error. Re-zeroing, a gain or a sign must also bring
 /// the session within the limit. A gain or a sign replaces kRefit if it alone
-/// brings the probes within the limit. `missing`, `sensor`: see SessionCheck;
-/// nothing else is judged then. Throws std::invalid_argument on no probes,
-/// other sizes, or what is not finite.
+/// brings the probes within the limit. If `missing` or `sensor` is set, nothing
+/// else is judged. Throws std::invalid_argument if there are no probes, sizes
+/// differ or a value is not finite.
 SessionCheck CheckSession(const HeldOutErrors& errors,
                           const SessionProbes& probes,
                           Missing missing = Missing::kNothing,
                           std::optional<SensorFaultFound> sensor = {});
 
-/// How well one probe at some time and place tells a unit's RMSE.
+/// How well one probe at a time and place shows a unit's RMSE.
 struct ProbeSite {
-  double from = 0.0;  // elapsed, s; all of them without times in seconds
+  double from = 0.0;  // elapsed, s; all times if unknown
   double until = 0.0;
-  double position_from = 0.0;  // NaN where no position is known
+  double position_from = 0.0;  // NaN if positions are unknown
   double position_until = 0.0;
-  /// In half of the cases the probe's size is within this factor of the unit's
-  /// RMSE.
+  /// Half of such probes are within this factor of their unit's RMSE, in size.
   double factor = 0.0;
 };
 
-/// Sites of held-out probes, the most telling first: quarters of the units'
-/// length by thirds of the positions. Sites where half of the errors are 0 tell
-/// nothing and are left out.
+/// Returns sites of held-out probes, the most informative first: quarters of
+/// the units' length times thirds of the positions. Sites where half of the
+/// errors are 0 show nothing and are left out.
 std::vector<ProbeSite> RankProbeSites(const HeldOutErrors& errors);
 
 }  // namespace errmap::models

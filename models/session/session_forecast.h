@@ -7,27 +7,27 @@
 
 namespace errmap::models {
 
-/// Measured errors of a session: where, when, and what the map made of them.
+/// Measured errors of a session with their times, positions and predictions.
 struct SessionProbes {
   VectorXd elapsed;    // (n) s since the session began
-  VectorXd position;   // (n), or (0) where none is known
+  VectorXd position;   // (n), or (0) if unknown
   VectorXd predicted;  // (n) target's unit
-  VectorXd residuals;  // (n) target less prediction, target's unit
+  VectorXd residuals;  // (n) target minus prediction, target's unit
 };
 
-/// What the errors of a session may be, by probes: draws that are alike likely.
+/// Equally likely courses of a session's errors, given its probes.
 ///
-/// A session's errors are those of the map's held-out sessions, larger or
-/// smaller as a whole, or these and one disturbance: an offset, a gain of the
-/// predicted error, an offset that grows, a shape over the position, or a shape
-/// that grows. Each is a Gaussian process, held-out errors as an offset that
-/// wanders (FitOffset) with noise, of the size that they have at the time;
-/// shapes are left out if the probes have no position;
-/// sizes of disturbances are on a grid. What probes make of all these by Bayes'
-/// rule, and what follows at other times and places, is in closed form
-/// (Rasmussen & Williams 2006, Eqs. 2.22 to 2.30).
+/// A session's errors are scaled errors of the map's held-out sessions, with or
+/// without one disturbance. This is an offset, a gain of the predicted error, a
+/// growing offset, a shape over the position (if known), or a growing shape.
+/// Each is a Gaussian process. Held-out errors are a drifting offset
+/// (FitOffset) with noise, of the size usual at that time. Sizes of
+/// disturbances are on a grid. Bayes' rule weights all of these by the probes,
+/// and predicts other times and places, in closed form (Rasmussen & Williams
+/// 2006, Eqs. 2.22 to 2.30).
 struct SessionForecast {
-  // Sites: times and places of held-out errors, spread evenly, by rising time.
+  // Sites: times and places of held-out errors, evenly spread, in order of
+  // time.
   VectorXd elapsed;           // (m)
   VectorXd position;          // (m), or (0)
   VectorXd predicted;         // (m), or (0)
@@ -36,8 +36,8 @@ struct SessionForecast {
   MatrixXd errors;            // (draws x m) target's unit
 };
 
-/// `errors` has a positive RMSE; `probes` at least one row, all finite. Where
-/// the time of `errors` is not in seconds, nothing comes later.
+/// `errors` has a positive RMSE; `probes` has at least one row, all finite. If
+/// the time of `errors` is not in seconds, `later` is empty.
 SessionForecast ForecastSession(const HeldOutErrors& errors,
                                 const SessionProbes& probes);
 

@@ -8,18 +8,18 @@
 
 namespace errmap::models {
 
-/// Errors of a map within a session: an offset that wanders, and independent
-/// noise. The autocovariance is variance * exp(-lag / memory), plus the noise
-/// at lag 0.
+/// Errors of a map within a session: a drifting offset and independent noise.
+/// The autocovariance is variance * exp(-lag / memory), plus the noise at lag
+/// 0.
 struct OffsetModel {
   double variance = 0.0;  // of the offset, target's unit squared
-  double memory = 0.0;    // in the errors' time unit; infinite: it never fades
+  double memory = 0.0;    // in the errors' time unit; infinite: no decay
   double noise = 0.0;     // variance of the rest, above 0
 };
 
 /// Fits the autocovariance of the held-out errors within their units by least
 /// squares; each unit has the same weight. The memory is chosen among fractions
-/// and multiples of the longest unit, the variance follows in closed form. The
+/// and multiples of the longest unit. The variance follows in closed form. The
 /// offset variance is at least 1/(n + 1) of the mean square, since n units
 /// cannot exclude an offset.
 OffsetModel FitOffset(const HeldOutErrors& errors);
@@ -31,39 +31,39 @@ class OffsetFilter {
  public:
   explicit OffsetFilter(const OffsetModel& model);
 
-  /// Moves on to `time`, which must not be before the last one. What the probes
-  /// showed fades.
+  /// Advances to `time`, at or after the last one. The effect of earlier probes
+  /// decays.
   void Advance(double time);
-  /// Takes in the error (target less prediction) of a probe at that time. An
-  /// error three standard deviations from the predicted one starts an offset of
-  /// its size. That offset does not fade; only what wanders about it does.
+  /// Adds the error (target minus prediction) of a probe at that time. An error
+  /// three standard deviations from the predicted one starts a lasting offset
+  /// of its size. Only the drift about it decays.
   void Update(double residual);
 
   double offset() const { return offset_; }  // target's unit
-  /// Variance of the offset; never below that of the mean of probes that
-  /// scatter like these. The model's variances are scaled by the ratio of
-  /// squared to predicted probe errors (West & Harrison 1997, section 4.5). The
-  /// held-out sessions count as four probes in it. The probe that starts an
-  /// offset counts as three standard deviations, since the machine moved.
+  /// Variance of the offset, at least that of the mean of probes with this
+  /// scatter. The model's variances are scaled by the ratio of squared to
+  /// predicted probe errors (West & Harrison 1997, section 4.5). In this ratio
+  /// the held-out sessions count as four probes. A probe that starts a lasting
+  /// offset counts as three standard deviations.
   double variance() const;
-  /// True if the probes differ from their predictions by more than 95 in 100
-  /// sets of probes of an offset would. Then an offset does not explain them.
-  /// The probe that starts an offset does not count.
+  /// True if no offset explains the probes: under an offset, only 5 % of such
+  /// sets differ more from their predictions. A probe that starts a lasting
+  /// offset does not count.
   bool contradicted() const;
   /// The factor for an interval, with Student's t for so few probes. It is the
-  /// standard deviation of an error less the offset, over that of the model's
-  /// errors. At least 1 for a single probe, whose scatter is unknown. If the
-  /// probes contradict the offset, at least their own scatter about it.
+  /// standard deviation of errors after the offset is removed, over that of the
+  /// model's errors. At least 1 for a single probe, whose scatter is unknown.
+  /// If the probes contradict the offset, it covers at least their own scatter.
   double Widening() const;
 
  private:
-  double Believed() const;      // probes behind Scale, as degrees of freedom
-  double Scale() const;         // of today's variances, over the model's
+  double Believed() const;      // degrees of freedom of Scale
+  double Scale() const;         // today's variances over the model's
   double MeanVariance() const;  // of the mean of the probes, by their scatter
 
   OffsetModel model_;
   bool started_ = false;
-  bool moved_ = false;  // an offset of no held-out session's size
+  bool moved_ = false;  // a lasting offset was started
   double time_ = 0.0;
   double offset_ = 0.0;
   double variance_ = 0.0;
@@ -75,14 +75,14 @@ class OffsetFilter {
   double squares_ = 0.0;
 };
 
-/// When something was measured: session and time within a file's own clock.
+/// The time of a measurement: its session, and the time on its file's clock.
 struct Moment {
   std::string session;
   double time = 0.0;
 };
 
-/// The offset at each of `moments` (m) and its variance, from the probes of the
-/// same session up to then.
+/// The offset at each of `moments` (m) and its variance, from earlier probes of
+/// the same session.
 struct OffsetTrack {
   VectorXd offset;                 // (m) target's unit
   VectorXd variance;               // (m)

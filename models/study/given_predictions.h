@@ -15,7 +15,7 @@ namespace errmap::models {
 struct GivenPredictions {
   std::string name;
   std::string file;
-  /// By 0-based data row, from a file with row,predicted. They serve every
+  /// By 0-based data row, from a file with row,predicted. They apply to every
   /// hold-out of the data file itself.
   std::map<Index, double> by_row;
   /// By (hold-out, fold) and data row, from row,holdout,fold,predicted.

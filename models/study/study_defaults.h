@@ -18,7 +18,7 @@ namespace errmap::models {
 std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset);
 
 /// Returns DefaultHoldouts if every one of the chosen `holdouts` uses a test
-/// file that contains training rows, and so tells nothing; else nothing.
+/// file that contains training rows, and so is worthless; else returns nothing.
 std::vector<std::string> HoldoutsBeside(const std::vector<Holdout>& holdouts,
                                         const data::Dataset& dataset);
 

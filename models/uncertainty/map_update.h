@@ -26,10 +26,10 @@ struct UpdateTrial {
   double new_rmse = 0.0;
   std::string why_failed;  // of the successor; "": it could be fitted
 
-  /// Whether the RMSE is lower by more than `indifference`, and also its
-  /// geometric mean over the sessions. So one long session alone does not
-  /// decide. Nor does a session that is a little worse outweigh one that was
-  /// far off.
+  /// True if the RMSE is lower by more than `indifference`, and so is its
+  /// geometric mean over the sessions. Thus one long session alone does not
+  /// decide, and a slightly worse session does not outweigh one that was far
+  /// off.
   bool better(double indifference) const;
 };
 

@@ -8,13 +8,13 @@
 
 namespace errmap::models {
 
-/// Tells a map fitted to `dataset` where it was trained, and on which rows.
-/// Empty if MakeApplicability and MakeLearntRows have nothing.
+/// Records in a map fitted to `dataset` its training range and rows. Both stay
+/// empty if MakeApplicability and MakeLearntRows return nothing.
 void AddExperience(const data::Dataset& dataset, FittedModel* fitted);
 
 /// Gives a map fitted to `dataset` its interval and the errors behind it, from
-/// the predictions of `holdout`'s held-out rows. Empty if PromiseOf has
-/// nothing.
+/// the predictions of `holdout`'s held-out rows. They stay empty if PromiseOf
+/// returns nothing.
 void AddPromise(const data::Dataset& dataset,
                 const Holdout& holdout,
                 const HoldoutResult& result,

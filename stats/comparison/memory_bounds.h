@@ -70,7 +70,7 @@ class MemoryBounds {
   /// Throws std::invalid_argument if `losses` are invalid.
   explicit MemoryBounds(const UnitLosses& losses);
 
-  /// Tests the RMSE of model `a` less that of `b`, given `memory` (0 to 0.98).
+  /// Tests the RMSE of model `a` minus that of `b`, given `memory` (0 to 0.98).
   /// Not applicable below 4 units.
   MemoryTest OfDifference(Index a, Index b, double memory) const;
   /// Return MemoryOf and ShownMemory of the units' contributions to that

@@ -62,7 +62,7 @@ struct ComparisonOptions {
 struct PairComparison {
   Index a = 0;
   Index b = 0;
-  double difference = 0.0;  // pooled RMSE of a less that of b
+  double difference = 0.0;  // pooled RMSE of a minus that of b
   /// True if no unit's losses differ by more than rounding: the same map twice.
   /// Nothing is tested, every p is NaN, and Holm's correction omits it.
   bool tied = false;

@@ -13,7 +13,7 @@ namespace errmap::stats {
 /// Tests see only z, so results do not depend on shift, scale or row order.
 class OrderedSample {
  public:
-  /// Does not throw for any values; why_not() says why they cannot be tested.
+  /// Never throws. If the values cannot be tested, why_not() says why.
   explicit OrderedSample(const Eigen::Ref<const VectorXd>& sample);
 
   Index size() const { return z_.size(); }

@@ -158,6 +158,12 @@ class Checks:
         marked = re.search(r'<tr class="mark">(.*?)</tr>', page, re.S)[1]
         cells = [shown(cell) for cell in re.findall(r"<td.*?</td>", marked, re.S)]
         self.same(case, "table of the page", [model, error], [cells[0], cells[1].split(" ")[0]])
+        drawn = dict(re.findall(r"<text[^>]*>(\S+:\d+) \(([^<)]*)\)</text>", page))
+        tabled = dict(re.findall(r"<bdi>([^\s<]+:\d+) RMSE.*?class=\"soft\">([^<;]*)", page))
+        for name in drawn.keys() & tabled.keys():
+            words = drawn[name].removesuffix(" known")
+            self.same(case, f"what {name} holds out", tabled[name], words)
+        self.same(case, "hold-outs drawn and tabled", True, bool(drawn.keys() & tabled.keys()))
         number = shown(re.search(r'<p class="number">.*?</p>', page)[0])
         self.same(case, "number of the page", error, number.split(" ")[0])
         bold = next(line for line in text.split("\n") if line.startswith("| **"))
@@ -192,7 +198,7 @@ class Checks:
         for paragraph in paragraphs_of_screen(lines):
             self.short(case, "on the screen", paragraph)
         for part in re.findall(r"<(?:p|li|dd)[ >].*?</(?:p|li|dd)>", page, re.S):
-            if not re.search(r"<code>|<a |^<p>\d+ inputs?:|less its centre:", part):
+            if not re.search(r"<code>|<a |^<p>\d+ inputs?:|minus its centre:", part):
                 self.short(case, "on the page", shown(part))
 
         files = [m["file"] for m in component["models"] if m["name"] == model and m.get("file")]

@@ -163,7 +163,7 @@ TEST(ParseCsv, TakesNumbersAsPeopleWriteThem) {
   EXPECT_THAT(table.columns[3].values, ElementsAre(-2.5, -2.5));
   EXPECT_THAT(table.columns[4].values, ElementsAre(3.5, -4.0));
   EXPECT_THAT(table.remarks,
-              Contains(HasSubstr("5 cells are read as numbers less marks")));
+              Contains(HasSubstr("5 cells are read as numbers without marks")));
   // With points in other numbers a comma is none.
   EXPECT_THAT(ParseCsv("a,b\n\"25,000\",2.5\n", "f.csv").columns[0].values,
               ElementsAre(25000.0));

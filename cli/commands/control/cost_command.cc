@@ -126,19 +126,22 @@ int RunCost(const CostArguments& arguments) {
 
 void AddCostCommand(CLI::App* app, Run* run) {
   const Command<CostArguments> command(
-      app, run, "cost", "Count and time what a map asks of a controller");
+      app,
+      run,
+      "cost",
+      "Report a map's operations, memory and time on a controller");
   AddModelArgument(command, &command->model);
   AddFlag(command,
           "--float",
           command->single,
-          "In single precision, but for the state");
+          "Use single precision except for the state");
   AddEveryOption(command, &command->every);
   AddFormatOption(command, &command->format);
   SetFooter(
       command,
       R"(Operations are counted from the program that errmap export writes; bytes and times are
-measured on its C, compiled here. A polynomial of 10 terms takes some 10 ns, a net with
-37 inputs and 10 hidden nodes some 200 ns. Both fit a servo period of 1 ms.
+measured on its C code, compiled here. A polynomial of 10 terms takes about 10 ns, a net with
+37 inputs and 10 hidden nodes about 200 ns. Both fit a servo period of 1 ms.
 Example: errmap cost map.json)");
   command.Runs(RunCost);
 }

@@ -207,7 +207,7 @@ void SayWhatFailuresDo(const models::MapProgram& program) {
     if (reading.is_position || !models::IsCount(reading.column.unit)) continue;
     Say(
         fmt::format("{} is counted, not measured: no check finds it wrong, so "
-                    "begin it anew with each session",
+                    "restart it with each session",
                     data::NameInRemark(reading.column.name)));
   }
   const std::vector<models::FailingSensor> sensors =
@@ -304,13 +304,13 @@ void AddTableOptions(CLI::App* command, TableArguments* tables) {
   AddOption(command,
             "--increasing FILE.json",
             tables->increasing,
-            "Map of the motion towards increasing positions, in place "
-            "of MODEL\n(on some slides that is the reverse)");
+            "Map of motion towards increasing positions, in place of "
+            "MODEL\n(on some slides that is the reverse)");
   AddOption(command,
             "--decreasing FILE.json",
             tables->decreasing,
-            "Map of the motion towards decreasing positions; both act "
-            "in one file");
+            "Map of motion towards decreasing positions; one exported "
+            "file has both");
   AddOption(command,
             "--at NAME=VALUE,...",
             tables->at,
@@ -318,14 +318,16 @@ void AddTableOptions(CLI::App* command, TableArguments* tables) {
   AddOption(command,
             "--log FILE.csv",
             tables->log,
-            "Tables: thermal state where this session leads to");
-  AddOption(
-      command, "--row", tables->row, "Row of --log, from 0 (default: the last)")
+            "Tables: thermal state at the end of this session");
+  AddOption(command,
+            "--row",
+            tables->row,
+            "Row of --log to use, from 0 (default: the last)")
       .NotNegative();
   AddOption(command,
             "--resolution",
             tables->resolution,
-            "--linuxcnc: errors in steps of this (machine unit)")
+            "--linuxcnc: round errors to this (machine unit)")
       .Positive();
   AddOption(command,
             "--units",
@@ -333,7 +335,10 @@ void AddTableOptions(CLI::App* command, TableArguments* tables) {
             "--hal, --linuxcnc: the machine's unit of length")
       .OneOf({"mm", "in"})
       .ShowDefault();
-  AddOption(command, "--points", tables->points, "--linuxcnc: most points")
+  AddOption(command,
+            "--points",
+            tables->points,
+            "--linuxcnc: largest number of points")
       .Range(2, models::kMostCompPoints)
       .ShowDefault();
   AddOption(command,
@@ -376,24 +381,26 @@ void AddExportCommand(CLI::App* app, Run* run) {
   AddFlag(command,
           "--float",
           command->single,
-          "Single precision: C but for the state, text with REAL alone");
+          "Use single precision: in C except for the state, in structured "
+          "text throughout (REAL)");
   AddOption(command, "-o,--output DIR", command->out, "Folder to write into")
-      .Required();
+      .Required()
+      .Under(kOutputOptions);
   AddOption(command,
             "--name NAME",
             command->name,
-            "What symbols begin with (default: the file's name)");
+            "Prefix of all symbols (default: the file's name)");
   AddFlag(command,
           "--hal",
           command->hal,
-          "A LinuxCNC component (.comp), its wiring (.hal)");
+          "A LinuxCNC component (.comp) and its wiring (.hal)");
   AddOption(command, "--joint", command->joint, "--hal: joint to compensate")
       .Range(0, 8)
       .ShowDefault();
   AddFlag(command,
           "--table",
           command->table,
-          "NAME.csv over position and one other input");
+          "NAME.csv, a table over position and one input");
   AddFlag(command,
           "--linuxcnc",
           command->linuxcnc,
@@ -411,7 +418,7 @@ void AddExportCommand(CLI::App* app, Run* run) {
   AddEveryOption(command, &command->every);
   AddTableOptions(command, &command->tables);
   AddForceFlag(command, &command->force);
-  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
+  AddQuietFlag(command, &command->quiet);
   MarkSeldom(command,
              {"--float",
               "--joint",
@@ -422,12 +429,11 @@ void AddExportCommand(CLI::App* app, Run* run) {
               "--resolution"});
   SetFooter(
       command,
-      R"(Every file states inputs, their order and units, and the sign: compensation = -error.
-What is written is checked against errmap predict first, and tests itself:
+      R"(Every file states its inputs, their order and units, and the sign: compensation = -error.
+Before it is written, it is checked against errmap predict. It can test itself:
   cc -DNAME_SELF_TEST NAME.c -lm && ./a.out
-LinuxCNC's forward column holds where the position increases.
-Examples: errmap export map.json --c -o controller
-  errmap export --linuxcnc --increasing up.json --decreasing down.json -o x.comp.txt)");
+In a COMP_FILE, the forward column is for increasing positions.
+Example: errmap export map.json --c -o control)");
   command.Runs(RunExport);
 }
 

@@ -324,10 +324,9 @@ void AddCheckCommand(CLI::App* app, Run* run) {
   AddFormatOption(command, &command->format);
   AddMapLogArguments(command, &command->rows.log);
   AddFromRest(command, &command->rows.log);
-  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
-  SetFooter(
-      command,
-      R"(Answers three questions and stops at the first that has an answer.
+  AddQuietFlag(command, &command->quiet);
+  SetFooter(command,
+            R"(Asks three questions, and stops at the first that decides.
 - The readings: is a sensor dead, frozen, swapped, off or in another unit?
 - The start: are the first rows of the session there, for a map with a
 memory?
@@ -335,11 +334,10 @@ memory?
 for the session so far, and for the rest of it.
 
 Rows without a target are readings between the probes, for the memory of a
-map. Earlier readings come by --after, which needs no positions.
+map. Name earlier readings with --after; they need no positions.
 Exit status: 0 it holds; 4 it does not, or a sensor is at fault; 5 not known,
-or
-only so far.
-Example: errmap check map.json probes.csv --after today.csv)");
+or it holds only so far.
+Example: errmap check map.json data/sets/turning_centre/later_days.csv)");
   command.Runs(RunCheck);
 }
 

@@ -236,8 +236,10 @@ void AddEvaluateCommand(CLI::App* app, Run* run) {
   AddFormatOption(command, &command->format);
   AddMapLogArguments(command, &command->rows.log);
   AddFromRest(command, &command->rows.log);
-  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
-  SetFooter(command, "Example: errmap evaluate map.json tuesday.csv");
+  AddQuietFlag(command, &command->quiet);
+  SetFooter(command,
+            "Example: errmap evaluate map.json "
+            "data/sets/turning_centre/later_days.csv");
   command.Runs(RunEvaluate);
 }
 

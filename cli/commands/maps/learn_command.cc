@@ -361,11 +361,12 @@ void AddLearnCommand(CLI::App* app, Run* run) {
             "--out DIR",
             command->out,
             "Folder for learn-*.json, learn-*.svg and the journal of fits\nIn "
-            "a study's folder, errmap report puts the curves on its page");
+            "a study's folder, errmap report puts the curves on its page")
+      .Under(kOutputOptions);
   AddFlag(command,
           "--resume",
           command->resume,
-          "Go on with the fits of an earlier run in --out");
+          "Continue the interrupted run in --out");
   AddForceFlag(command, &command->force);
   AddFormatOption(command, &command->format);
   AddCacheFlag(command, &command->cache);
@@ -374,9 +375,8 @@ void AddLearnCommand(CLI::App* app, Run* run) {
       command,
       R"(Whole days or cycles are held out, and maps learn from more and more of the
 others. A power law through the curve tells how many would reach the goal,
-if any number would. Sensors are chosen inside the folds, by a linear map of
-each.
-Example: errmap learn days.csv --by sessions --goal 2um)");
+if any number would. Sensors are chosen inside the folds, with linear maps.
+Example: errmap learn data/sets/turning_centre/six_days.csv --by sessions --goal 2um)");
   command.Runs(RunLearn);
 }
 

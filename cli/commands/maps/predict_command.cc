@@ -339,7 +339,8 @@ void AddPredictCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "-o,--output FILE.csv",
             command->out,
-            "File to write (default: stdout)");
+            "File to write (default: stdout)")
+      .Under(kOutputOptions);
   AddOption(command,
             "--probes PROBES.csv",
             command->probes,
@@ -348,7 +349,7 @@ void AddPredictCommand(CLI::App* app, Run* run) {
             "contradict one offset");
   AddMapLogArguments(command, &command->log);
   AddFromRest(command, &command->log);
-  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
+  AddQuietFlag(command, &command->quiet);
   SetFooter(
       command,
       R"(Columns: record; cycle, time and position if the data have them; predicted,
@@ -361,7 +362,7 @@ what differs.
 - start, gap: the memory of the map lacks earlier rows
 - where: the map is not made for such rows
 Exit status: 0 done; 4 if a prediction is not finite: its cell stays empty.
-Example: errmap predict map.json today.csv -o predicted.csv)");
+Example: errmap predict map.json data/sets/turning_centre/later_days.csv -o predicted.csv)");
   command.Runs(RunPredict);
 }
 

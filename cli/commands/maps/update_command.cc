@@ -288,7 +288,8 @@ void AddUpdateCommand(CLI::App* app, Run* run) {
       .Required();
   AddOption(
       command, "-o,--output FILE.json", command->out, "Model file to write")
-      .Required();
+      .Required()
+      .Under(kOutputOptions);
   AddOption(
       command,
       "--known DATA.csv",
@@ -307,14 +308,14 @@ void AddUpdateCommand(CLI::App* app, Run* run) {
   AddRowOptions(command, &command->missing, &command->faults);
   AddSeedOption(command, &command->seed);
   AddFormatOption(command, &command->format);
-  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
+  AddQuietFlag(command, &command->quiet);
   SetFooter(
       command,
       R"(Fits the same type of model, with the same inputs, to old and new sessions.
 The old map, and one that has not seen it, predict each new session. The new
 map is written if it errs clearly less, in RMSE and in the geometric mean
-over the sessions. Otherwise the old map is.
-Example: errmap update map.json tuesday.csv -o new.json)");
+over the sessions. Otherwise the old one is.
+Example: errmap update map.json data/sets/turning_centre/later_days.csv --known data/sets/turning_centre/six_days.csv -o new.json)");
   command.Runs(RunUpdate);
 }
 

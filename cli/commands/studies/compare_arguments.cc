@@ -26,7 +26,7 @@ void AddJudgingOptions(CLI::App* command, CompareArguments* arguments) {
   AddOption(command,
             "--split FILE.csv",
             arguments->split,
-            "Hold-outs from a file with row,holdout,fold,role in place "
+            "Hold-outs from a file with row,holdout,fold,role, in place "
             "of the default ones");
   AddOption(command,
             "--save-split FILE.csv",
@@ -106,20 +106,24 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
             "--out DIR",
             arguments->out,
             "Folder for report.html, results.json, residuals.csv and "
-            "models/");
+            "models/")
+      .Under(kOutputOptions);
   add_of_modes_after("--out");
   AddOption(command,
             "-o,--output PAGE.html",
             arguments->page,
-            "The page alone: a file to write");
+            "Write only the page, to this file")
+      .Under(kOutputOptions);
   AddFlag(command,
           "--all",
           arguments->all,
-          "Every model in the table, not the best twelve");
+          "Show every model in the table, not the best twelve")
+      .Under(kOutputOptions);
   AddFlag(command,
           "--details",
           arguments->details,
-          "Also p values, gaps, times and every sentence");
+          "Also print p values, gaps, times and all remarks")
+      .Under(kOutputOptions);
   AddTableFormatOption(command,
                        "What to print; csv and md have a row per component, "
                        "hold-out and model",

@@ -230,7 +230,7 @@ void AddCompareCommand(CLI::App* app, Run* run) {
   SetFooter(
       command,
       R"(Exit status: 0 done, 2 wrong command line, 3 unusable input, 4 every fit failed, 130 interrupted.
-Example: errmap compare xdown.csv --models mean,poly:eq8,net:scg --out study)");
+Example: errmap compare data/sets/turning_centre/six_days.csv --out study)");
   command.Runs(
       [command](CompareArguments& arguments, const std::string& command_line) {
         arguments.given = GivenOptions(*command.app());

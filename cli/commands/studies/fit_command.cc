@@ -322,7 +322,8 @@ void AddFitCommand(CLI::App* app, Run* run) {
             "-o,--output FILE.json",
             command->out,
             "Model file to write, or a folder: a map per direction of motion")
-      .Required();
+      .Required()
+      .Under(kOutputOptions);
   AddSeedOption(command, &command->seed);
   AddOption(command,
             "--jobs N",
@@ -332,7 +333,8 @@ void AddFitCommand(CLI::App* app, Run* run) {
   AddFlag(command,
           "--correlations",
           command->correlations,
-          "Also print the correlations of inputs and target");
+          "Also print the correlations of inputs and target")
+      .Under(kOutputOptions);
   AddFlag(command,
           "--no-interval",
           command->no_interval,
@@ -341,12 +343,13 @@ void AddFitCommand(CLI::App* app, Run* run) {
   AddFlag(command,
           "--details",
           command->details,
-          "Print the equation and tables whatever their size");
+          "Print the equation and tables in full, even if large")
+      .Under(kOutputOptions);
   AddKeepPathsFlag(command);
   AddFormatOption(command, &command->format);
-  SetFooter(
-      command,
-      "Example: errmap fit xdown.csv --model poly:full:degree=3 -o map.json");
+  SetFooter(command,
+            "Example: errmap fit data/sets/turning_centre/six_days.csv --model "
+            "poly:ridge:view=auto -o map.json");
   command.Runs(RunFit);
 }
 

@@ -92,15 +92,11 @@ void AddInitCommand(CLI::App* app, Run* run) {
   AddOption(
       command, "-o,--output study.toml", command->out, "Study file to write")
       .ShowDefault();
-  AddFlag(command,
-          "--force",
-          command->force,
-          "Replace a file that is there already");
+  AddFlag(command, "--force", command->force, "Replace an existing file");
   SetFooter(
       command,
       R"(A column of few values, such as direction, becomes one component per value.
-Example: errmap init xdown.csv -o study.toml && errmap compare --config
-study.toml)");
+Example: errmap init data/sets/turning_centre/six_days.csv -o study.toml)");
   command.Runs(RunInit);
 }
 

@@ -239,11 +239,12 @@ void AddReadCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "-o,--output clean.csv",
             command->out,
-            "Write the table as understood");
+            "Write the table as understood")
+      .Under(kOutputOptions);
   AddFormatOption(command, &command->format);
   SetFooter(command,
             "Each line names the option that changes it.\n"
-            "Example: errmap read day1.csv day2.csv -o clean.csv");
+            "Example: errmap read data/sets/turning_centre/six_days.csv");
   command.Runs(RunRead);
 }
 

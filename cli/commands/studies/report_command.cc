@@ -137,15 +137,12 @@ int RunReport(const ReportArguments& arguments) {
 
 void AddReportCommand(CLI::App* app, Run* run) {
   const Command<ReportArguments> command(
-      app,
-      run,
-      "report",
-      "Draw the report of a comparison anew, without fitting");
+      app, run, "report", "Redraw the report of a comparison, without fitting");
   AddOption(command,
             "DIR",
             command->folder,
             "Folder that errmap compare --out wrote, or a store; report.html "
-            "and report.md are drawn anew from its results.json")
+            "and report.md are redrawn from its results.json")
       .Required()
       .Value("");
   AddOption(command,
@@ -165,7 +162,7 @@ void AddReportCommand(CLI::App* app, Run* run) {
   SetFooter(
       command,
       "Exit status: 0 done, 2 wrong command line, 3 unusable results.json.\n"
-      "Example: errmap report study --figures paper");
+      "Example: errmap report study --figures figures");
   command.Runs(RunReport);
 }
 

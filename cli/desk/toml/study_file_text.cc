@@ -95,7 +95,7 @@ std::string StudyKeys(const StudyPlan& plan) {
   text += ListKey(
       "models", plan.config.models, plan.components.front().ModelNames());
   text += fmt::format(
-      "{}rezero = {}   # judge maps with their offset set anew so often\n",
+      "{}rezero = {}   # judge maps that are re-zeroed this often\n",
       plan.config.rezero.empty() ? "# " : "",
       TomlText(plan.config.rezero.empty() ? "2h:noise=0.5um"
                                           : plan.config.rezero));

@@ -105,7 +105,7 @@ class FleetMode : public CompareMode {
     AddOption(command,
               "--shard I/N|env",
               shard_,
-              "Do only share I (0 to N-1) of a study of many components\nenv: "
+              "Run only share I (0 to N-1) of a study of many components\nenv: "
               "the share that mpirun or Slurm gave this task. errmap merge "
               "STORE joins the shares");
     MarkSeldom(command, {"--shard"});

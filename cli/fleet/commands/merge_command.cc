@@ -22,7 +22,7 @@ int RunMerge(const MergeArguments& arguments) {
       fleet::MergeStore(fleet::StorePaths{arguments.store});
   if (!found.damaged.empty()) {
     Say(fmt::format(
-        "errmap.sqlite was damaged: it is written anew, without deployments "
+        "errmap.sqlite was damaged: it is rewritten, without deployments "
         "and what was watched, and the old one is {}; errmap deploy STORE "
         "deploys maps again",
         data::PrintablePath(found.damaged)));

@@ -202,7 +202,7 @@ void AddSubmitCommand(CLI::App* app, Run* run) {
       "Writes three scripts into STORE/slurm. shards.sh is a job array, "
       "merge.sh runs after it even if tasks failed, and submit.sh submits "
       "both. Time and memory are those of a dry run, with margins. Memory is "
-      "requested only if a node reports that it has so much.\nExit status: 0 "
+      "requested only if a node reports that it has that much.\nExit status: 0 "
       "done, 1 sbatch refused, 3 unusable study file.\nExample: errmap submit "
       "slurm --config fleet.toml --out fleet --tasks 64 --cpus 4");
   command.Runs(RunSubmit);

@@ -195,9 +195,9 @@ void AddWatchCommand(CLI::App* app, Run* run) {
             "folders of them, or COMPONENT=FILE")
       .Required();
   AddTableFormatOption(command,
-                       "What to print; all but table have every component",
+                       "What to print; csv, json and md have every component",
                        &command->format);
-  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
+  AddQuietFlag(command, &command->quiet);
   SetFooter(
       command,
       R"(Compares offset and RMS of each session with the sessions held out when the

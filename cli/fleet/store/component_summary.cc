@@ -190,7 +190,7 @@ ComponentSummary SummaryFromJsonText(std::string_view text) {
   return models::RecordFromText<ComponentSummary>(
       text,
       ComponentSummary().schema,
-      "errmap compare with the same study and store writes it anew");
+      "errmap compare with the same study and store rewrites it");
 }
 
 }  // namespace errmap::fleet

@@ -362,14 +362,13 @@ class FleetPage {
         "All components",
         report::ScrolledTable(
             "All components",
-            fmt::format(
-                "<tr><th class=\"t\">component</th><th "
-                "class=\"t\">use</th><th>error</th>"
-                "<th class=\"t\">of an</th><th>95 %</th>{}<th "
-                "class=\"t\">goal</th>"
-                "<th class=\"t\">to hand it over</th></tr>\n{}",
-                pictures ? "<th class=\"t\">left of the error</th>" : "",
-                rows)),
+            fmt::format("<tr><th class=\"t\">component</th><th "
+                        "class=\"t\">use</th><th>error</th>"
+                        "<th class=\"t\">of an</th><th>95 %</th>{}<th "
+                        "class=\"t\">goal</th>"
+                        "<th class=\"t\">to hand it over</th></tr>\n{}",
+                        pictures ? "<th class=\"t\">remaining error</th>" : "",
+                        rows)),
         found_.summaries.size() <= kMostShown);
   }
 

@@ -82,7 +82,7 @@ FleetRecord ReadFleet(const StorePaths& paths) {
         return models::RecordFromText<FleetRecord>(
             text,
             FleetRecord().schema,
-            "errmap compare with the same study and store writes it anew");
+            "errmap compare with the same study and store rewrites it");
       });
 }
 

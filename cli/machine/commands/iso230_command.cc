@@ -464,7 +464,7 @@ void AddIso230Command(CLI::App* app, Run* run) {
             "(default: direction, else the order of the positions)");
   AddOption(command, "--figure FILE.svg", command->figure, "Draw it");
   AddTableFormatOption(command, "What to print", &command->format);
-  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
+  AddQuietFlag(command, &command->quiet);
   SetFooter(
       command,
       R"(Each row is one run to one position. The figures of ISO 230-2:2014 come from
@@ -476,7 +476,7 @@ alone
 
 The standard tests a settled machine: in warm-up rows its drift enters R and
 A.
-Example: errmap iso230 down.csv up.csv --map down.json --map up.json)");
+Example: errmap iso230 data/sets/turning_centre/x_displacement_down.csv data/sets/turning_centre/x_displacement_up.csv)");
   command.Runs(RunIso230);
 }
 

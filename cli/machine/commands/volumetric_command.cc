@@ -139,14 +139,14 @@ std::string SensitiveText(const Machine& machine) {
 void SayErrors(const Synthesis& s) {
   const double most = s.sensitive.maxCoeff();
   const report::ErrorText text(s.machine.length, most);
-  Say(
-      fmt::format("{} of {}: tool less work, in {} at most {}, 95 % within {}. "
-                  "Compensate by minus that",
-                  report::Count(s.sensitive.size(), "point"),
-                  data::QuotedText(s.machine.name),
-                  SensitiveText(s.machine),
-                  text.WithUnit(most),
-                  text.WithUnit(Quantile95(s.sensitive))));
+  Say(fmt::format(
+      "{} of {}: tool minus work, in {} at most {}, 95 % within {}. "
+      "Compensate by minus that",
+      report::Count(s.sensitive.size(), "point"),
+      data::QuotedText(s.machine.name),
+      SensitiveText(s.machine),
+      text.WithUnit(most),
+      text.WithUnit(Quantile95(s.sensitive))));
   const double difference = s.errors.LargestDifference();
   Say(fmt::format(
       "exact and first order differ by at most {}",
@@ -228,7 +228,7 @@ std::vector<std::string> DiagonalLines(const Synthesis& s,
                   DiagonalText(s, *runs, s.errors.exact))};
   if (truth) {
     lines.push_back(
-        fmt::format("{}, measured: {}; less the maps: {}",
+        fmt::format("{}, measured: {}; minus the maps: {}",
                     kWhat,
                     DiagonalText(s, *runs, *truth),
                     DiagonalText(s, *runs, *truth - s.errors.exact)));
@@ -331,7 +331,8 @@ void AddVolumetricCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "-o,--output OUT.csv",
             command->out,
-            "File to write (default: stdout)");
+            "File to write (default: stdout)")
+      .Under(kOutputOptions);
   AddMapLogArguments(command, &command->log);
   AddFromRest(command, &command->log);
   AddOption(command,
@@ -341,18 +342,20 @@ void AddVolumetricCommand(CLI::App* app, Run* run) {
             "for none")
       .ShowDefault();
   AddSeedOption(command, &command->options.seed, "Seed of the draws");
-  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
+  AddQuietFlag(command, &command->quiet);
   SetFooter(
       command,
       "Columns, in the machine's unit of length:\n- error_x ... error_z: tool "
-      "less work in the base frame, the product of the matrices\n- "
+      "minus work in the base frame, the product of the matrices\n- "
       "error_sensitive: its length in the machine's sensitive directions\n- "
       "first_order_*, half_width_90_*: to first order\n- lower_90_*, "
       "upper_90_*: by draws; empty without intervals\n- inside, outside: "
       "outside names maps that extrapolate\n- what each error adds\n\nThe "
-      "position of a map is the coordinate of its link. A pair { forward, "
-      "reverse } takes x_direction for x_mm. Components are taken as "
-      "independent. Points with error_x_mm ... error_z_mm also give the error "
+      "position of a map is the coordinate of its link. The "
+      "column x_direction chooses from a pair { forward, reverse } for x_mm. "
+      "Components are "
+      "assumed independent. Points with error_x_mm ... error_z_mm also give "
+      "the error "
       "with and without compensation. Points with diagonal and "
       "diagonal_direction also give the deviations of ISO 230-6. diagonal has "
       "the signs of X, Y and Z along it: ppn, p0n.\nExit status: 0 done; 4 an "

@@ -265,7 +265,8 @@ class MachinePictures {
 
   std::string Note(const MachineChoiceRecord& choice) const {
     return fmt::format(
-        "{} poses of {} {}, {} maps; tool less work. {} and {} from the work's "
+        "{} poses of {} {}, {} maps; tool minus work. {} and {} from the "
+        "work's "
         "origin.",
         choice.points,
         machine_.later.size() == 1 ? "session" : "sessions",

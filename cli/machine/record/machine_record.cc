@@ -18,7 +18,7 @@ MachineRecord MachineOfJson(const std::string& json) {
     models::record_json::RefuseMisfit(
         fmt::format(".{}{}", kMachineKey, misfit),
         models::kResultsSchema,
-        fmt::format("errmap compare with {} writes it anew",
+        fmt::format("errmap compare with {} rewrites it",
                     data::ArgumentName("out")));
   }
   return machine;

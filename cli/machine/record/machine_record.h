@@ -11,7 +11,7 @@
 #include "models/kinematics/plane_cells.h"
 #include "models/study/record/study_record.h"
 
-// What compensation by a machine's maps is worth: the part of results.json on
+// The benefit of compensation by a machine's maps: the part of results.json on
 // the error at the tool. Lengths are in the machine's unit; an error counts by
 // its length in the machine's sensitive directions.
 
@@ -19,8 +19,8 @@ namespace errmap::machine {
 
 using models::kNotKnown;
 
-/// One figure of the stated 90 % intervals along each of X, Y and Z; NaN where
-/// there are none.
+/// A figure of the stated 90 % intervals along each of X, Y and Z; NaN without
+/// intervals.
 using ByDirectionRecord = std::array<double, 3>;
 inline constexpr ByDirectionRecord kNoFigures = {
     kNotKnown, kNotKnown, kNotKnown};
@@ -45,8 +45,8 @@ struct PositioningRecord {
   double accuracy = kNotKnown;
 };
 
-/// What a component leaves at the tool: root mean square of its readings less
-/// its map on those days, times that of its sensitivities.
+/// The error that a component leaves at the tool: the RMS of its readings minus
+/// its map on those days, times the RMS of its sensitivities.
 struct MachinePartRecord {
   std::string error;  // "EXX"
   double rms = kNotKnown;
@@ -60,18 +60,19 @@ struct MachineMapRecord {
 /// The machine with one way of choosing its maps, or without any.
 struct MachineChoiceRecord {
   std::string name;  // "uncompensated", "polynomial", "neural", "recommended"
-  std::optional<std::string> why;  // there are no figures
+  std::optional<std::string> why;  // why there are no figures
   std::vector<MachineMapRecord> maps;
   std::int64_t points = 0;  // of all days
   double rms = kNotKnown;
   double p95 = kNotKnown;
   double max = kNotKnown;
-  /// Of the geometric mean of the days' p95: t of logarithms; NaN for one.
+  /// Interval of the geometric mean of the days' p95, by a t test of
+  /// logarithms; NaN for one day.
   std::array<double, 2> p95_ci95 = {kNotKnown, kNotKnown};
   ByDirectionRecord within_90 = kNoFigures;      // shares of errors
   ByDirectionRecord half_width_90 = kNoFigures;  // mean over the points
-  /// Sessions that the half-widths are from, each held out in its turn; none:
-  /// they are from the components alone, taken as independent.
+  /// Sessions behind the half-widths, each held out in turn. Empty: they come
+  /// from the components alone, taken as independent.
   std::vector<std::string> held_out;
   std::vector<MachineDayRecord> days;
   std::vector<PositioningRecord> positioning;  // of pairs of displacement maps
@@ -81,8 +82,8 @@ struct MachineChoiceRecord {
   std::vector<models::PlaneCell> cells;  // only those that have points
 };
 
-/// The working plane in which cells lie: where the tool is less where the
-/// work's origin is, in the machine's unit.
+/// The working plane of the cells: the tool's position relative to the work's
+/// origin, in the machine's unit.
 struct PlaneRecord {
   std::string across;  // "Z"
   std::string up;      // "X"
@@ -97,13 +98,13 @@ struct MachineRecord {
   std::string sensitive;             // "XZ"
   std::string points;                // file of poses with their true errors
   std::vector<std::string> later;    // sessions that no fit saw
-  std::optional<PlaneRecord> plane;  // nothing: one direction is sensitive
+  std::optional<PlaneRecord> plane;  // empty: one direction is sensitive
   std::vector<MachineChoiceRecord> choices;  // uncompensated first
 };
 
 inline constexpr const char* kMachineKey = "machine";
 
-/// Puts it into the study's record, as its key "machine".
+/// Adds it to the study's record under the key "machine".
 void AddMachine(const MachineRecord& machine, models::StudyRecord* record);
 
 /// The error at the tool on days that no fit saw, each way of choosing maps a

@@ -88,7 +88,7 @@ Table ToolTipTable(const MachineRecord& machine) {
       .title = fmt::format(
           "Error at the tool of {}, {}", machine.name, shown.symbol),
       .note = fmt::format(
-          "Tool less work, length in {}, at the poses of {} on sessions that "
+          "Tool minus work, length in {}, at the poses of {} on sessions that "
           "no fit saw ({}).{}",
           machine.sensitive,
           machine.points,
@@ -168,7 +168,7 @@ Table PositioningTable(const MachineRecord& machine) {
                                    "axis",
                                    &MachineChoiceRecord::positioning);
   table.note =
-      "Of the readings of those sessions, less the map: the runs are its "
+      "Readings of those sessions minus the map: the runs are its "
       "cycles, warm-up included.";
   return table;
 }
@@ -192,7 +192,7 @@ Table MachinePartTable(const MachineRecord& machine) {
       .title = fmt::format("What each component leaves at the tool, RMS, {}",
                            shown.symbol),
       .note =
-          "Readings of those sessions less the map, noise included, times the "
+          "Readings of those sessions minus the map, noise included, times the "
           "RMS of what one unit of it moves the tool by.",
       .columns = {{"component", false}}};
   std::vector<const MachineChoiceRecord*> shown_choices;

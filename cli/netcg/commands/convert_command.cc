@@ -51,12 +51,12 @@ void AddConvertCommand(CLI::App* app, Run* run) {
             "File to write; its ending decides: .csv, .tab (plain table), any "
             "other for the stacked form of the report (Table 2)")
       .Required();
-  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
+  AddQuietFlag(command, &command->quiet);
   SetFooter(
       command,
       R"(In a CSV file of another program, the column error* is the target. Inputs
-are the position and the other numeric columns, dead ones too.
-Example: errmap convert x_displacement_down.csv down.pat)");
+are the position and the other numeric columns, including dead ones.
+Example: errmap convert data/sets/turning_centre/six_days.csv six.pat)");
   command.Runs(RunConvert);
 }
 

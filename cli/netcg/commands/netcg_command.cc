@@ -275,22 +275,24 @@ void AddNetcgCommand(CLI::App* app, Run* run) {
   AddFlag(command,
           "--corrected",
           command->corrected,
-          "Correct statistics in the report files, and the training run's "
-          "scaling in testing runs");
-  AddOption(command,
-            "--training FILE",
-            options.netcg.training_file,
-            "Pattern file that the weights of testing runs were trained on, if "
-            "nothing else has its scaling");
+          "Print correct statistics, and use the training run's scaling in "
+          "testing runs");
+  AddOption(
+      command,
+      "--training FILE",
+      options.netcg.training_file,
+      "Pattern file on which the weights of testing runs were trained, if "
+      "no other file has its scaling");
   AddFlag(command,
           "--full-weights",
           command->full_weights,
-          "Weights files with all digits and the scaling, in place "
-          "of six digits");
+          "Write all digits and the scaling into weights files, not six "
+          "digits");
   AddOption(command,
             "--out DIR",
             options.netcg.out,
-            "Folder to write to, in place of the run file's");
+            "Folder to write to, in place of the run file's")
+      .Under(kOutputOptions);
   AddOption(command,
             "--iterations",
             options.iterations,
@@ -305,7 +307,7 @@ void AddNetcgCommand(CLI::App* app, Run* run) {
       .ShowDefault();
   AddFormatOption(command, &command->format);
   AddForceFlag(command, &command->force);
-  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
+  AddQuietFlag(command, &command->quiet);
   MarkSeldom(command,
              {"--precision",
               "--training",

@@ -17,16 +17,18 @@ struct Explained {
 constexpr std::array kExplained = {
     Explained{"error",
               "error",
-              "Where the tool is, less where it should be. The control applies "
+              "Where the tool is minus where it should be. The control applies "
               "minus the predicted error."},
-    Explained{"rmse",
-              "RMSE",
-              "The size of what a map leaves: the root of the mean square of "
-              "measured less predicted."},
-    Explained{"unseen",
-              "unseen",
-              "Held out whole: a day, a cycle or rows that the fit and all its "
-              "choices never saw."},
+    Explained{
+        "rmse",
+        "RMSE",
+        "The typical size of the remaining errors: the root mean square of "
+        "measured minus predicted."},
+    Explained{
+        "unseen",
+        "unseen",
+        "Held out as a whole: a day, a cycle or rows that the fit and all "
+        "its choices never saw."},
     Explained{"session",
               "session, cycle",
               "A session is an uninterrupted run, such as a day. A cycle is "
@@ -42,8 +44,8 @@ constexpr std::array kExplained = {
               "rows held out inside the training."},
     Explained{"baseline",
               "baseline",
-              "What needs hardly any sensor: no map, a constant, a curve in "
-              "position, a line in one temperature."},
+              "A map that needs at most one sensor: none at all, a constant, a "
+              "curve in position, a line in one temperature."},
     Explained{"promise",
               "promise",
               "The error that a map's file states for another day."}};

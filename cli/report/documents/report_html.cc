@@ -165,8 +165,8 @@ std::string IndexOf(const models::StudyRecord& record,
                            "use",
                            "error",
                            "95 %",
-                           "left of the error",
-                           "unit by unit",
+                           "remaining error",
+                           "by unit",
                            "proven",
                            "goal"}) {
     html += fmt::format("<th scope=\"col\" class=\"t\">{}</th>", name);
@@ -203,13 +203,13 @@ std::string IndexOf(const models::StudyRecord& record,
     links += fmt::format(
         "<p><a href=\"#{}\">{}</a></p>", part.id, HtmlText(part.link));
   }
-  return "<nav aria-label=\"Components\"><h2>Components</h2>\n" +
+  return "<nav aria-label=\"Components\"><h2>Components</h2>\n"
+         "<div class=\"index\">" +
          ScrolledTable("Components", html + "</tbody>") +
-         "<p class=\"soft small\">Left of the error: the "
-         "dot between 0 and the error without a map, its bar the 95 % "
-         "interval. Unit by unit: the error on each cycle, day or block held "
-         "out whole, from 0 to the largest. Proven: better than the best "
-         "baseline." +
+         "</div><p class=\"soft small\">Remaining error: a dot between 0 and "
+         "the error without a map, with its 95 % interval. By unit: the error "
+         "on each held-out day, cycle or block, from 0 to the largest. Proven: "
+         "better than the best baseline." +
          (figures.IsBrief()
               ? " Of each there is what matters most; <code>errmap "
                 "report DIR --component NAME</code> draws the "
@@ -491,12 +491,12 @@ std::string ReportHtml(const models::StudyRecord& study,
   }
   if (!views.empty()) html += Glossary();
   html +=
-      "<p class=\"printed\">What is folded on the screen is left out here; "
-      "open it before printing, or see report.md.</p>\n";
+      "<p class=\"printed\">Folded sections are not printed: open them first, "
+      "or see report.md.</p>\n";
   html += "</main>\n<footer>";
   const std::string& version = record.version;
   html += fmt::format(
-      "<p>Drawn by errmap{}; errmap report DIR draws it anew from "
+      "<p>Drawn by errmap{}; errmap report DIR draws it again from "
       "results.json.</p>",
       version.empty() ? "" : " " + HtmlText(version));
   return PageHtml(Title(record), html + "</footer>\n");

@@ -31,6 +31,7 @@ ul{margin:.4rem 0;padding-left:1.3rem;font-size:.875rem}
 .scroll{overflow-x:auto;margin:.4rem 0 1rem;border:1px solid var(--line);border-radius:4px;max-width:100%;width:fit-content}
 .scroll:focus-visible,.equation:focus-visible,summary:focus-visible,input:focus-visible,a:focus-visible{outline:3px solid var(--blue);outline-offset:2px}
 table{border-collapse:collapse;font-size:.875rem;font-variant-numeric:tabular-nums}
+.index .scroll,.index table{width:100%}
 th,td{padding:4px 10px;text-align:right;vertical-align:top;border-bottom:1px solid var(--line);overflow-wrap:normal}
 tr:last-child td{border-bottom:0}
 th{background:var(--tint);font-weight:600;vertical-align:bottom;max-width:12rem;overflow-wrap:break-word}
@@ -68,7 +69,7 @@ code{font:.8125rem/1.45 ui-monospace,SFMono-Regular,Menlo,Consolas,"Liberation M
 .notice{border:1px solid #a33a00;background:#fff4ec;border-radius:6px;padding:8px 14px;margin:.8rem 0}
 footer{border-top:1px solid var(--line);margin-top:2rem;padding-top:10px;padding-bottom:30px;font-size:.875rem;color:var(--soft)}
 @media screen and (max-width:1000px){.answer,.figures,.figures.halves{grid-template-columns:minmax(0,1fr)}.span2,.span3{grid-column:auto}figure svg{max-width:520px}}
-@media screen and (max-width:600px){main,header,footer{padding-left:14px;padding-right:14px}.card{padding:12px 14px}h1{font-size:1.3rem}.number{font-size:2rem}td:first-child{white-space:normal;overflow-wrap:anywhere;min-width:9.7rem}td.long:first-child{min-width:9.7rem}td.long{min-width:11rem}th,td{padding:4px 8px}.first2 th:nth-child(n+3),.first2 td:nth-child(n+3){display:none}.first2::after{content:"All columns: turn the phone.";font-size:.875rem;color:var(--soft)}}
+@media screen and (max-width:600px){main,header,footer{padding-left:14px;padding-right:14px}.card{padding:12px 14px}h1{font-size:1.3rem}.number{font-size:2rem}td:first-child{white-space:normal;overflow-wrap:anywhere;min-width:9.7rem}td.long:first-child{min-width:9.7rem}td.long{min-width:11rem}th,td{padding:4px 8px}.first2 th:nth-child(n+3),.first2 td:nth-child(n+3){display:none}.index th:nth-child(n+4):nth-child(-n+6),.index td:nth-child(n+4):nth-child(-n+6){display:none}.index td{white-space:normal}.index td:first-child{min-width:6rem}.first2::after,.index::after{content:"All columns: turn the phone.";font-size:.875rem;color:var(--soft)}}
 @media print{@page{margin:10mm}
 body{font-size:8.5pt;line-height:1.35}
 main,header,footer{max-width:none;padding:0}

@@ -155,7 +155,7 @@ void ComponentScreen::Leaderboard() {
     where += "; " + WhereWords(view_, view_.neighbours);
   }
   if (!view_.later.empty()) {
-    where += fmt::format("; {}, learnt from those before ({})",
+    where += fmt::format("; {}, fitted to those before ({})",
                          UnseenWords(view_, view_.later),
                          view_.later);
   }

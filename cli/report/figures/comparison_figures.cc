@@ -17,7 +17,7 @@ std::string HoldoutLabel(const ReportView& view, const std::string& holdout) {
   const models::HoldoutRecord* record = HoldoutOf(view, holdout);
   return Shortened(holdout, kNameLength) +
          (record != nullptr && (record->whole_groups || record->whole_sessions)
-              ? fmt::format(" (unseen {})", record->unit_of_analysis)
+              ? " (" + UnseenUnit(*record) + ")"
               : " (neighbours known)");
 }
 
@@ -102,7 +102,8 @@ std::vector<Series> HoldoutMarks(const ReportView& view,
                   .mark = Mark::kPoints,
                   .colour = kHoldoutColours[h],
                   .size = 2.1,
-                  .shape = kShapes[h]};
+                  .shape = kShapes[h],
+                  .on_top = h == 0};
     for (std::size_t i = 0; i < models.size(); ++i) {
       const double rmse = TestRmse(*models[i], holdouts[h]) * view.scale;
       points.Add({rmse > 0.0 ? rmse : kAutomatic, static_cast<double>(i)});
@@ -203,8 +204,9 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
       kFrame + kRow * static_cast<int>(models.size()), kLeast, kMost);
   figure.note =
       view.decisive_is_unseen
-          ? "What counts is the filled dot; an open one far left of it was "
-            "flattered by knowing the neighbours. Bars: 95 % intervals."
+          ? "The filled dot counts. An open dot far to its left looks too "
+            "good, since the map knew neighbouring rows. Bars: 95 % "
+            "intervals."
           : "Further left is better. Bars: 95 % intervals.";
   figure.description = GapWords(view, holdouts);
   return figure;

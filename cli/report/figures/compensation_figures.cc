@@ -90,7 +90,7 @@ Figure PositionFigure(const ReportView& view,
   const std::vector<double>& x = rows.inputs[position];
   AddBanded("before", kGrey, x, rows.target, &figure.plot);
   AddBanded("after", kBlue, x, rows.residual, &figure.plot);
-  figure.note = "Mean of unseen rows; 90 % lie in the band.";
+  figure.note = "Mean of unseen rows. The band holds 90 % of them.";
   figure.description = fmt::format(
       "Mean error by position with 90 % bands; root mean square before {}, "
       "after {}.",
@@ -138,13 +138,13 @@ Figure TimeFigure(const ReportView& view,
   if (axis.quantity == "time of day")
     figure.title = "Over the time of day, after";
   figure.plot.x = std::move(axis);
-  figure.plot.y.quantity = "what is left";
+  figure.plot.y.quantity = "remaining error";
   AddBanded("", kBlue, x, rows.residual, &figure.plot);
   figure.plot.series.push_back(ZeroLine(x));
   figure.note =
       "Mean and 90 % band. A mean off zero is a drift that the map misses.";
   figure.description = fmt::format(
-      "What is left over the time with its 90 % band, {} rows; "
+      "The remaining error over the time with its 90 % band, {} rows; "
       "root mean square {}.",
       x.size(),
       Amount(RmsOf(rows.residual), view));

@@ -185,7 +185,7 @@ std::vector<Figure> TemperatureFigures(const ReportView& view,
   figure.plot.series.push_back(course.Starts(low, high));
   if (sensors.size() > kNamed) {
     figure.note = fmt::format(
-        "In grey the other {}.",
+        "Grey: the other {}.",
         sensors.size() - kNamed == 1
             ? "thermometer"
             : fmt::format("{} thermometers", sensors.size() - kNamed));

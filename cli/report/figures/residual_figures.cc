@@ -205,7 +205,7 @@ std::vector<Figure> InputFigures(const ResidualContext& context,
     figure.plot.series = {Points(x, context.rows.residual), ZeroLine(x)};
     if (used.size() < all && figures.empty()) {
       figure.note = fmt::format(
-          "The {} of {} inputs whose values go most with the residual.",
+          "The {} of {} inputs that correlate most with the residual.",
           used.size(),
           all);
     }

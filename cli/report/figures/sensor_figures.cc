@@ -64,12 +64,12 @@ std::string Words(const ErrorText& error, const Without& without) {
 
 std::string Note(const models::SensorImportance& importance) {
   std::string note =
-      "Nothing is fitted anew: in a sensor's place the map reads what its "
-      "others say of it.";
+      "The map is not fitted again: it reads an estimate from its other "
+      "sensors.";
   if (!importance.together.empty()) {
     note += fmt::format(
-        " Sensors that are alike (correlation {:g} or more) stand in for one "
-        "another: needless one by one is not needless together.",
+        " Sensors that are alike (correlation {:g} or more) replace each "
+        "other, so each one alone looks unnecessary.",
         importance.alike);
   }
   if (importance.one_by_one.size() > kMostAlone) {

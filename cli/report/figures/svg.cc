@@ -129,7 +129,11 @@ class Pen {
 
   std::string Draw() const {
     std::string body = HasCells() ? Hatching() : Grid();
-    for (const Series& series : plot_.series) body += Shapes(series);
+    for (const bool on_top : {false, true}) {
+      for (const Series& series : plot_.series) {
+        if (series.on_top == on_top) body += Shapes(series);
+      }
+    }
     return body + Frame() + ColourBar() + Legend() + Words();
   }
 

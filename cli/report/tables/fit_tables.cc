@@ -171,8 +171,8 @@ Table StartTable(const ReportView& view) {
 Table MemorisationTable(const ReportView& view) {
   Table table{.title = "Can the nets learn noise?"};
   table.note =
-      "The same fit to shuffled targets: what it explains then is memory, not "
-      "machine.";
+      "The same fit to shuffled targets: what it explains there is memorised "
+      "noise.";
   for (const ModelRecord* model : view.models) {
     if (!model->memorisation) continue;
     const models::MemorisationRecord& check = *model->memorisation;

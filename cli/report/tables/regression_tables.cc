@@ -19,10 +19,10 @@ std::string FigureText(const Cell& figure) {
   return Table{.nothing = "n/a"}.Shown(figure);
 }
 
-// "x less its centre: ..." where the table's terms are of centred inputs.
+// "x minus its centre: ..." if the table's terms are of centred inputs.
 std::string CentresText(const models::ByName<double>& centres) {
   if (centres.empty()) return "";
-  std::string text = " Here an input stands for its value less its centre:";
+  std::string text = " Here an input means its value minus its centre:";
   for (const auto& [name, centre] : centres) {
     text += fmt::format("{} {} {} {:.9g}",
                         text.ends_with(':') ? "" : ",",

@@ -112,7 +112,7 @@ std::vector<Named> IndependenceRow(const std::string& model,
 }  // namespace
 
 Table GapTable(const ReportView& view) {
-  Table table{.title = "What knowing the neighbours is worth"};
+  Table table{.title = "The gain from known neighbours"};
   table.error = ErrorTextOf(view);
   const models::InterpolationGap gap =
       view.component->gap.value_or(models::InterpolationGap());
@@ -139,7 +139,8 @@ Table ComparisonTable(const ReportView& view, const std::string& holdout) {
   Table table{.title = "Differences from the recommended model, " + holdout};
   table.error = ErrorTextOf(view);
   table.note =
-      "Difference of RMSE, other model less the recommended one, with its 95 % "
+      "Difference of RMSE, other model minus the recommended one, with its 95 "
+      "% "
       "interval; one mean loss difference per unit of analysis. All pairs are "
       "in results.json.";
   for (const ModelRecord* model : view.models) {

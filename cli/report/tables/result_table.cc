@@ -397,8 +397,7 @@ std::string UnseenWords(const ReportView& view, const std::string& name) {
   const models::HoldoutRecord* holdout = HoldoutOf(view, name);
   if (holdout == nullptr) return "held-out rows";
   if (holdout->whole_groups || holdout->whole_sessions) {
-    return (name == view.later ? "later " : "unseen ") +
-           holdout->unit_of_analysis;
+    return UnseenUnit(*holdout);
   }
   return holdout->another_file       ? "another file"
          : holdout->among_neighbours ? "neighbours"

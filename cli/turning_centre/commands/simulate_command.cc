@@ -70,7 +70,8 @@ void AddSimulateCommand(CLI::App* app, Run* run) {
       .OneOf({"turning-centre"})
       .Value("NAME");
   AddOption(command, "-o,--output DIR", command->folder, "Folder to write")
-      .Required();
+      .Required()
+      .Under(kOutputOptions);
   AddSeedOption(command, &options.seed, "Seed of all random draws");
   const auto add = [&](const char* flag, auto& value, const char* what) {
     AddOption(command, flag, value, what).ShowDefault();
@@ -120,7 +121,7 @@ void AddSimulateCommand(CLI::App* app, Run* run) {
           command->files.truth,
           "Add the error without reading noise: truth_mm, truth_urad");
   AddForceFlag(command, &command->force);
-  AddFlag(command, "--quiet", command->quiet, "No remarks on stderr");
+  AddQuietFlag(command, &command->quiet);
   MarkSeldom(command,
              {"--duty",
               "--speed",

@@ -7,29 +7,29 @@
 
 namespace errmap::data {
 
-/// The values that a column comes back to, as positions that a program
-/// commands: exactly, or within a width far below what is between them.
+/// The values to which a column returns, like positions that a program
+/// commands: exactly, or within a width far below their distances.
 struct Levels {
   std::vector<double> centers;      // ascending
   std::vector<Eigen::Index> codes;  // (rows) index into centers; -1: no number
-  double width = 0.0;               // widest of them; 0: exactly the same
-  bool come_alike = false;          // each about as often as the others
+  double width = 0.0;               // of the widest; 0: exactly the same values
+  bool come_alike = false;          // each occurs about equally often
 };
 
-/// Those of a column (rows; NaN: no number). Of values that hardly ever come
-/// again each is a level of its own.
+/// Returns the levels of a column (rows; NaN: no number). If values hardly ever
+/// return, each is a level.
 Levels LevelsOf(std::span<const double> values);
 
-/// How rows in order go through levels.
+/// The path of successive rows through levels.
 struct Motion {
-  /// (rows) 1: towards higher positions, -1: lower, 0: nobody can tell.
+  /// (rows) 1: towards higher positions, -1: lower, 0: unknown.
   std::vector<int> directions;
   std::vector<Eigen::Index> passes;  // (rows) from 0 on
   Eigen::Index num_passes = 0;
-  /// The levels come again, each about as often, in an order that repeats.
+  /// The levels return about equally often, in an order that repeats.
   bool is_commanded = false;
-  bool both_ways = false;  // a good part of the rows in each direction
-  bool is_sorted = false;  // never lower, or never higher, down to the last row
+  bool both_ways = false;  // many rows in each direction
+  bool is_sorted = false;  // never falls, or never rises
 };
 
 Motion MotionThrough(const Levels& levels);

@@ -8,18 +8,18 @@
 
 namespace errmap::data {
 
-/// Where a run of rows ends: after a pause of more than `gap`.
+/// Nights part the rows: pauses of more than `gap`.
 struct Nights {
   double gap = 0.0;  // s; infinite: one session
   bool sure = true;
-  double other = 0.0;  // s; another gap that would part them otherwise, or 0
+  double other = 0.0;  // s; a gap that would give other sessions, or 0
 };
 
-/// Pauses of another order than those between the passes of `motion` (those
-/// between rows where it has none): the lowest gap in the sorted pauses above
-/// which they are nights of 3.5 h or more. One of ten median steps or more that
-/// breaks a pass is a night, too. `time` (n) is in order; dates tell whether
-/// passes hours apart are days.
+/// Finds pauses much longer than those between the passes of `motion`, or
+/// between rows if it has none. The gap is the lowest in the sorted pauses
+/// above which all last 3.5 h or more. A pause of at least ten median steps
+/// that breaks a pass is a night, too. `time` (n) is in order. `dated`: passes
+/// hours apart may be on different days.
 Nights FindNights(const Eigen::VectorXd& time,
                   const Motion& motion,
                   bool dated);

@@ -24,7 +24,7 @@ std::string SessionsText(const Reading& reading) {
     text += " (by nights in " + NameInRemark(reading.time.column.value_or("")) +
             ")";
   } else if (sessions.by == "counter") {
-    text += " (" + NameInRemark(sessions.counter) + " begins anew)";
+    text += " (" + NameInRemark(sessions.counter) + " restarts)";
   } else if (sessions.by == "file") {
     text += sessions.count == std::ssize(reading.files)
                 ? " (one a file)"
@@ -95,13 +95,12 @@ std::vector<std::string> ReadingLines(const Reading& reading) {
   }
   std::vector<std::string> lines = {first + "."};
   if (reading.order == "time") {
-    lines.push_back(
-        "The rows were not in order of time and were put in it, by " +
-        NameInRemark(reading.time.column.value_or("")) + ".");
+    lines.push_back("The rows were not in order of time. They were sorted by " +
+                    NameInRemark(reading.time.column.value_or("")) + ".");
   } else if (reading.order == "none") {
     lines.push_back(
-        "The rows do not stand in the order in which they were measured and no "
-        "clock tells it, so no map gets a memory. "
+        "The rows are not in the order of measurement and have no clock, so no "
+        "map gets a memory. "
         "Give the rows as measured, or a column of times.");
   }
   if (reading.position.column && !reading.position.sure) {

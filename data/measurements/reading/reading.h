@@ -17,8 +17,8 @@ std::string_view ToString(Evidence evidence);
 
 /// How a table was understood: every role with the column or rule that has it,
 /// the evidence, whether it is sure, and the next best alternative. Plain data,
-/// which results.json and map files keep as it stands. Columns are those of the
-/// table; what no column has was found in others ("by").
+/// stored unchanged in results.json and map files. Columns are those of the
+/// table. A role without a column was found from others ("by").
 struct Reading {
   struct Target {
     std::optional<std::string> column;
@@ -38,7 +38,7 @@ struct Reading {
     std::optional<std::string> column;
     std::string by;                   // "column", "position", ""
     std::vector<std::string> values;  // "up", "down" of the position
-    std::vector<std::string> labels;  // what the column has for them
+    std::vector<std::string> labels;  // the column's words for them
     Evidence evidence = Evidence::kNone;
     bool sure = false;
   };
@@ -61,7 +61,7 @@ struct Reading {
   struct Sessions {
     std::optional<std::string> column;
     std::string by;  // column, nights, dates, clock, rest, counter, file, one
-    std::string counter;  // the column that begins anew with each
+    std::string counter;  // the column that restarts with each
     std::int64_t count = 0;
     std::vector<std::int64_t> first_rows;  // in the order of the rows
     std::optional<double> gap_s;
@@ -106,8 +106,8 @@ struct Reading {
   std::vector<Question> questions;
 };
 
-/// No reading is the cautious one (a sign, a unit): the run ends with the
-/// question.
+/// Thrown if no reading is cautious enough (a sign, a unit): the run ends with
+/// the question.
 class OpenQuestion : public InputError {
  public:
   OpenQuestion(const std::string& file, Reading::Question question);

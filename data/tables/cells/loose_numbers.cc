@@ -162,8 +162,8 @@ std::vector<std::string> LooseNumbers::Remarks() const {
   constexpr auto kHow = std::to_array<std::string_view>(
       {"",
        " with a dash for the minus",
-       " less marks between thousands",
-       " less a remark behind",
+       " without marks between thousands",
+       " without the remark after it",
        " with the minus that stands behind, which changes the sign",
        " with D for the exponent"});
   static_assert(kHow.size() == std::tuple_size_v<decltype(seen_)>);

@@ -13,7 +13,7 @@ namespace {
 
 [[noreturn]] void ThrowDamaged() {
   throw InputError(
-      "is a spreadsheet or an archive that is damaged; save it anew");
+      "is a spreadsheet or an archive that is damaged; save it again");
 }
 
 // minizip reads through the functions of <cstdio>; the "file" is a text here.

@@ -21,7 +21,7 @@ enum MapStatus : int {
   kMapDead = 16,         // a sensor reads like a disconnected one
   kMapFrozen = 32,       // a sensor stands still while the others move
   kMapContradicts = 64,  // a sensor differs from what the others suggest
-  kMapFaded = 128,       // no good step for so long that the error goes to 0
+  kMapFaded = 128,       // the error goes to 0: no good step for too long
   kMapLimited = 256,     // the error is the largest allowed
   kMapRamping = 512,     // the error moves to its value at the largest rate
   // The reasons that `predict` gives, besides kMapOutside, why a row is unlike
@@ -35,8 +35,8 @@ enum MapStatus : int {
   kMapUnhealthy = 65536,  // a control must not continue with this
   kMapJumped = 131072,    // a sensor changed too fast, and has not come back
 };
-/// A step with one of these bits is not taken. The filters keep their state,
-/// and the last good readings are used with the current position.
+/// A step with one of these bits is skipped. The filters keep their state, and
+/// the last good readings are used with the current position.
 inline constexpr int kMapNotTaken = kMapFar | kMapInvalid | kMapDead |
                                     kMapFrozen | kMapContradicts | kMapJumped;
 /// Each of these sets kMapUnhealthy. So does kMapRelation together with one of
@@ -68,8 +68,8 @@ void AddController(const std::vector<const FittedModel*>& maps,
                    const LimitOptions& options,
                    MapProgram* program);
 
-/// Takes away guards that no reading reaches once a controller has checked it:
-/// the map's own arithmetic, which has them, is compared with it before.
+/// Removes guards that no reading can reach after a controller's checks.
+/// Compare the program with the map first, since the map has these guards.
 void DropIdleGuards(MapProgram* program);
 
 /// Returns the value of a kept cell before the first step.
@@ -81,13 +81,13 @@ constexpr bool IsOfSession(Cell cell) {
   return cell == Cell::kBegun || cell == Cell::kFresh ||
          cell == Cell::kSettling || cell == Cell::kLeapt;
 }
-/// So many sensors are written out one by one: a loop takes longer than its
-/// body.
+/// Up to this many sensors are written out one by one; for so few a loop takes
+/// longer.
 inline constexpr int kFewSensors = 4;
 /// A limit set at run time may be up to this multiple of the map's own limit.
 inline constexpr double kMostTimesOwn = 10.0;
 
-/// True for counts and times: no sensor, and they grow beyond the trained
+/// True for counts and times. They are not sensors, and grow beyond the trained
 /// range.
 bool IsCount(const data::Unit& unit);
 

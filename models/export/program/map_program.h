@@ -124,7 +124,7 @@ struct TrainedRange {
   double high = 0.0;
 };
 
-/// What each map has of its own if two act, one in each direction of motion.
+/// The parts of each map if there are two, one for each direction of motion.
 struct MapForm {
   /// Computes the error from readings and state.
   Instructions evaluate = {};

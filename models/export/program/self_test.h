@@ -8,7 +8,7 @@
 
 namespace errmap::models {
 
-/// A made-up reading of all inputs and the expected result.
+/// An invented reading of all inputs, with the expected result.
 struct SelfTestRow {
   double dt = 0.0;  // s since the previous row; 0 in the first
   VectorXd readings;

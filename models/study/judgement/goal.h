@@ -12,8 +12,8 @@ enum class GoalStanding {
   kNone,       // no goal was set
   kNotJudged,  // too few rows, an interrupted run, or a failed fit
   kMet,        // the RMSE is at most the goal
-  /// Only the sd is at most the goal, so re-zeroing may do. Never where the
-  /// errors are those of a map that is re-zeroed already.
+  /// Only the sd is at most the goal, so re-zeroing may suffice. Never set if
+  /// the maps are already re-zeroed.
   kMetAfterRezeroing,
   kMissed,
 };
@@ -38,7 +38,7 @@ inline constexpr Index kFewestRowsForGoal = 24;
 /// none). `complete`: every fold was fitted and the study ran to its end. An
 /// interrupted study is not judged, since its folds may be the easy ones;
 /// neither are fewer than kFewestRowsForGoal rows. `rezeroed`: the errors are
-/// what re-zeroing left.
+/// those after re-zeroing.
 GoalJudgement JudgeGoal(double goal,
                         const stats::ErrorMetrics& test,
                         bool complete,

@@ -14,7 +14,7 @@
 
 namespace errmap::models {
 
-/// Implausible readings: not made by the machine; data::ColumnFault.
+/// Faulty readings; data::ColumnFault.
 struct FaultRecord {
   data::FaultKind kind = data::FaultKind::kOutlying;
   std::string column;

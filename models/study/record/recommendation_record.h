@@ -81,8 +81,8 @@ struct SensorImportance {
   std::vector<Without> together;
 };
 
-/// Limits of an input that rows held out leave in their folds: those of all
-/// data, in its unit; NaN: none on this side.
+/// The range of an input in all data, in its unit, if held-out rows leave that
+/// of their fold; NaN: none do on this side.
 struct BeyondRecord {
   std::string column;
   double below = kNotKnown;
@@ -105,8 +105,9 @@ struct RecommendationRecord {
   std::optional<bool> meets_goal;
   GoalStanding goal_standing = GoalStanding::kNotJudged;
   double extrapolated_share = kNotKnown;
-  /// Share of the uncompensated error, 1 - RMSE / RMSE, or of the deviation
-  /// from the mean, of a target that is no error; below 0: error added.
+  /// Share of the uncompensated error that the map removes: 1 - its RMSE / RMSE
+  /// without a map. For a target that is not an error: of the deviation from
+  /// the mean. Below 0: the map adds error.
   double removed_share = kNotKnown;
   PredictionCost cost;
   std::optional<MemoryRecord> memory;
@@ -126,7 +127,7 @@ struct RecommendationRecord {
   LeftOut<std::string> better_without_map;
   /// Its inputs that hardly ever return to earlier values.
   LeftOut<std::vector<std::string>> only_grow;
-  /// If many held-out rows lie beyond: its inputs, the most rows first.
+  /// The inputs that many held-out rows leave, most rows first.
   LeftOut<std::vector<BeyondRecord>> beyond;
   std::string sentence;
   std::string why;  // the sentence and the reasons

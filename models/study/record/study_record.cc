@@ -40,8 +40,8 @@ LeftOut<Doubt> DoubtOf(const RecordJson& results) {
 
 StudyRecord FromSchemas(std::string_view text,
                         std::initializer_list<std::string_view> schemas) {
-  const std::string remedy = fmt::format(
-      "errmap compare with {} writes it anew", data::ArgumentName("out"));
+  const std::string remedy = fmt::format("errmap compare with {} rewrites it",
+                                         data::ArgumentName("out"));
   record_json::Tree json;
   record_json::ParseAs(text, schemas, remedy, &json);
   auto record = RecordOf<StudyRecord>(*json.root(), kResultsSchema, remedy);

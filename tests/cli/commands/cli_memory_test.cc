@@ -122,8 +122,9 @@ TEST_F(CliMemory, PutsRowsInOrderOfTime) {
     write(order);
     const Outcome outcome = Run({"predict", "map.json", "other.csv"});
     // The column of days keeps the others in order.
-    EXPECT_EQ(outcome.err.find("put in it, by time_s.") != std::string::npos,
-              order == newest_first);
+    EXPECT_EQ(
+        outcome.err.find("They were sorted by time_s.") != std::string::npos,
+        order == newest_first);
     const std::vector<double> predicted = ColumnOf(outcome, "predicted");
     ASSERT_EQ(predicted.size(), order.size());
     for (std::size_t row = 0; row < order.size(); ++row) {
@@ -297,7 +298,7 @@ TEST_F(CliMemory, SaysThatEachSessionsFirstValueIsTakenOff) {
   const Outcome outcome =
       Run({"compare", "days.csv", "--models", "mean", "--align", "first"});
   EXPECT_THAT(OneLine(outcome.out),
-              HasSubstr("error_um less each session's first value"));
+              HasSubstr("error_um minus each session's first value"));
   EXPECT_EQ(Run({"fit",
                  "days.csv",
                  "--model",
@@ -310,7 +311,7 @@ TEST_F(CliMemory, SaysThatEachSessionsFirstValueIsTakenOff) {
             0);
   EXPECT_EQ(Json::parse(Read("m.json"))["target"]["align"], "first");
   EXPECT_THAT(OneLine(Run({"evaluate", "m.json", "days.csv"}).out),
-              HasSubstr("error_um less each session's first value"));
+              HasSubstr("error_um minus each session's first value"));
   EXPECT_THAT(Run({"predict", "m.json", "days.csv"}).err,
               HasSubstr("since the session's first row"));
 }

@@ -250,7 +250,7 @@ TEST_F(FleetQuery, ADamagedStoreSaysWhatToDoAndIsWrittenAnew) {
     if (page == 0) {
       EXPECT_THAT(RefusalOf(Run({"deploy", "store", "--all"}), kUnusable),
                   AllOf(HasSubstr("store/errmap.sqlite is damaged"),
-                        HasSubstr("errmap merge STORE writes it anew")));
+                        HasSubstr("errmap merge STORE rewrites it")));
     }
     const Outcome merge = Run({"merge", "store"});
     EXPECT_THAT(merge.err, HasSubstr("store/errmap.sqlite.damaged"));

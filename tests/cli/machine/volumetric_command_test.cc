@@ -123,7 +123,7 @@ TEST_F(VolumetricCommand, TheLatheOfTheReportCutsTheErrorOfAnotherDay) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out, "");
   EXPECT_THAT(outcome.err,
-              AllOf(HasSubstr("tool less work, in X, Z at most"),
+              AllOf(HasSubstr("tool minus work, in X, Z at most"),
                     HasSubstr("exact and first order differ by at most"),
                     HasSubstr("Compensate by minus that")));
   const std::vector<Record> points = Records(Read("out.csv"));
@@ -255,7 +255,7 @@ TEST_F(VolumetricCommand, SaysWhatIsLeftAlongTheDiagonals) {
               AllOf(HasSubstr("systematic deviation E along diagonals, of what "
                               "the maps say: ppp "),
                     HasSubstr("measured: ppp "),
-                    HasSubstr("; less the maps: ppp "),
+                    HasSubstr("; minus the maps: ppp "),
                     HasSubstr("measured there 1"),
                     HasSubstr(" less what the maps say")));
   EXPECT_EQ(Records(Read("out.csv"))[9].at("diagonal"), "ppp");

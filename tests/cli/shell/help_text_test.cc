@@ -53,18 +53,45 @@ TEST(CommandHelp, LeavesWhatIsSeldomNeededToAll) {
                     HasSubstr("  --unit g|kg                 Of weight\n"),
                     Not(HasSubstr("--rare")),
                     Not(HasSubstr("whole story")),
-                    HasSubstr("1 options more: errmap help weigh --all\n")));
+                    HasSubstr("1 more option: errmap help weigh --all\n")));
   const std::string all = cli::CommandHelp(Weigh(), cli::HelpOptions::kAll, 80);
   EXPECT_THAT(all,
               AllOf(HasSubstr("  --rare                      For a few\n"),
                     HasSubstr("Of weight. The whole story\n"),
-                    Not(HasSubstr("options more"))));
+                    Not(HasSubstr("more option"))));
 }
 
 TEST(CommandHelp, JoinsTheLinesOfASentenceAndKeepsAnExampleApart) {
   EXPECT_THAT(cli::CommandHelp(Weigh(), cli::HelpOptions::kAll, 80),
               HasSubstr("\nA sentence that goes on.\nExample: errmap weigh "
                         "apple\n"));
+}
+
+TEST(CommandHelp, ContinuesALongExampleAsAShellReadsIt) {
+  cli::CommandReference command = Weigh();
+  command.footer = "Example: errmap weigh apple.csv pear.csv -o weights.csv";
+  EXPECT_THAT(cli::CommandHelp(command, cli::HelpOptions::kAll, 40),
+              HasSubstr("\nExample:\n  errmap weigh apple.csv pear.csv -o \\\n"
+                        "      weights.csv\n"));
+}
+
+TEST(CommandHelp, PutsManyOptionsUnderHeadingsAndTheOutputLast) {
+  cli::CommandReference command = Weigh();
+  for (cli::OptionReference& option : command.options) {
+    option.heading = option.names[0] == "-o" ? "Output" : "Scales";
+  }
+  EXPECT_THAT(cli::CommandHelp(command, cli::HelpOptions::kAll, 80),
+              Not(HasSubstr("Output:")));
+  while (command.options.size() < 11) {
+    command.options.push_back(command.options.back());
+  }
+  const std::string help =
+      cli::CommandHelp(command, cli::HelpOptions::kAll, 80);
+  EXPECT_THAT(help,
+              HasSubstr("  THING FILE                  What to weigh\n"
+                        "Scales:\n  --unit g|kg"));
+  EXPECT_THAT(help, HasSubstr("Output:\n  -o,--output FILE            Where"));
+  EXPECT_LT(help.find("Scales:"), help.find("Output:"));
 }
 
 TEST(ProgramHelp, PutsCommandsUnderWhatTheyServe) {

@@ -259,6 +259,8 @@ TEST(GroupByColumn, GroupsHaveAWord) {
             "session");
   EXPECT_EQ(WordFor({.column = "cycle", .labels = {"1", "2"}, .codes = {}}),
             "cycle");
+  EXPECT_EQ(WordFor({.column = "Zyklus", .labels = {"1", "2"}, .codes = {}}),
+            "cycle");
   EXPECT_EQ(WordFor({.column = "Datum",
                      .labels = {"02.03.2026", "03.03.2026"},
                      .codes = {}}),

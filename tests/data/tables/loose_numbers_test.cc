@@ -39,14 +39,15 @@ TEST(LooseNumbers, AreNamedByWhatIsDoneToThem) {
               ElementsAre(-1.5, -2.5, 3, -4.5));
   EXPECT_THAT(
       table.remarks,
-      ElementsAre(HasSubstr("1 cell is read as a number with a dash for the "
-                            "minus (the first on line 5)"),
-                  HasSubstr("1 cell is read as a number less marks between "
-                            "thousands (the first on line 4)"),
-                  HasSubstr("1 cell is read as a number less a remark behind"),
-                  HasSubstr("2 cells are read as numbers with the minus that "
-                            "stands behind, which changes the sign (the first "
-                            "on line 2)")));
+      ElementsAre(
+          HasSubstr("1 cell is read as a number with a dash for the "
+                    "minus (the first on line 5)"),
+          HasSubstr("1 cell is read as a number without marks between "
+                    "thousands (the first on line 4)"),
+          HasSubstr("1 cell is read as a number without the remark after it"),
+          HasSubstr("2 cells are read as numbers with the minus that "
+                    "stands behind, which changes the sign (the first "
+                    "on line 2)")));
 }
 
 TEST(UnitsOfCells, CountAmongMixedDecimalMarks) {

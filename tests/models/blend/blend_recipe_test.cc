@@ -131,7 +131,7 @@ double ShareOfLines(double power) {
   double share = 0.0;
   const auto form = std::get<BlendForm>(fitted.model->Describe());
   for (const BlendForm::Member& member : form.members) {
-    if (member.name.starts_with("lines over ")) share += member.weight;
+    if (member.name.starts_with("lines from ")) share += member.weight;
   }
   return share;
 }

@@ -85,8 +85,8 @@ struct ComponentNumbers {
   std::string In95(const models::IntervalRecord& interval) const;
 };
 
-/// Of the RMSE of `one`, a model of the pair, less that of the other; NaN where
-/// it is not known.
+/// Of the RMSE of `one`, a model of the pair, minus that of the other; NaN if
+/// unknown.
 models::IntervalRecord IntervalOfExcess(const models::PairRecord& pair,
                                         const std::string& one);
 
@@ -102,7 +102,7 @@ std::string PluralOfUnit(const models::HoldoutRecord& holdout);
 std::string CountOfUnits(std::int64_t count,
                          const models::HoldoutRecord& holdout);
 
-/// The names, with commas, less one.
+/// The names, with commas, without one of them.
 std::string ListBesides(const std::vector<std::string>& names,
                         const std::string& besides);
 

@@ -24,7 +24,7 @@ std::string Units(long long groups,
 
 std::string Target(const std::string& name, data::Alignment align) {
   return name + (align == data::Alignment::kFirst
-                     ? " less each session's first value"
+                     ? " minus each session's first value"
                      : "");
 }
 

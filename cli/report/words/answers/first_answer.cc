@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/report/report_view.h"
 #include "cli/report/wrap_text.h"
 #include "data/text.h"
 #include "models/study/judgement/recommendation.h"
@@ -27,6 +28,7 @@ std::string Use(const RecommendationRecord& advice) {
 
 // "another day", "unseen cycles": where the error was measured.
 std::string WhereMeasured(const HoldoutRecord& holdout) {
+  if (IsOfLaterSessions(holdout)) return "later " + PluralOfUnit(holdout);
   if (holdout.whole_sessions) return "another " + holdout.unit_of_analysis;
   if (holdout.whole_groups) return "unseen " + PluralOfUnit(holdout);
   if (holdout.among_neighbours) return "between rows";

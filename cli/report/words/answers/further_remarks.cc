@@ -50,11 +50,11 @@ StatesBeyond StatesOf(const std::string& column) {
     case data::Quantity::kAngle:
       return {"positions further down", "positions further up"};
     default:
-      return {"smaller values", "larger values"};
+      return {"", ""};  // only the column says what to do
   }
 }
 
-// "a colder start or room (t12_degC below 21.5)": by what a person can do, with
+// "a colder start or room (t12_degC below 21.5)": what a person can do, with
 // the first column that would show it.
 std::string WhereToMeasure(const std::vector<models::BeyondRecord>& beyond) {
   std::vector<std::string> parts;
@@ -63,16 +63,15 @@ std::string WhereToMeasure(const std::vector<models::BeyondRecord>& beyond) {
                        const std::string& column,
                        const char* side,
                        double value) {
-    if (!std::isfinite(value) ||
-        std::ranges::find(named, state) != named.end()) {
+    const std::string_view key = *state == '\0' ? side : state;
+    if (!std::isfinite(value) || std::ranges::find(named, key) != named.end()) {
       return;
     }
-    named.emplace_back(state);
-    parts.push_back(fmt::format("{} ({} {} {:.4g})",
-                                state,
-                                data::Printable(column, column.size()),
-                                side,
-                                value));
+    named.push_back(key);
+    const std::string limit = fmt::format(
+        "{} {} {:.4g}", data::Printable(column, column.size()), side, value);
+    parts.push_back(*state == '\0' ? "readings with " + limit
+                                   : fmt::format("{} ({})", state, limit));
   };
   for (const models::BeyondRecord& of : beyond) {
     const StatesBeyond states = StatesOf(of.column);
@@ -216,8 +215,8 @@ Remarks MoreData(const Numbers& of) {
            unit,
            worth->ratio_of_one_fewer,
            saved > kWorthSaying
-               ? fmt::format("may take {:.0f} % off", kPercent * saved)
-               : "promises little")}};
+               ? fmt::format("may reduce it by {:.0f} %", kPercent * saved)
+               : "would hardly reduce it")}};
 }
 
 // How far the map looks back, and the zero.
@@ -272,12 +271,12 @@ Remarks Disagreement(const Numbers& of) {
     const ResultRecord* const result =
         ResultOf(of.Model(advice.model), verdict.holdout);
     if (result == nullptr || result->tier < 2) continue;
-    parts.push_back(fmt::format(
-        "under {} it has {}, {} has {}",
-        verdict.holdout,
-        of.error.WithUnit(result->test.rmse),
-        verdict.model,
-        of.error.WithUnit(of.Rmse(verdict.model, verdict.holdout))));
+    parts.push_back(
+        fmt::format("{} errs less under {}: {}, not {}",
+                    verdict.model,
+                    verdict.holdout,
+                    of.error.WithUnit(of.Rmse(verdict.model, verdict.holdout)),
+                    of.error.WithUnit(result->test.rmse)));
   }
   if (parts.empty()) return {};
   return {{"disagreement", data::JoinWords(parts, "; ")}};

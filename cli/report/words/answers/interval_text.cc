@@ -22,7 +22,7 @@ std::string IntervalText(const models::PromiseRecord& promise,
   }
   if (promise.good_for) {
     text += fmt::format(
-        ". Trust that for the next {} only: neighbouring {} may err alike "
+        ". Trust this for the next {} only: neighbouring {} may err alike "
         "(lag-1 autocorrelation {:.2f})",
         *promise.good_for == 1 ? promise.unit
                                : Count(*promise.good_for, promise.unit),

@@ -10,8 +10,10 @@
 #include <fmt/format.h>
 
 #include "cli/report/number_text.h"
+#include "cli/report/report_view.h"
 #include "cli/report/words/answers/further_remarks.h"
 #include "cli/report/words/answers/rezero_text.h"
+#include "data/measurements/dataset.h"
 #include "data/text.h"
 #include "models/study/judgement/goal.h"
 #include "models/study/judgement/recommendation.h"
@@ -120,16 +122,15 @@ Remarks AnotherDay(const Numbers& of) {
 const HoldoutRecord* LaterHoldout(const Numbers& of) {
   const HoldoutRecord* later = nullptr;
   for (const HoldoutRecord& holdout : of.record.holdouts) {
-    if (holdout.whole_sessions && holdout.name.starts_with("forward:") &&
-        holdout.name != of.Advice().holdout) {
+    if (IsOfLaterSessions(holdout) && holdout.name != of.Advice().holdout) {
       later = &holdout;
     }
   }
   return later;
 }
 
-// The map is to be used on later days: what it errs there where it is learnt
-// only from those before them.
+// The map will be used on later days: its error there if it is fitted only to
+// the days before them.
 Remarks LaterOn(const Numbers& of) {
   constexpr double kWorthSaying = 1.25;  // of the error on another day
   const RecommendationRecord& advice = of.Advice();
@@ -137,8 +138,8 @@ Remarks LaterOn(const Numbers& of) {
   if (later == nullptr) return {};
   const double rmse = TestRmse(of.Model(advice.model), later->name);
   if (!(rmse > kWorthSaying * of.Rmse(advice.model, advice.holdout))) return {};
-  return {{"later on",
-           fmt::format("{}, learnt only from the {} before",
+  return {{"later " + PluralOfUnit(*later),
+           fmt::format("{}, fitted only to the {} before",
                        of.error.WithUnit(rmse),
                        PluralOfUnit(*later)),
            Tone::kBad}};
@@ -175,13 +176,14 @@ Remarks WhatIsLeft(const Numbers& of) {
   };
   Remarks remarks;
   if (matters(found.by_group)) {
-    const std::string& column = found.by_group->column;
+    const std::string unit = data::WordFor(
+        {.column = found.by_group->column, .labels = {}, .codes = {}});
     std::string text = fmt::format("{:.0f} % of it shifts whole {} up or down",
                                    kPercent * found.by_group->explained,
-                                   PluralOf(column));
+                                   PluralOf(unit));
     if (advice.goal_standing != GoalStanding::kMet && !of.record.rezero) {
       text += fmt::format(": re-zero each {}{}",
-                          column,
+                          unit,
                           of.record.data.sensors <= kManySensors
                               ? ", or add a thermometer"
                               : "");

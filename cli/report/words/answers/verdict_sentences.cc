@@ -133,8 +133,7 @@ std::string ChoiceSentence(const ComponentNumbers& component,
   }
   if (verdict.obstacle && verdict.confidence == Confidence::kOutOfReach) {
     return fmt::format(
-        "Whether that is more than chance cannot be "
-        "established: {}.",
+        "This cannot be told from chance: {}.",
         ObstacleText(
             component, *verdict.obstacle, component.Holdout(verdict.holdout)));
   }

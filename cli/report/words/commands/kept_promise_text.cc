@@ -143,7 +143,7 @@ std::string SensitivityLine(const models::Sensitivity& sensitivity,
       error.WithUnit(sensitivity.largest_jump),
       data::Printable(sensitivity.jump_of, sensitivity.jump_of.size()));
   if (sensitivity.rezero_jump > 0.0) {
-    text += fmt::format(", a zero taken anew by up to {}",
+    text += fmt::format(", a zero taken again by up to {}",
                         error.WithUnit(sensitivity.rezero_jump));
   }
   return text;

@@ -215,7 +215,7 @@ std::string WithinSentence(const models::ResidualReport& report) {
   const stats::SerialTests& within = *report.within;
   const bool memory = !TestsThatShowMemory(within).empty();
   return fmt::format(
-      "Within a {}, less its mean, {} (lag-1 autocorrelation {:.2f}, expected "
+      "Within a {}, about its mean, {} (lag-1 autocorrelation {:.2f}, expected "
       "{:.2f}).",
       report.group_column,
       memory ? "some memory is left" : "no memory shows",

@@ -190,11 +190,11 @@ TEST(Sentences, SayForHowManyDaysAPromiseIsGood) {
   promise.lag1 = 0.84;
   promise.good_for = 2;
   EXPECT_THAT(IntervalText(promise, error),
-              EndsWith(" um. Trust that for the next 2 days only: neighbouring "
+              EndsWith(" um. Trust this for the next 2 days only: neighbouring "
                        "days may err alike (lag-1 autocorrelation 0.84)"));
   promise.good_for = 1;
   EXPECT_THAT(IntervalText(promise, error),
-              HasSubstr("Trust that for the next day only"));
+              HasSubstr("Trust this for the next day only"));
 }
 
 // --- Why not the net -------------------------------------------------------
@@ -333,6 +333,11 @@ TEST(Remarks, TellWhatToMeasureWhereTheMapExtrapolates) {
       MeasureNext(record),
       "a colder start or room (t12_degC below 21.5); a faster spindle "
       "(speed_rpm above 3000); a longer or hotter run (t3_degC above 31)");
+  record.recommendation->beyond =
+      std::vector<models::BeyondRecord>{{"elapsed_cycles", 1.0, 34.0}};
+  EXPECT_EQ(MeasureNext(record),
+            "readings with elapsed_cycles below 1; readings with "
+            "elapsed_cycles above 34");
 }
 
 TEST(Remarks, TellThatNeighboursProveLittle) {
@@ -362,13 +367,13 @@ TEST(Remarks, NameTheMapsThatABlendAverages) {
   for (models::ModelRecord& model : record.models) {
     if (model.name != record.recommendation->model) continue;
     model.choice = models::Choice::kBlend;
-    model.final.emplace().remarks = {"74 % curves over readings",
-                                     "22 % lines over readings",
+    model.final.emplace().remarks = {"74 % curves from readings",
+                                     "22 % lines from readings",
                                      "2 % net:scg",
-                                     "2 % curves and products over readings"};
+                                     "2 % curves and products from readings"};
   }
   EXPECT_EQ(TextOf(record, "averages"),
-            "74 % curves over readings; 22 % lines over readings; 2 more");
+            "74 % curves from readings; 22 % lines from readings; 2 more");
 }
 
 // Every remark has a label that fits its column, and ends as its text does.

@@ -275,7 +275,7 @@ TEST(Clock, ThatBeginsAnewInEachPassIsPassedOver) {
   EXPECT_EQ(reading.sessions.count, 1);
   EXPECT_EQ(reading.time.column, std::nullopt);
   EXPECT_THAT(reading.remarks,
-              Contains(HasSubstr("'t_s' begins anew with each pass")));
+              Contains(HasSubstr("'t_s' restarts with each pass")));
 }
 
 TEST(Clock, IsNoThermometer) {
