@@ -1,16 +1,21 @@
 #include "models/history/map_log.h"
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "data/argument_name.h"
+#include "data/columns.h"
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_match.h"
 #include "data/measurements/joined_tables.h"
+#include "data/measurements/reading/directions.h"
+#include "data/measurements/row_filters.h"
 #include "data/text.h"
+#include "data/way_words.h"
 #include "models/trained_range.h"
 #include "stats/indices.h"
 #include "stats/not_a_number.h"
@@ -215,14 +220,71 @@ Earlier ReadEarlier(const FittedModel& fitted, const std::string& file) {
   return earlier;
 }
 
+// Whether a word says that the position rises, or that it falls; "forward" may
+// mean either.
+std::optional<bool> Rises(const std::string& word) {
+  if (data::FirstIsUp(word, "down")) return true;
+  if (data::FirstIsUp(word, "up")) return false;
+  return std::nullopt;
+}
+
+// What a column calls the way that a word for it names: "+" for "up". The word
+// itself where the column has it, or no other way.
+std::optional<std::string> WayInColumn(const data::CsvTable& table,
+                                       const data::CsvColumn& column,
+                                       const std::string& way) {
+  const std::optional<bool> wanted = Rises(way);
+  std::string same = way;
+  bool any_other = false;
+  for (const std::string& label :
+       data::LabelsOf(
+           table, column, data::AllRows(table.num_rows), data::kNoLimit)
+           .labels) {
+    if (label == way) return way;
+    const std::optional<bool> up = Rises(label);
+    if (up && up == wanted) same = label;
+    any_other = any_other || (up && up != wanted);
+  }
+  return same != way || any_other ? std::optional(same) : std::nullopt;
+}
+
+// The rows that go as all those of training did, where a table has others.
+std::optional<data::ColumnFilter> WayFilter(const FittedModel& fitted,
+                                            const data::CsvTable& table) {
+  const std::optional<std::string> way = OneWayOf(fitted);
+  const std::ptrdiff_t column = table.Find(data::kDirectionColumn);
+  if (!way || column < 0) return std::nullopt;
+  const auto label = WayInColumn(table, table.At(column), *way);
+  if (!label) return std::nullopt;
+  return data::ColumnFilter{.column = data::kDirectionColumn, .value = *label};
+}
+
 }  // namespace
+
+std::optional<std::string> OneWayOf(const FittedModel& fitted) {
+  if (fitted.reading == nullptr || data::DirectionFilter(fitted.where)) {
+    return std::nullopt;
+  }
+  const data::Reading::Direction& direction = fitted.reading->direction;
+  if (!direction.sure || direction.values.size() != 1) return std::nullopt;
+  return direction.values.front();
+}
 
 std::vector<data::ColumnFilter> FiltersFor(const FittedModel& fitted,
                                            const data::CsvTable& table) {
   std::vector<data::ColumnFilter> filters;
+  const data::ColumnFilter* const direction =
+      data::DirectionFilter(fitted.where);
   for (const data::ColumnFilter& filter : fitted.where) {
-    if (table.Find(filter.column) >= 0) filters.push_back(filter);
+    const std::ptrdiff_t column = table.Find(filter.column);
+    if (column < 0) continue;
+    filters.push_back(filter);
+    if (&filter != direction) continue;
+    if (auto label = WayInColumn(table, table.At(column), ValueText(filter))) {
+      filters.back().value = *std::move(label);
+    }
   }
+  if (auto way = WayFilter(fitted, table)) filters.push_back(*std::move(way));
   return filters;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct MapLogArguments {
 data::FoundSessions FindSessionsFor(const History& history,
                                     const data::CsvTable& table,
                                     const MapLogArguments& arguments);
+
+/// "up" or "down" where all rows of the training data went one way along the
+/// axis and no filter of the map says so; nothing else.
+std::optional<std::string> OneWayOf(const FittedModel& fitted);
 
 /// Of the rows that the map is made for, what this table can tell.
 std::vector<data::ColumnFilter> FiltersFor(const FittedModel& fitted,

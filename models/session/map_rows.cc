@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -114,6 +115,19 @@ data::ReadTable ReadRows(const FittedModel& fitted,
   return read;
 }
 
+// The map's own, and the way of its training data where the rows go another.
+std::vector<data::ColumnFilter> FiltersToTell(
+    const FittedModel& fitted, const data::Reading::Direction& direction) {
+  std::vector<data::ColumnFilter> filters = fitted.where;
+  const std::optional<std::string> way = OneWayOf(fitted);
+  const auto is_other = [&](const std::string& value) { return value != *way; };
+  if (way && direction.sure &&
+      std::ranges::any_of(direction.values, is_other)) {
+    filters.push_back({.column = data::kDirectionColumn, .value = *way});
+  }
+  return filters;
+}
+
 }  // namespace
 
 std::string MadeForText(const FittedModel& fitted,
@@ -148,7 +162,7 @@ data::TableForMap ReadForMap(const FittedModel& fitted,
   data::ReadTable rows =
       ReadRows(fitted, arguments, &read.table, &read.remarks);
   data::AddDerivedColumns(
-      fitted.where,
+      FiltersToTell(fitted, rows.reading.direction),
       PositionOf(fitted),
       columns == MapColumns::kInputsAndTarget ? fitted.target.name : "",
       fitted.history != nullptr ? fitted.history->session : "",

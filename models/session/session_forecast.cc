@@ -282,10 +282,13 @@ class Forecaster {
     std::vector<Hypothesis> hypotheses;
     for (std::size_t k = 0; k < scales.size(); ++k) {
       hypotheses.push_back({.prior = kSound * scales[k], .scale = kScales[k]});
+      // What a shape explains is no scatter beside it.
+      for (Hypothesis one : disturbances.hypotheses) {
+        one.prior *= scales[k];
+        one.scale = kScales[k];
+        hypotheses.push_back(one);
+      }
     }
-    hypotheses.insert(hypotheses.end(),
-                      disturbances.hypotheses.begin(),
-                      disturbances.hypotheses.end());
     std::vector<double> logs;
     std::vector<Covariances> all;
     for (const Hypothesis& one : hypotheses) {

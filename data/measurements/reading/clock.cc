@@ -328,10 +328,13 @@ class ClockFinder : private RowColumns {
                                                is_date   ? Named::kDate
                                                : is_time ? Named::kTime
                                                          : Named::kNothing);
-    // Numbers from 1970 in one unit hardly ever are so large in another;
-    // Excel's days are numbers as any.
+    // Numbers from 1970 in one unit hardly ever are so large in another, but
+    // for months in ms; Excel's days are numbers as any.
+    constexpr double kMostElapsed = 366.0 * kSecondsOfDay;
     const bool fits = unit != nullptr && pace.MayBeIn(*unit);
-    if (epoch && (!fits || epoch->unit == unit || !epoch->counts_days())) {
+    const bool elapsed = fits && pace.most * unit->seconds < kMostElapsed;
+    if (epoch && (!fits || epoch->unit == unit ||
+                  !(elapsed || epoch->counts_days()))) {
       clock_.sure = unit == nullptr || !fits || epoch->unit == unit;
       if (!clock_.sure) clock_.alternative = unit->name;
       Scale(*epoch->unit, epoch->offset, values);

@@ -96,6 +96,7 @@ class TableReader {
   }
 
   ReadTable ReadForMap() {
+    is_for_map_ = true;
     looks_for_axis_ = !selection_.position.empty();
     TakeAsMeant();
     const std::ptrdiff_t target = table().Find(selection_.target);
@@ -250,7 +251,9 @@ class TableReader {
   // Rows that are in another order than that of time are put in it, by a clock.
   void FindOrder() {
     FindClockAndAxis();
-    if (clock_.dated && LeaveOutSavedTwice()) FindClockAndAxis();
+    if (!is_for_map_ && clock_.dated && LeaveOutSavedTwice()) {
+      FindClockAndAxis();
+    }
     const auto n = static_cast<Index>(base_rows_.size());
     const Index back = TimesBack(clock_.time);
     const bool sorted = read_.axis.motion.is_sorted && n >= kFewestRowsInOrder;
@@ -584,6 +587,7 @@ class TableReader {
   Nights nights_;
   bool ordered_ = true;
   bool looks_for_axis_ = true;
+  bool is_for_map_ = false;  // which answers each row
   ReadTable read_;
 };
 

@@ -332,6 +332,59 @@ TEST_F(Cli, PredictKeepsIdColumnsAndMarksExtrapolation) {
               HasSubstr("q.csv: no column 'elapsed_cycles'"));
 }
 
+// Cycles through five positions, with what stands before each row.
+std::string Ways(const std::vector<std::string>& before_each_way) {
+  std::string text;
+  for (int cycle = 0; cycle < 6; ++cycle) {
+    for (const std::string& before : before_each_way) {
+      for (int i = 0; i < 5; ++i) {
+        const bool up = &before == before_each_way.data();
+        const int at = up ? i : 4 - i;
+        text += before + std::to_string(cycle) + "," + std::to_string(50 * at) +
+                "," + std::to_string(20 + cycle) + "," +
+                std::to_string(2 * at + cycle % 3 + (up ? 0 : 5) + i % 2) +
+                "\n";
+      }
+    }
+  }
+  return text;
+}
+
+// How many rows are answered with this reason.
+int CountWhy(const std::string& predictions, const std::string& why) {
+  const auto records = Records(predictions);
+  return static_cast<int>(std::ranges::count_if(
+      records, [&](const auto& row) { return row.at("why") == why; }));
+}
+
+TEST_F(Cli, PredictIsForTheWayThatTheMapWasFittedTo) {
+  const std::string names = "cycle,position_mm,t1_degC,error_um\n";
+  Write("up.csv", names + Ways({""}));
+  Write("both.csv", names + Ways({"", ""}));
+  Write("named.csv", "direction," + names + Ways({"+,", "-,"}));
+  Write("words.csv", "direction," + names + Ways({"up,", "down,"}));
+  ASSERT_EQ(
+      Run({"fit", "up.csv", "--model", "poly:eq8", "-o", "up.json"}).status, 0);
+  ASSERT_EQ(Run({"fit",
+                 "words.csv",
+                 "--direction",
+                 "up",
+                 "--model",
+                 "poly:eq8",
+                 "-o",
+                 "filtered.json"})
+                .status,
+            0);
+  EXPECT_EQ(CountWhy(Run({"predict", "up.json", "up.csv"}).out, "where"), 0);
+  for (const char* map : {"up.json", "filtered.json"}) {
+    for (const char* file : {"both.csv", "named.csv", "words.csv"}) {
+      const Outcome outcome = Run({"predict", map, file});
+      EXPECT_EQ(CountWhy(outcome.out, "where"), 30) << map << " " << file;
+      EXPECT_THAT(outcome.err, HasSubstr("30 of 60 rows have direction"));
+    }
+  }
+}
+
 TEST_F(Cli, FitPromisesWhatUnseenCyclesShow) {
   const Outcome fit =
       Run({"fit", kDown, "--model", "poly:eq8", "-o", "promise.json"});

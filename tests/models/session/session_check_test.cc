@@ -52,13 +52,15 @@ HeldOutErrors::Unit Day(stats::Random* random,
   return unit;
 }
 
-HeldOutErrors DaysInSessionCheck(int count, std::uint64_t seed) {
+HeldOutErrors DaysInSessionCheck(int count,
+                                 std::uint64_t seed,
+                                 double slope = 0.0) {
   stats::Random random(seed);
   HeldOutErrors errors{
       .time_unit = "s", .position = "position_mm", .rmse = 0.0, .units = {}};
   double squares = 0.0;
   for (int day = 0; day < count; ++day) {
-    errors.units.push_back(Day(&random));
+    errors.units.push_back(Day(&random, 0.0, slope));
     squares += std::pow(errors.units.back().rmse, 2);
   }
   errors.rmse = std::sqrt(squares / count);
@@ -115,6 +117,24 @@ TEST(CheckSession, TellsSessionsThatAreOffFromThoseThatHold) {
   EXPECT_LE(false_alarms, 3);
   EXPECT_GE(held, 50);
   EXPECT_GE(apart, 90);
+}
+
+// Errors of training and of the day bend alike over the positions: what that
+// explains of them is not to be expected twice.
+TEST(CheckSession, HoldsWhereTheShapeOfTheErrorsComesAgain) {
+  constexpr double kSlope = 1.2;
+  const HeldOutErrors errors = DaysInSessionCheck(6, 1, kSlope);
+  stats::Random random(2);
+  const std::vector<Index> rows = RowsUpTo(kRows - 1, 1);
+  int held = 0;
+  int off = 0;
+  for (int i = 0; i < 60; ++i) {
+    const auto status = CheckAt(errors, Day(&random, 0.0, kSlope), rows).status;
+    held += status == SessionStatus::kHolds ? 1 : 0;
+    off += status == SessionStatus::kOff ? 1 : 0;
+  }
+  EXPECT_GE(held, 48);
+  EXPECT_LE(off, 1);
 }
 
 // The first minutes of a day do not tell what it comes to.

@@ -252,6 +252,14 @@ TEST(Clock, HasAPointBetweenHoursAndMinutesBesideADate) {
   EXPECT_NE(made(false).time.step_s, made(true).time.step_s);
 }
 
+// A month in ms has as many figures as the seconds from 1970.
+TEST(Clock, MayCountMonthsInTheUnitThatItsNameStates) {
+  const Reading reading = CountedIn("time_ms", 1e-3, 2.6e9).reading;
+  EXPECT_EQ(reading.time.unit, "ms");
+  EXPECT_TRUE(reading.time.sure);
+  EXPECT_NEAR(*reading.time.step_s, 30.0, 1e-6);
+}
+
 TEST(Clock, MayCountTheTicksOfAController) {
   const Reading reading = CountedIn("tick_10ms", 0.01, 0.0).reading;
   EXPECT_EQ(reading.time.unit, "10ms");
