@@ -31,6 +31,13 @@ struct StandingStill {
   double silence = 0.0;
 };
 
+/// x' in the first rows of the sessions of training.
+struct StartReadings {
+  Eigen::VectorXd mean;        // (s)
+  Eigen::MatrixXd covariance;  // (s x s)
+  Eigen::Index sessions = 0;
+};
+
 /// What the readings of a whole session are judged by. Missing in older files,
 /// and for more than a hundred columns.
 struct SessionReadings {
@@ -42,6 +49,8 @@ struct SessionReadings {
   /// little to do with the other sensors.
   Eigen::VectorXd scatter;
   Eigen::Index units = 0;  // sessions, or what was held out in their place
+  /// Missing in older files, and for fewer than four sessions.
+  std::optional<StartReadings> starts = {};
 };
 
 /// Where a map was trained, beyond the range of each column. It holds the
@@ -74,8 +83,8 @@ struct Applicability {
   double leverage_limit = 0.0;     // 1 / rows + |z|^2 / (rows - 1)
   Eigen::VectorXd relation_limit;  // (s) StateMeasures::relation
 
-  /// (s) Share of readings within sessions that repeat the previous one to the
-  /// last digit; (0): unknown.
+  /// (s) Chance that a reading within a session repeats the previous one to the
+  /// last digit, by their share or the longest run; (0): unknown.
   Eigen::VectorXd repeats = {};
 
   StandingStill standing = {};  // empty in older files
