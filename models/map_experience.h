@@ -31,6 +31,13 @@ struct StandingStill {
   double silence = 0.0;
 };
 
+/// First rows of the training sessions, as x'.
+struct StartReadings {
+  VectorXd mean;        // (s)
+  MatrixXd covariance;  // (s x s)
+  Index sessions = 0;
+};
+
 /// Reference for the readings of a whole session. Missing in older files, and
 /// for more than a hundred columns.
 struct SessionReadings {
@@ -42,6 +49,8 @@ struct SessionReadings {
   /// depends little on the other sensors.
   VectorXd scatter;
   Index units = 0;  // sessions, or the other units held out
+  /// Missing in older files, and for fewer than four sessions.
+  std::optional<StartReadings> starts = {};
 };
 
 /// The training data of a map, beyond the range of each column: the ranges of
@@ -74,8 +83,8 @@ struct Applicability {
   double leverage_limit = 0.0;  // 1 / rows + |z|^2 / (rows - 1)
   VectorXd relation_limit;      // (s) StateMeasures::relation
 
-  /// (s) Share of readings within sessions that repeat the previous one to the
-  /// last digit; (0): unknown.
+  /// (s) Chance that a reading within a session repeats the previous one to the
+  /// last digit, by their share or the longest run; (0): unknown.
   VectorXd repeats = {};
 
   StandingStill standing = {};  // empty in older files

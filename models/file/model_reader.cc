@@ -157,6 +157,13 @@ void RequirePositive(const Node& node, const VectorXd& values, Index size) {
   if (!(values.array() > 0.0).all()) node.Refuse("must be above 0");
 }
 
+void RequireSquare(const Node& node,
+                   const Eigen::MatrixXd& matrix,
+                   Index size) {
+  if (matrix.rows() == size && matrix.cols() == size) return;
+  node.Refuse(fmt::format("needs {0} rows of {0} numbers", size));
+}
+
 // But for what rounding to the six digits of a file may take from its least
 // eigenvalue, of as many columns.
 bool IsPositiveDefinite(MatrixXd matrix) {
@@ -211,14 +218,18 @@ Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
     RequirePositive(
         node.At("sessions").At("scatter"), trained.sessions->scatter, size);
     const Node& precision = node.At("sessions").At("precision");
-    if (trained.sessions->precision.rows() != size ||
-        trained.sessions->precision.cols() != size ||
-        !(trained.sessions->precision.diagonal().minCoeff() > 0.0)) {
-      precision.Refuse(fmt::format(
-          "needs {0} rows of {0} numbers, positive on the diagonal", size));
-    }
-    if (!IsPositiveDefinite(trained.sessions->precision)) {
+    RequireSquare(precision, trained.sessions->precision, size);
+    if (!(trained.sessions->precision.diagonal().minCoeff() > 0.0) ||
+        !IsPositiveDefinite(trained.sessions->precision)) {
       precision.Refuse("must be positive definite");
+    }
+    if (const auto& starts = trained.sessions->starts) {
+      const Node node_of_starts = node.At("sessions").At("starts");
+      RequireSize(node_of_starts.At("mean"), starts->mean, size);
+      RequireSquare(node_of_starts.At("covariance"), starts->covariance, size);
+      if (starts->sessions < 2) {
+        node_of_starts.At("sessions").Refuse("must be at least 2");
+      }
     }
   }
   RequirePositive(node.At("rest"), trained.rest, size);

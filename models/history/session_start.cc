@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include <Eigen/Cholesky>
+
 #include "stats/distributions.h"
 
 namespace errmap::models {
@@ -14,11 +16,7 @@ namespace {
 
 constexpr double kDay = 86400.0;
 constexpr std::size_t kFewestSessions = 4;
-// Shares of sound sessions within the limits. In 48 simulated whole days no
-// readings were beyond .97, but neither were two fifths of the rows of logs
-// that lack up to a tenth.
-constexpr double kReadingsWithin = 0.9;
-constexpr double kClockWithin = 0.97;
+constexpr double kWithin = 0.97;  // share of sound sessions within the limits
 
 // Each reading less the mean of them all.
 VectorXd Differences(const data::SessionLog& log,
@@ -26,6 +24,33 @@ VectorXd Differences(const data::SessionLog& log,
                      const std::vector<Index>& columns) {
   const VectorXd readings = log.input_values(row, columns);
   return readings.array() - readings.mean();
+}
+
+// How the differences of a session begin and go on.
+struct Course {
+  VectorXd start;
+  VectorXd change;  // mean of what they are less the start
+  MatrixXd spread;  // mean square of that
+};
+
+Course CourseOf(const data::SessionLog& log,
+                const std::vector<Index>& rows,
+                const std::vector<Index>& columns) {
+  const Index size = std::ssize(columns);
+  Course course{.start = Differences(log, rows.front(), columns),
+                .change = VectorXd::Zero(size),
+                .spread = MatrixXd::Zero(size, size)};
+  double count = 0.0;
+  for (const Index row : rows) {
+    const VectorXd change = Differences(log, row, columns) - course.start;
+    if (!change.allFinite()) continue;
+    course.change += change;
+    course.spread += change * change.transpose();
+    ++count;
+  }
+  course.change /= std::max(1.0, count);
+  course.spread /= std::max(1.0, count);
+  return course;
 }
 
 // The separation of rows within sessions from their starts.
@@ -39,32 +64,38 @@ struct Separation {
   }
 };
 
-// Separates all sessions but `left_out`; rows of `starts` and `changes` are
-// sessions.
-Separation Separate(const MatrixXd& starts,
-                    const MatrixXd& changes,
-                    Index left_out) {
-  std::vector<Index> kept;
-  for (Index session = 0; session < starts.rows(); ++session) {
-    if (session != left_out) kept.push_back(session);
+Separation Separate(const std::vector<Course>& courses) {
+  const auto count = static_cast<double>(courses.size());
+  const Index size = courses.front().start.size();
+  VectorXd mean = VectorXd::Zero(size);
+  VectorXd change = VectorXd::Zero(size);
+  MatrixXd spread = MatrixXd::Zero(size, size);
+  for (const Course& course : courses) {
+    mean += course.start / count;
+    change += course.change / count;
+    spread += course.spread / count;
   }
-  const MatrixXd of_kept = starts(kept, Eigen::all);
-  Separation separation;
-  separation.mean = of_kept.colwise().mean();
-  const VectorXd change = changes(kept, Eigen::all).colwise().mean();
-  const VectorXd variance = (of_kept.rowwise() - separation.mean.transpose())
-                                .array()
-                                .square()
-                                .colwise()
-                                .sum() /
-                            static_cast<double>(kept.size() - 1);
-  separation.sd = variance.cwiseSqrt();
-  // Among few starts some columns seem not to differ at all.
-  separation.weight = change.array() / (variance.array() + variance.mean() +
-                                        std::numeric_limits<double>::min());
-  const double within = separation.weight.dot(change);
-  if (within > 0.0) separation.weight /= within;
-  return separation;
+  MatrixXd covariance = MatrixXd::Zero(size, size);
+  for (const Course& course : courses) {
+    const VectorXd apart = course.start - mean;
+    covariance += apart * apart.transpose() / (count - 1.0);
+  }
+  const VectorXd sd = covariance.diagonal().cwiseSqrt();
+  // Few starts tell little of how starts scatter. How sessions go on counts as
+  // one more, and no combination of columns is free of noise.
+  constexpr double kNoise = 1e-3;
+  covariance = (1.0 + 1.0 / count) * covariance + spread / count;
+  covariance.diagonal().array() +=
+      kNoise * spread.diagonal().mean() + std::numeric_limits<double>::min();
+  VectorXd weight = covariance.llt().solve(change);
+  const double within = weight.dot(change);
+  if (within > 0.0) weight /= within;
+  return {.mean = mean, .sd = sd, .weight = weight};
+}
+
+Separation SeparateWithout(std::vector<Course> courses, std::size_t left_out) {
+  courses.erase(courses.begin() + static_cast<std::ptrdiff_t>(left_out));
+  return Separate(courses);
 }
 
 void LearnReadings(const data::SessionLog& log,
@@ -79,33 +110,20 @@ void LearnReadings(const data::SessionLog& log,
     columns.push_back(training.FindInput(remembered.back()));
   }
   if (columns.size() < 2) return;
-  MatrixXd starts(std::ssize(sessions), std::ssize(columns));
-  MatrixXd changes(starts.rows(), starts.cols());
-  for (std::size_t s = 0; s < sessions.size(); ++s) {
-    const auto at = static_cast<Index>(s);
-    const VectorXd start = Differences(log, sessions[s].front(), columns);
-    VectorXd sum = VectorXd::Zero(start.size());
-    double count = 0.0;
-    for (const Index row : sessions[s]) {
-      const VectorXd here = Differences(log, row, columns);
-      if (!here.allFinite()) continue;
-      sum += here - start;
-      ++count;
-    }
-    starts.row(at) = start;
-    changes.row(at) = sum / std::max(1.0, count);
+  std::vector<Course> courses;
+  for (const std::vector<Index>& rows : sessions) {
+    courses.push_back(CourseOf(log, rows, columns));
+    if (!courses.back().start.allFinite()) return;
   }
-  if (!starts.allFinite() || !changes.allFinite()) return;
   double squares = 0.0;
-  for (Index s = 0; s < starts.rows(); ++s) {
-    const double score =
-        Separate(starts, changes, s).Score(starts.row(s).transpose());
+  for (std::size_t s = 0; s < courses.size(); ++s) {
+    const double score = SeparateWithout(courses, s).Score(courses[s].start);
     squares += score * score;
   }
-  const auto count = static_cast<double>(sessions.size());
-  const double limit = stats::StudentQuantile(kReadingsWithin, count - 1.0) *
-                       std::sqrt(squares / count);
-  const Separation all = Separate(starts, changes, -1);
+  const auto count = static_cast<double>(courses.size());
+  const double limit =
+      stats::StudentQuantile(kWithin, count - 1.0) * std::sqrt(squares / count);
+  const Separation all = Separate(courses);
   for (std::size_t i = 0; i < remembered.size(); ++i) {
     const auto at = static_cast<Index>(i);
     history->start_readings.push_back(
@@ -141,7 +159,7 @@ void LearnClock(const data::SessionLog& log,
     squares += (start - mean) * (start - mean);
   }
   const auto count = static_cast<double>(starts.size());
-  const double late = stats::StudentQuantile(kClockWithin, count - 1.0) *
+  const double late = stats::StudentQuantile(kWithin, count - 1.0) *
                       std::sqrt(squares / (count - 1.0) * (1.0 + 1.0 / count));
   if (!(late < kWidest)) return;
   history->start_clock =

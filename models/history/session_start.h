@@ -12,10 +12,10 @@ namespace errmap::models {
 // the filters of a map then start wrong. At the start of a session,
 // thermometers differ as the machine at rest leaves them; later some have
 // warmed. The readings of a row, each less the mean of all, d, are compared
-// with both: z = sum w (d - mean at the starts). The weight w of a column is
-// its change within sessions over the spread of its starts, scaled so that the
-// mean row of training has z = 1. Starts left out of w and mean give the limit.
-// The second indicator is the time of day.
+// with both: z = sum w (d - mean at the starts). The weights w are those of
+// Fisher (1936), the change within sessions over the covariance of their
+// starts, scaled so that the mean row of training has z = 1. Starts left out of
+// w and mean give the limit. The second indicator is the time of day.
 
 /// Returns the rows of the log of each session of these rows, which have one.
 std::vector<std::vector<Index>> RowsOfSessions(const data::Dataset& training);

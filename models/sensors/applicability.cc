@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "data/text.h"
@@ -134,7 +135,8 @@ Applicability FitStates(const MatrixXd& states,
   if (states.cols() <= kMostColumns) {
     trained.sessions = {.precision = PrecisionOf(scaled),
                         .scatter = VectorXd::Ones(states.cols()),
-                        .units = 0};
+                        .units = 0,
+                        .starts = {}};
   }
   trained.states = SpreadEvenly(Scores(trained, scaled));
   return trained;
@@ -190,21 +192,57 @@ void SetLimits(const MatrixXd& states,
   trained->sessions->scatter = (scatter / mean).cwiseMax(1.0);
 }
 
+// Of scaled rows.
+std::optional<StartReadings> StartsOf(const data::Dataset& training,
+                                      const MatrixXd& scaled) {
+  constexpr std::size_t kFewestSessions = 4;
+  std::set<Index> sessions;
+  std::vector<Index> rows;
+  Index row = 0;
+  for (const Index session : training.session_codes()) {
+    if (sessions.insert(session).second) rows.push_back(row);
+    ++row;
+  }
+  if (rows.size() < kFewestSessions) return std::nullopt;
+  const MatrixXd first = scaled(rows, Eigen::all);
+  const VectorXd mean = first.colwise().mean();
+  const MatrixXd apart = first.rowwise() - mean.transpose();
+  return StartReadings{.mean = mean,
+                       .covariance = apart.transpose() * apart /
+                                     static_cast<double>(rows.size() - 1),
+                       .sessions = std::ssize(rows)};
+}
+
 // Applicability::repeats of the columns of these rows.
 VectorXd RepeatsOf(const data::Dataset& training, const MatrixXd& states) {
   const std::vector<Index> sessions = training.session_codes();
   VectorXd repeats = VectorXd::Zero(states.cols());
+  Eigen::ArrayXd run = Eigen::ArrayXd::Zero(states.cols());  // of repeats
+  Eigen::ArrayXd longest = run;
   Index steps = 0;
   for (Index row = 1; row < states.rows(); ++row) {
     const auto at = static_cast<std::size_t>(row);
-    if (!sessions.empty() && sessions[at] != sessions[at - 1]) continue;
+    if (!sessions.empty() && sessions[at] != sessions[at - 1]) {
+      run.setZero();
+      continue;
+    }
     ++steps;
-    repeats.array() += (states.row(row).array() == states.row(row - 1).array())
-                           .transpose()
-                           .cast<double>();
+    const Eigen::ArrayXd same =
+        (states.row(row).array() == states.row(row - 1).array())
+            .transpose()
+            .cast<double>();
+    repeats.array() += same;
+    run = (run + 1.0) * same;
+    longest = longest.max(run);
   }
-  return steps > 0 ? VectorXd(repeats / static_cast<double>(steps))
-                   : VectorXd();
+  if (steps == 0) return {};
+  const auto count = static_cast<double>(steps);
+  // Of so many steps, a run of k repeats is to be expected once where one in
+  // count^(1/k) repeats.
+  const Eigen::ArrayXd by_run =
+      (-std::log(count) / longest.max(std::numeric_limits<double>::min()))
+          .exp();
+  return (repeats / count).cwiseMax(by_run.matrix());
 }
 
 std::vector<Applicability::Derived> DerivedRanges(
@@ -347,7 +385,11 @@ std::optional<Applicability> MakeApplicability(const FittedModel& fitted,
   trained.standing = LearnStandingStill(training, of_training);
   const InnerFolds inner = MakeInnerFolds(rows, {});
   SetLimits(states, inner.folds, fitted.inputs, &trained);
-  if (trained.sessions) trained.sessions->units = inner.units;
+  if (trained.sessions) {
+    trained.sessions->units = inner.units;
+    trained.sessions->starts =
+        StartsOf(training, Scaled(trained, StatesOf(inputs, columns)));
+  }
   return trained;
 }
 

@@ -8,6 +8,7 @@
 
 #include "data/text.h"
 #include "models/map_experience.h"
+#include "models/sensors/first_readings.h"
 #include "models/trained_range.h"
 #include "stats/not_a_number.h"
 #include "stats/order_statistic.h"
@@ -143,6 +144,7 @@ struct Suspect {
 // sound sessions one in a hundred shows as much (tests/benchmarks/mornings.py).
 constexpr double kExchanged = 2.75;
 constexpr double kShifted = 3.75;
+constexpr double kAtStart = 2.0;
 
 std::vector<Suspect> SuspectsOf(const FittedModel& fitted,
                                 const MatrixXd& states) {
@@ -202,6 +204,15 @@ double OthersBeyond(const FittedModel& fitted,
   return beyond.empty() ? 0.0 : stats::UpperMedian(std::move(beyond));
 }
 
+// Less than what the others are beyond the trained range proves no shift.
+bool IsExtrapolated(const FittedModel& fitted,
+                    const MatrixXd& states,
+                    const SensorFaultFound& found) {
+  return found.fault == SensorFault::kOff &&
+         std::abs(found.value) <=
+             OthersBeyond(fitted, states, found.columns.front());
+}
+
 // The fault that explains best how the readings go together.
 std::optional<SensorFaultFound> AgainstTheOthers(const FittedModel& fitted,
                                                  const MatrixXd& states) {
@@ -210,12 +221,49 @@ std::optional<SensorFaultFound> AgainstTheOthers(const FittedModel& fitted,
   const std::vector<Suspect> suspects = SuspectsOf(fitted, states);
   const auto best = std::ranges::max_element(suspects, {}, &Suspect::likelier);
   if (!(best->shown > 0.0)) return std::nullopt;
-  const SensorFaultFound& found = best->found;
-  const bool extrapolated =
-      found.fault == SensorFault::kOff &&
-      std::abs(found.value) <=
-          OthersBeyond(fitted, states, found.columns.front());
-  return extrapolated ? std::nullopt : std::optional(found);
+  if (IsExtrapolated(fitted, states, best->found)) return std::nullopt;
+  return best->found;
+}
+
+// The fault that explains best how the first readings go together.
+std::optional<SensorFaultFound> AtTheStart(const FittedModel& fitted,
+                                           const MatrixXd& states) {
+  const Applicability& trained = *fitted.applicability;
+  if (!trained.sessions || !trained.sessions->starts || states.cols() < 3) {
+    return std::nullopt;
+  }
+  const FirstReadings readings(fitted);
+  const VectorXd first = states.row(0).transpose();
+  // The more faults may be, the likelier one of them fits by chance.
+  const auto columns = static_cast<double>(states.cols());
+  double likeliest = kAtStart + std::log(0.5 * columns * (columns + 1.0)) +
+                     readings.LogDensity(first);
+  std::optional<SensorFaultFound> found;
+  const auto suspect = [&](double log_density, SensorFaultFound fault) {
+    if (!(log_density > likeliest)) return;
+    likeliest = log_density;
+    found = std::move(fault);
+  };
+  for (Index i = 0; i < states.cols(); ++i) {
+    suspect(readings.LogDensity(first, i),
+            {.fault = SensorFault::kOff,
+             .columns = {ColumnOf(fitted, i)},
+             .value = readings.Shift(first, i),
+             .looks_like = ""});
+    for (Index j = i + 1; j < states.cols(); ++j) {
+      if (ColumnOf(fitted, i).unit.symbol != ColumnOf(fitted, j).unit.symbol) {
+        continue;
+      }
+      VectorXd exchanged = first;
+      std::swap(exchanged[i], exchanged[j]);
+      suspect(readings.LogDensity(exchanged),
+              {.fault = SensorFault::kSwapped,
+               .columns = {ColumnOf(fitted, i), ColumnOf(fitted, j)},
+               .looks_like = ""});
+    }
+  }
+  if (found && IsExtrapolated(fitted, states, *found)) return std::nullopt;
+  return found;
 }
 
 std::vector<double> WithoutEmpty(const VectorXd& readings) {
@@ -301,6 +349,7 @@ std::optional<SensorFaultFound> FindSensorFault(const FittedModel& fitted,
   // What hangs soon stands elsewhere, too.
   auto found = Frozen(fitted, states);
   if (!found) found = AgainstTheOthers(fitted, states);
+  if (!found) found = AtTheStart(fitted, states);
   if (found) CallDead(fitted, readings, &*found);
   return found ? found : spike;
 }

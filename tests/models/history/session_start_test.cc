@@ -1,5 +1,6 @@
 #include "models/history/session_start.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -11,12 +12,15 @@
 #include "stats/distributions.h"
 #include "stats/random.h"
 #include "tests/models/history/history_data.h"
+#include "tests/models/simulated_days.h"
 
 namespace errmap::models {
 namespace {
 
 using Eigen::Index;
 using errmap::testing::ColumnNamed;
+using errmap::testing::FirstSessions;
+using errmap::testing::SimulatedDays;
 using errmap::testing::WithLog;
 
 constexpr Index kRowsOfDay = 60;
@@ -63,6 +67,7 @@ History Remembering(const data::Dataset& training) {
   History history;
   history.time_unit = "s";
   for (const data::ColumnInfo& input : training.inputs()) {
+    if (data::IsPosition(input)) continue;
     history.derived.push_back(Ema(input, 600.0, "s"));
     history.form_inputs.push_back(history.derived.back().column.name);
   }
@@ -95,6 +100,34 @@ TEST(SessionStart, TellsLogsThatBeginInsideFromThoseThatBeginWithASession) {
   }
   EXPECT_LE(whole, 5);
   EXPECT_EQ(cut, 40);
+}
+
+// Of machines whose thermometers scatter together from morning to morning.
+TEST(SessionStart, TellsLogsThatLackATenthOfADay) {
+  constexpr Index kTrained = 6;
+  int days = 0;
+  int whole = 0;
+  int cut = 0;
+  for (const std::uint64_t seed : {15, 16, 17, 18, 19, 20}) {
+    const data::Dataset all = SimulatedDays(seed, 12, 12);
+    History history = Remembering(FirstSessions(all, kTrained));
+    history.start_clock = std::nan("");
+    data::SessionLog log = *all.log();
+    std::vector<Index> columns;
+    for (const std::string& name : history.columns()) {
+      columns.push_back(all.FindInput(name));
+    }
+    log.input_values = Eigen::MatrixXd(log.input_values(Eigen::all, columns));
+    for (Index day = kTrained; day < 12; ++day, ++days) {
+      const auto first = std::ranges::find(log.sessions.codes, day);
+      const Index row = first - log.sessions.codes.begin();
+      const Index tenth = std::ranges::count(log.sessions.codes, day) / 10;
+      whole += BeginsInside(log, row, history);
+      cut += BeginsInside(log, row + tenth, history);
+    }
+  }
+  EXPECT_LE(whole, days / 12) << "of " << days;
+  EXPECT_GE(cut, 9 * days / 10) << "of " << days;
 }
 
 TEST(SessionStart, SaysSoOfEachRowUntilTheMemoryIsFull) {

@@ -1,15 +1,20 @@
 #include "models/sensors/sensor_check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "data/csv.h"
+#include "data/measurements/dataset.h"
 #include "models/map_experience.h"
 #include "models/recipe_catalog.h"
 #include "models/uncertainty/promise.h"
+#include "stats/random.h"
 #include "tests/models/simulated_days.h"
 
 namespace errmap::models {
@@ -154,6 +159,14 @@ TEST_F(SensorsOfAThermalMachine, AreNamedWhereTwoAreSwapped) {
   EXPECT_GE(named, 0.95 * pairs);
 }
 
+TEST_F(SensorsOfAThermalMachine, AreSoundWhereALogBeginsLater) {
+  for (Index day = 0; day < kLater; ++day) {
+    const MatrixXd whole = Day(day);
+    EXPECT_EQ(Found(whole.bottomRows(whole.rows() / 3)), "") << day;
+    EXPECT_EQ(Found(whole.bottomRows(2 * whole.rows() / 3)), "") << day;
+  }
+}
+
 TEST_F(SensorsOfAThermalMachine, AreSoundInAStateThatIsUnlikeInAllOfThem) {
   MatrixXd warmer = Day(0);
   for (const Index sensor : map_->applicability->columns) {
@@ -175,6 +188,97 @@ TEST_F(SensorsOfAThermalMachine, AreSoundInARoomFarWarmerThanInTraining) {
     warmer.col(At(slow)).array() -= 20.0;
     EXPECT_EQ(Found(warmer), std::string("off ") + slow);
   }
+}
+
+// Days of five thermometers that begin 0.6 degC apart, the same each morning,
+// and then warm by 0 to 1.5 degC, each by itself.
+data::Dataset MorningsAlike(int days, std::uint64_t seed) {
+  stats::Random random(seed);
+  std::string text =
+      "session,t1_degC,t2_degC,t3_degC,t4_degC,t5_degC,error_um\n";
+  for (int day = 1; day <= days; ++day) {
+    const double room = 18.0 + 4.0 * random.Uniform();
+    std::vector<double> warming(5);
+    for (double& by : warming) by = 1.5 * random.Uniform();
+    for (int row = 0; row < 40; ++row) {
+      text += fmt::format("{}", day);
+      for (std::size_t i = 0; i < warming.size(); ++i) {
+        text += fmt::format(",{:.2f}",
+                            room + 0.6 * static_cast<double>(i) +
+                                warming[i] * (1.0 - std::exp(-row / 12.0)) +
+                                0.05 * random.Uniform());
+      }
+      text += fmt::format(",{:.3f}\n", room + random.Uniform());
+    }
+  }
+  return data::MakeDataset(data::ParseCsv(text, "mornings.csv"),
+                           {.session = "session"})
+      .dataset;
+}
+
+TEST(SensorCheck, NamesTwoSwappedByTheFirstRowsOfASession) {
+  const data::Dataset training = MorningsAlike(6, 1);
+  FittedModel map = MakeRecipe("poly:full:degree=1")->Fit(training, {});
+  AddExperience(training, &map);
+  const data::Dataset later = MorningsAlike(10, 2);
+  int pairs = 0;
+  int named = 0;
+  for (Index day = 0; day < 10; ++day) {
+    const MatrixXd first = later.input_values().middleRows(40 * day, 3);
+    EXPECT_FALSE(FindSensorFault(map, first).has_value()) << day;
+    for (Index i = 0; i < first.cols(); ++i) {
+      for (Index j = i + 1; j < first.cols(); ++j) {
+        MatrixXd swapped = first;
+        swapped.col(i).swap(swapped.col(j));
+        ++pairs;
+        const auto found = FindSensorFault(map, swapped);
+        if (!found) continue;
+        named += std::ranges::any_of(found->columns, [&](const auto& column) {
+          return column.name == fmt::format("t{}_degC", i + 1) ||
+                 column.name == fmt::format("t{}_degC", j + 1);
+        });
+      }
+    }
+  }
+  EXPECT_GE(named, 9 * pairs / 10) << "of " << pairs;
+}
+
+// Four sessions of 90 rows: two thermometers, and the speed that a programme
+// sets, which changes with every row or stands for as long as `held`.
+data::Dataset SpeedThatIsHeld(Index held) {
+  stats::Random random(5);
+  std::string text = "session,t1_degC,t2_degC,speed,error_um\n";
+  for (int session = 1; session <= 4; ++session) {
+    double speed = 0.0;
+    for (Index row = 0; row < 90; ++row) {
+      if (row % 30 >= held) speed = std::round(1000.0 * random.Uniform());
+      const double warm = 20.0 + 0.1 * static_cast<double>(row);
+      text += fmt::format("{},{:.3f},{:.3f},{},{:.3f}\n",
+                          session,
+                          warm + random.Uniform(),
+                          warm + random.Uniform(),
+                          speed,
+                          warm + 0.001 * speed);
+    }
+  }
+  return data::MakeDataset(data::ParseCsv(text, "held.csv"),
+                           {.session = "session"})
+      .dataset;
+}
+
+TEST(SensorCheck, CallsFrozenWhatStandsLongerThanInTraining) {
+  constexpr Index kHeld = 12;
+  const data::Dataset training = SpeedThatIsHeld(kHeld);
+  FittedModel map = MakeRecipe("poly:full:degree=1")->Fit(training, {});
+  AddExperience(training, &map);
+  MatrixXd readings = training.input_values().middleRows(90 + 10, 50);
+  const Index speed = training.FindInput("speed");
+  readings.col(speed).tail(kHeld).setConstant(500.0);
+  EXPECT_FALSE(FindSensorFault(map, readings).has_value());
+  readings.col(speed).tail(4 * kHeld).setConstant(500.0);
+  const auto found = FindSensorFault(map, readings);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->fault, SensorFault::kFrozen);
 }
 
 }  // namespace

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "models/error_model.h"
+#include "models/map_experience.h"
+
+namespace errmap::models {
+
+/// How likely the first readings of a session are. Near rest sensors differ by
+/// little, but always alike, so they tell more there than later.
+///
+/// They are like those of the sessions of training or, where a log begins later
+/// or a day begins otherwise, like any row of theirs. Each is a Student t of
+/// all columns, x', of as many degrees of freedom as sessions. Columns of one
+/// unit share a variance, as halls differ.
+class FirstReadings {
+ public:
+  /// `fitted` has applicability->sessions->starts.
+  explicit FirstReadings(const FittedModel& fitted);
+
+  /// Returns by how much a column is higher than the others tell at a start;
+  /// its unit, as those of `readings` (s).
+  double Shift(const Eigen::VectorXd& readings, Eigen::Index column) const;
+
+  /// Returns the log of the density, but for a constant. The column `shifted`,
+  /// if any, may stand anywhere.
+  double LogDensity(const Eigen::VectorXd& readings,
+                    Eigen::Index shifted = -1) const;
+
+ private:
+  struct StudentT {
+    StudentT(const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance);
+    double LogDensity(const Eigen::VectorXd& scaled,
+                      Eigen::Index shifted,
+                      double freedom) const;
+
+    Eigen::VectorXd mean;
+    Eigen::MatrixXd precision;
+    double log_determinant = 0.0;  // of the covariance
+  };
+
+  FirstReadings(const Applicability& trained,
+                const Eigen::MatrixXd& any_row,
+                const Eigen::MatrixXd& shared);
+  Eigen::VectorXd Scaled(const Eigen::VectorXd& readings) const;
+
+  const Applicability& trained_;
+  StudentT at_start_;
+  StudentT any_row_;
+};
+
+}  // namespace errmap::models
