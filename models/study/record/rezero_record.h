@@ -6,7 +6,7 @@
 
 #include "models/record.h"
 
-// The effect of re-zeroing on maps, and on no map.
+// The effect of re-zeroing on the error with a map and without one.
 
 namespace errmap::models {
 
