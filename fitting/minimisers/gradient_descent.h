@@ -23,8 +23,8 @@ struct GradientDescentOptions {
 /// is the best point seen.
 ///
 /// Ends like ScaledConjugateGradient. Ends with kNoDescent if the steps leave
-/// the region where the objective is finite. So it does if the gradient is
-/// small at a point that is not the best seen.
+/// the region where the objective is finite. Also if the gradient is small at a
+/// point that is not the best seen.
 class GradientDescent final : public Optimizer {
  public:
   /// Throws std::invalid_argument if an option is out of range.

@@ -29,7 +29,7 @@ bool Remembers(Filter filter);
 /// Assumed course of an input from one reading to the next.
 enum class Between {
   kLinear,  // straight: lags do not depend on the sampling rate
-  kHeld,    // jumps to the later one; default of files that do not say it
+  kHeld,    // jumps to the later one; default of files without it
 };
 
 /// "linear", "held".

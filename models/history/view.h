@@ -33,8 +33,8 @@ struct ViewOptions {
   std::optional<std::vector<double>> time_constants = {};
   /// False: views with a zero are not offered.
   bool zero = true;
-  /// False: no intercept in any view. True: a zeroed view still has none if
-  /// each session begins with an error within the indifference.
+  /// False: no intercept in any view. True: an intercept, except in a zeroed
+  /// view if each session begins with a negligible error.
   bool intercept = true;
   /// True: sine and cosine replace angles; empty: chosen with the view if an
   /// angle turns far enough, else not.

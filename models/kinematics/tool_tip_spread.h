@@ -21,7 +21,7 @@ struct HeldOutToolTip {
 /// 100:2008, G.4), with a confidence of 80 %, and at least one for each
 /// session.
 ///
-/// That knows what the sum of independent components cannot: maps which read
+/// This includes what the sum of independent components cannot: maps which read
 /// the same sensors err together, a machine is used in states in which a
 /// component was not measured, and an instrument's noise is no error of the
 /// tool. Along a direction where a first-order half-width is not known or 0 all

@@ -10,8 +10,8 @@
 namespace errmap::models {
 
 /// Joins the rows of two data sets with the same inputs and target. Their
-/// sessions stay apart, whatever their labels. Throws std::invalid_argument
-/// if columns differ, or where only one knows sessions and times.
+/// sessions stay apart, whatever their labels. Throws std::invalid_argument if
+/// columns differ, or if only one has sessions and times.
 data::Dataset Joined(const data::Dataset& first, const data::Dataset& second);
 
 /// A map against its successor on new sessions that neither has seen.

@@ -77,9 +77,9 @@ class MemoryBounds {
   /// difference; 0 below 4 units.
   double InDifference(Index a, Index b, double margin) const;
   double ShownInDifference(Index a, Index b) const;
-  /// Returns ShownMemory, by kSuspected, of the model's mean errors if they are
-  /// known. Returns that of its losses if they are not, or if it is larger and
-  /// there are at least 20 units. 0 below 4 units.
+  /// Returns ShownMemory, by kSuspected, of the model's mean errors. If these
+  /// are unknown, or there are at least 20 units and its losses show more
+  /// memory, returns that of its losses. 0 below 4 units.
   double ShownInLosses(Index model) const;
 
  private:

@@ -457,7 +457,7 @@ def check_mixed(exported, errmap):
         found = subprocess.run(["cc", "-c", exported.name + ".c"], cwd=mixed,
                                capture_output=True, text=True, check=False)
         check(exported.name + ": a mixed set does not compile",
-              found.returncode != 0 and "of two exports" in found.stderr,
+              found.returncode != 0 and "from two exports" in found.stderr,
               found.stderr[:200])
 
 

@@ -70,7 +70,7 @@ enum class Cell {
   kMostRate,
   kFresh,     // 1: started inside a session, or unknown
   kSettling,  // s until the filters have settled again
-  kPending,   // s of them that have passed, less than one
+  kPending,   // fraction of the next second that has passed
   kStood,     // s since one of the watched readings changed
   kLeapt,     // kWaited when a reading last jumped; 0: it is back
   kKnown,     // map whose state kNear is, from 1; 0: none
@@ -156,7 +156,7 @@ struct Statement {
   std::vector<Expression> sides = {};     // kAssign: to, value; kIf: condition
   int flag = 0;                           // kFlag: a bit of the status
   Part part = Part::kEvaluate;            // kRun
-  int count = 0;                          // kEach; 0: of the readings
+  int count = 0;                          // kEach; 0: as many as readings
   int form = 0;                           // kRun: of MapProgram::forms
   std::vector<Statement> body = {};       // kIf, loops
   std::vector<Statement> otherwise = {};  // kIf

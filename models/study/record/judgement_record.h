@@ -88,7 +88,7 @@ struct VerdictRecord {
   std::string why;
 };
 
-// The effect of re-zeroing on maps, and on no map.
+// The effect of re-zeroing on the error with a map and without one.
 
 struct RezeroedModelRecord {
   std::string model;

@@ -34,8 +34,8 @@ BeforeRezero RezeroStudy(const data::Dataset& dataset,
                          std::vector<Holdout>* holdouts,
                          StudyResult* study);
 
-/// Maps compared with no map, re-zeroed alike. RMSE on the held-out rows,
-/// target's unit.
+/// Errors with a map and without one, re-zeroed in the same way. RMSE on the
+/// held-out rows, target's unit.
 struct RezeroWorth {
   struct Model {
     std::size_t model = 0;
