@@ -12,6 +12,7 @@
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/measured_files.h"
 #include "data/measurements/reading/derived_columns.h"
+#include "data/measurements/reading/directions.h"
 #include "data/measurements/reading/read_table.h"
 #include "data/measurements/row_filters.h"
 #include "data/measurements/sessions.h"

@@ -333,8 +333,8 @@ class ClockFinder : private RowColumns {
     constexpr double kMostElapsed = 366.0 * kSecondsOfDay;
     const bool fits = unit != nullptr && pace.MayBeIn(*unit);
     const bool elapsed = fits && pace.most * unit->seconds < kMostElapsed;
-    if (epoch && (!fits || epoch->unit == unit ||
-                  !(elapsed || epoch->counts_days()))) {
+    if (epoch &&
+        (!fits || epoch->unit == unit || !(elapsed || epoch->counts_days()))) {
       clock_.sure = unit == nullptr || !fits || epoch->unit == unit;
       if (!clock_.sure) clock_.alternative = unit->name;
       Scale(*epoch->unit, epoch->offset, values);
