@@ -6,10 +6,10 @@
 
 namespace errmap::turning_centre {
 
-/// The bodies of the turning centre. Left is the spindle's end of the bed, and
-/// right is the home of the Z slide. The spindle head has the nose in front and
-/// the pulley at the rear. The X column stands on the Z slide. Its right face
-/// carries the vertical X ways and the X screw. On its left is the turret,
+/// The bodies of the turning centre. The spindle is at the left end of the bed,
+/// and the Z slide's home at the right. The spindle head has the nose in front
+/// and the pulley at the rear. The X column stands on the Z slide. Its right
+/// face carries the vertical X ways and the X screw. On its left is the turret,
 /// which the X slide carries.
 enum Body : std::size_t {
   kBedLeftBottom,

@@ -66,12 +66,11 @@ struct LeastSquaresOptions {
 /// with weight above 0, as in R's lm. `weights` (rows) or (0).
 double CountObservations(Index rows, const VectorXd& weights);
 
-/// Least squares by Householder QR on columns scaled to unit length, in
-/// the order given, never by normal equations. If digits require it, the
-/// solution is refined by Bjorck's iteration (BIT 7, 1967) with
-/// residuals in 106 bits. Of dependent columns the later ones are
-/// aliased: they get coefficient 0 and are listed, and the solution is
-/// that without them.
+/// Least squares by Householder QR on columns scaled to unit length, in the
+/// order given, never by normal equations. If digits require it, the solution
+/// is refined by Bjorck's iteration (BIT 7, 1967) with residuals in 106 bits.
+/// Among dependent columns, the later ones are aliased: they get coefficient 0,
+/// are listed, and do not affect the solution.
 ///
 /// `design` (n x p), `response` (n), `weights` (n) not negative or (0): equal.
 /// Throws std::invalid_argument if shapes do not agree, n < 1, p < 1, or a
