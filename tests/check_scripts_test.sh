@@ -115,7 +115,7 @@ violation cli/desk/config.h '#include "cli/desk/toml/keys.h"'
 violation models/kind.h '#include "models/net/net.h"'
 violation fitting/minimisers/optimizer.h '#include "fitting/nonlinear/fit.h"'
 # From the core to a slice.
-violation cli/output/report.h '#include "cli/machine/machine_study.h"'
+violation cli/output/report.h '#include "cli/machine/machine_file.h"'
 violation cli/desk/config.h '#include "cli/fleet/run/fleet_run.h"'
 violation cli/report/page.h '#include "cli/machine/record/machine_record.h"'
 cases=$((cases + 1))

@@ -1,3 +1,5 @@
+#include "cli/machine/machine_file.h"
+
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -10,7 +12,6 @@
 #include <fmt/format.h>
 
 #include "cli/desk/toml/toml_keys.h"
-#include "cli/machine/machine_study.h"
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"

@@ -10,7 +10,7 @@
 
 #include "cli/command.h"
 #include "cli/desk/toml/study_file.h"
-#include "cli/machine/machine_study.h"
+#include "cli/machine/machine_file.h"
 #include "cli/netcg/netcg_files.h"
 #include "cli/netcg/run_file.h"
 #include "cli/output/claimed_folder.h"
