@@ -1,6 +1,7 @@
 #include "models/session/map_rows.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
@@ -81,6 +82,35 @@ data::DatasetSelection SelectionOfRows(const FittedModel& fitted,
   return selection;
 }
 
+double RowsPerCycle(const data::Reading& reading) {
+  return reading.cycles.count == 0
+             ? 0.0
+             : static_cast<double>(reading.rows) /
+                   static_cast<double>(reading.cycles.count);
+}
+
+// A memory without a clock counts rows. "" where a cycle has as many as in
+// training, or where nothing tells.
+std::string OtherPace(const FittedModel& fitted, const data::Reading& reading) {
+  constexpr double kAlike = 0.1;
+  const History* const history = fitted.history.get();
+  if (history == nullptr || history->time_unit != "rows" ||
+      !history->needs_sessions() || fitted.reading == nullptr) {
+    return "";
+  }
+  const double then = RowsPerCycle(*fitted.reading);
+  const double now = RowsPerCycle(reading);
+  if (then == 0.0 || now == 0.0 || std::abs(now / then - 1.0) < kAlike) {
+    return "";
+  }
+  return fmt::format(
+      "warning: the map remembers by counting rows: {:.0f} in a cycle when it "
+      "was fitted, {:.0f} here. It will be wrong; measure as before, or fit a "
+      "map to data with a clock",
+      then,
+      now);
+}
+
 // Puts the rows in order of time where a clock tells it; what was found of
 // them.
 data::ReadTable ReadRows(const FittedModel& fitted,
@@ -106,6 +136,9 @@ data::ReadTable ReadRows(const FittedModel& fitted,
           "warning: the rows stand in order of position; the map's memory "
           "needs them as measured, or a column of times");
     }
+  }
+  if (std::string pace = OtherPace(fitted, read.reading); !pace.empty()) {
+    remarks->push_back(std::move(pace));
   }
   if (!read.order.empty()) *table = data::TakeRows(*table, read.order);
   for (const TrainedInput& input : fitted.inputs) {

@@ -1,10 +1,12 @@
 // The figures and files of the program.
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -383,6 +385,38 @@ TEST_F(Cli, PredictIsForTheWayThatTheMapWasFittedTo) {
       EXPECT_THAT(outcome.err, HasSubstr("30 of 60 rows have direction"));
     }
   }
+}
+
+TEST_F(Cli, PredictWarnsWhereAMemoryCountsOtherRows) {
+  const auto log = [](int step) {
+    std::string text = "day,cycle,position_mm,t1_degC,error_um\n";
+    for (int row = 0; row < 3 * 6 * 9; ++row) {
+      if (row % 9 % step != 0) continue;
+      const int cycle = row / 9 % 6;
+      const double warm = 3.0 * (1.0 - std::exp(-cycle / 2.0));
+      text += fmt::format("{},{},{},{:.2f},{:.2f}\n",
+                          row / 54,
+                          cycle,
+                          50 * (row % 9),
+                          20.0 + warm,
+                          4.0 * warm + row % 9 + 0.1 * (row % 7));
+    }
+    return text;
+  };
+  Write("train.csv", log(1));
+  Write("fewer.csv", log(2));
+  ASSERT_EQ(Run({"fit",
+                 "train.csv",
+                 "--model",
+                 "poly:ridge:view=history",
+                 "-o",
+                 "rows.json"})
+                .status,
+            0);
+  EXPECT_THAT(Run({"predict", "rows.json", "fewer.csv"}).err,
+              HasSubstr("9 in a cycle when it was fitted, 5 here"));
+  EXPECT_THAT(Run({"predict", "rows.json", "train.csv"}).err,
+              ::testing::Not(HasSubstr("counting rows")));
 }
 
 TEST_F(Cli, FitPromisesWhatUnseenCyclesShow) {
