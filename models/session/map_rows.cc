@@ -149,14 +149,28 @@ data::ReadTable ReadRows(const FittedModel& fitted,
   return read;
 }
 
+// Whether the rows go another way than those of training: by a column, or by
+// the positions where these are whole passes. Probes here and there go no way.
+bool GoAnotherWay(const FittedModel& fitted,
+                  const data::Reading& reading,
+                  const std::string& way) {
+  constexpr double kWhole = 0.9;
+  const data::Reading::Direction& direction = reading.direction;
+  const bool tells =
+      direction.by == "column" ||
+      RowsPerCycle(reading) >= kWhole * RowsPerCycle(*fitted.reading);
+  return direction.sure && tells &&
+         std::ranges::any_of(direction.values, [&](const std::string& value) {
+           return value != way;
+         });
+}
+
 // The map's own, and the way of its training data where the rows go another.
-std::vector<data::ColumnFilter> FiltersToTell(
-    const FittedModel& fitted, const data::Reading::Direction& direction) {
+std::vector<data::ColumnFilter> FiltersToTell(const FittedModel& fitted,
+                                              const data::Reading& reading) {
   std::vector<data::ColumnFilter> filters = fitted.where;
   const std::optional<std::string> way = OneWayOf(fitted);
-  const auto is_other = [&](const std::string& value) { return value != *way; };
-  if (way && direction.sure &&
-      std::ranges::any_of(direction.values, is_other)) {
+  if (way && GoAnotherWay(fitted, reading, *way)) {
     filters.push_back({.column = data::kDirectionColumn, .value = *way});
   }
   return filters;
@@ -196,7 +210,7 @@ data::TableForMap ReadForMap(const FittedModel& fitted,
   data::ReadTable rows =
       ReadRows(fitted, arguments, &read.table, &read.remarks);
   data::AddDerivedColumns(
-      FiltersToTell(fitted, rows.reading.direction),
+      FiltersToTell(fitted, rows.reading),
       PositionOf(fitted),
       columns == MapColumns::kInputsAndTarget ? fitted.target.name : "",
       fitted.history != nullptr ? fitted.history->session : "",

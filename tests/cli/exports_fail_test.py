@@ -254,6 +254,13 @@ def check_status(exported, errmap, counts):
                     break
                 row = of_day[int(direction.down)][i]
                 counts[row["why"]] = counts.get(row["why"], 0) + 1
+                if row["why"] == "where":
+                    # A control turns once the axis has moved.
+                    at_turn = i == 0 or (inputs[exported.position] ==
+                                         steps[i - 1][1 + exported.position])
+                    check(f"{exported.name}, {file}: row {i} is at a turn",
+                          at_turn)
+                    continue
                 check(f"{exported.name}, {file}: row {i} as predict says",
                       bool(status & unlike) == (row["inside"] == "0")
                       and (not row["why"] or status & bits[row["why"]]),

@@ -282,6 +282,12 @@ class ClockFinder : private RowColumns {
     return true;
   }
 
+  // That of nearly all logs.
+  static bool HasUsualStep(const Pace& pace, const TimeUnit& unit) {
+    const double step = pace.step * unit.seconds;
+    return step >= 0.5 && step <= 3600.0;
+  }
+
   void ToSeconds(const std::string& name,
                  bool named,
                  std::vector<double>* values) {
@@ -330,9 +336,10 @@ class ClockFinder : private RowColumns {
                                                          : Named::kNothing);
     // Numbers from 1970 in one unit hardly ever are so large in another, but
     // for months in ms; Excel's days are numbers as any.
-    constexpr double kMostElapsed = 366.0 * kSecondsOfDay;
     const bool fits = unit != nullptr && pace.MayBeIn(*unit);
-    const bool elapsed = fits && pace.most * unit->seconds < kMostElapsed;
+    const bool elapsed = fits && epoch && HasUsualStep(pace, *unit) &&
+                         !HasUsualStep(pace, *epoch->unit) &&
+                         pace.most * unit->seconds < 366.0 * kSecondsOfDay;
     if (epoch &&
         (!fits || epoch->unit == unit || !(elapsed || epoch->counts_days()))) {
       clock_.sure = unit == nullptr || !fits || epoch->unit == unit;
