@@ -170,7 +170,9 @@ class Pen {
     const double top = y_.to();
     const double bottom = y_.from();
     std::string d;
-    for (double sum = left + top + kStep; sum < right + bottom; sum += kStep) {
+    const double lines = std::ceil((right + bottom - left - top) / kStep);
+    for (int i = 1; i < lines; ++i) {
+      const double sum = left + top + kStep * i;
       const double x0 = std::min(right, sum - top);
       const double x1 = std::max(left, sum - bottom);
       d += "M" + At(x0, sum - x0) + "L" + At(x1, sum - x1);
@@ -307,7 +309,7 @@ class Pen {
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (!IsShown(plot_, series, i)) continue;
       d += (d.empty() ? "M" : "L") + At(x_(x[i]), y_(high[i]));
-      back = "L" + At(x_(x[i]), y_(low[i])) + back;
+      back.insert(0, "L" + At(x_(x[i]), y_(low[i])));
     }
     return d.empty() ? d : d + back + "Z";
   }
