@@ -1,6 +1,9 @@
 #include "cli/commands/progress.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -26,17 +29,17 @@ std::string ProgressText(const ProgressState& state, std::size_t width) {
     about = ", about ";
     left = desk::RoughTimeText(seconds_left) + " left";
   }
+  std::string whole = fits + elapsed + about + left;
+  if (state.best.empty()) return whole;
   const std::string best = ", best so far " + state.best;
   const std::string brief = left.empty() ? "" : ", " + left;
-  if (!state.best.empty()) {
-    for (const std::string& text :
-         {fits + elapsed + about + left + best + " (" + state.holdout + ")",
-          fits + elapsed + about + left + best,
-          fits + brief + best}) {
-      if (report::WidthOf(text) <= width) return text;
-    }
-  }
-  return fits + elapsed + about + left;
+  const std::array texts = {whole + best + " (" + state.holdout + ")",
+                            whole + best,
+                            fits + brief + best};
+  const auto* const fits_in = std::ranges::find_if(
+      texts,
+      [&](const std::string& text) { return report::WidthOf(text) <= width; });
+  return fits_in == texts.end() ? whole : *fits_in;
 }
 
 Progress::Progress(bool enabled)

@@ -204,7 +204,8 @@ std::vector<std::pair<std::string, PathFields>> PathPattern::FilesBelow(
     for (const auto& [path, fields] : found) {
       const auto add = [&, &before = path](const std::string& name,
                                            PathFields more) {
-        const std::string longer = i == 0 ? name : before + "/" + name;
+        std::string longer = i == 0 ? "" : before + "/";
+        longer += name;
         std::error_code ignored;
         const fs::path whole = Joined(folder, longer);
         if (i + 1 == segments_.size() ? !fs::is_regular_file(whole, ignored)

@@ -145,11 +145,13 @@ HeldOutRows HeldOutRowsOf(const ReportView& view,
     rows.missing =
         "results.json holds no rows for figures; run errmap compare "
         "again.";
-  } else if (found == nullptr || table == nullptr ||
-             found->size() != table->target.size()) {
-    rows.missing = "There are no held-out predictions of this model.";
+    return rows;
   }
-  if (!rows.missing.empty()) return rows;
+  if (found == nullptr || table == nullptr ||
+      found->size() != table->target.size()) {
+    rows.missing = "There are no held-out predictions of this model.";
+    return rows;
+  }
   const std::vector<double>& predicted = *found;
   const std::vector<double>& target = table->target;
   const std::vector<std::vector<double>>& inputs = table->inputs;
