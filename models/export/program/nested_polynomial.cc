@@ -61,10 +61,13 @@ class Nesting {
       return;
     }
     const std::size_t input = CommonestInput(terms);
-    const auto rest = std::ranges::stable_partition(
-        terms, [&](const SparseTerm& term) { return term.PowerOf(input) > 0; });
-    const Terms with(terms.begin(), rest.begin());
-    const Terms without(rest.begin(), rest.end());
+    // Not that of std::ranges, which clang 14 does not compile.
+    const auto rest = std::stable_partition(
+        terms.begin(), terms.end(), [&](const SparseTerm& term) {
+          return term.PowerOf(input) > 0;
+        });
+    const Terms with(terms.begin(), rest);
+    const Terms without(rest, terms.end());
     int power = with.front().PowerOf(input);
     for (const SparseTerm& term : with) {
       power = std::min(power, term.PowerOf(input));
