@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The first bytes of a database, and the place of its owner.
-constexpr std::string_view kBegin{"SQLite format 3", 16};
+constexpr std::string_view kBegin{"SQLite format 3\0", 16};
 constexpr std::size_t kOwnerAt = 68;
 constexpr std::string_view kOwner = "ErMp";  // application_id 1165118832
 constexpr std::size_t kSchemaAt = 40;        // counts changes of the tables
