@@ -60,8 +60,7 @@ std::vector<Index> UnitCodes(const Holdout& holdout,
   units->name = kBlockOfRows;
   std::vector<Index> ordered = held.rows;
   std::ranges::sort(ordered);
-  const auto repeated = std::ranges::unique(ordered);
-  ordered.erase(repeated.begin(), repeated.end());
+  ordered.erase(std::unique(ordered.begin(), ordered.end()), ordered.end());
   const std::vector<Index> blocks = stats::BlocksInOrder(std::ssize(ordered));
   std::vector<Index> block_of(
       static_cast<std::size_t>(ordered.empty() ? 0 : ordered.back() + 1));
