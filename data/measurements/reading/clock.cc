@@ -399,6 +399,14 @@ class ClockFinder : private RowColumns {
 
 }  // namespace
 
+bool Clock::DatesRise() const {
+  const auto rises_not = [](double before, double now) {
+    return !(before < now);
+  };
+  return dated && std::ranges::count(known, false) == 0 &&
+         std::ranges::adjacent_find(time, rises_not) == time.end();
+}
+
 Clock FindClock(const CsvTable& table,
                 const DatasetSelection& selection,
                 const std::vector<Index>& rows) {

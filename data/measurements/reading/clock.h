@@ -29,6 +29,9 @@ struct Clock {
   std::vector<std::string> remarks;  // on its unit, the order of dates, ...
 
   bool is_found() const { return column >= 0; }
+  /// Whether each row has a date, later than that of the row before: no two are
+  /// the same reading.
+  bool DatesRise() const;
 };
 
 /// Finds the column of times: the one that `selection` names, else one whose

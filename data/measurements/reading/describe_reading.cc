@@ -102,12 +102,10 @@ void DescribeTime(const CsvTable& table,
 
 }  // namespace
 
-void DescribeReading(const CsvTable& given,
-                     const DatasetSelection& selection,
-                     const Clock& clock,
-                     const Nights& nights,
-                     ReadTable* read) {
-  const CsvTable& table = read->table ? *read->table : given;
+void DescribeReading(TableInReading* in) {
+  const CsvTable& table = in->table();
+  const DatasetSelection& selection = in->selection;
+  ReadTable* const read = &in->read;
   Reading& reading = read->reading;
   if (read->roles.target < table.columns.size()) {
     reading.target.column = table.columns[read->roles.target].name;
@@ -127,9 +125,9 @@ void DescribeReading(const CsvTable& given,
     reading.position.sure = true;
   }
   const bool is_used = !selection.with_log || read->found.time_column >= 0;
-  DescribeTime(table, is_used ? clock : Clock(), &reading.time);
+  DescribeTime(table, is_used ? in->clock : Clock(), &reading.time);
   if (!read->found.sessions.labels.empty()) {
-    DescribeSessions(table, clock, nights, read);
+    DescribeSessions(table, in->clock, in->nights, read);
   }
   reading.rows -= std::ssize(reading.rows_left_out);
   if (selection.faults == FaultPolicy::kDropRows) {
@@ -139,10 +137,10 @@ void DescribeReading(const CsvTable& given,
     reading.rows_left_out.push_back(
         {.row = row, .why = "repeats another value for value"});
   }
-  for (const auto& part : given.parts) {
+  for (const auto& part : in->given.parts) {
     reading.files.push_back(ShownPath(part.second));
   }
-  if (given.parts.empty()) reading.files = {ShownPath(given.file)};
+  if (in->given.parts.empty()) reading.files = {ShownPath(in->given.file)};
 }
 
 }  // namespace errmap::data

@@ -1,19 +1,11 @@
 #pragma once
 
-#include "data/csv.h"
-#include "data/measurements/reading/clock.h"
-#include "data/measurements/reading/nights.h"
-#include "data/measurements/reading/read_table.h"
+#include "data/measurements/reading/table_in_reading.h"
 
 namespace errmap::data {
 
-/// Fills read->reading, and read->position, from what was found in the table
-/// that was `given`: target, axis, time, sessions, cycles, rows left out,
-/// files.
-void DescribeReading(const CsvTable& given,
-                     const DatasetSelection& selection,
-                     const Clock& clock,
-                     const Nights& nights,
-                     ReadTable* read);
+/// Fills `reading` and `position` of in->read from what was found: target,
+/// axis, time, sessions, cycles, rows left out, files.
+void DescribeReading(TableInReading* in);
 
 }  // namespace errmap::data

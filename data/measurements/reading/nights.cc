@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
+#include "data/argument_name.h"
+#include "data/input_error.h"
 #include "data/measurements/date_time.h"
 #include "data/measurements/sessions.h"
 
@@ -67,6 +70,21 @@ Nights FindNights(const Eigen::VectorXd& time,
                               : between.front() >= 43200.0;
   (are_days ? nights.gap : nights.other) = gap;
   nights.sure = are_days;
+  return nights;
+}
+
+Nights FindNights(const Clock& clock,
+                  const Motion& motion,
+                  const DatasetSelection& selection) {
+  Nights nights = FindNights(clock.time, motion, clock.dated);
+  if (!clock.is_found()) nights.gap = INFINITY;
+  if (selection.gap.empty()) return nights;
+  const std::optional<double> gap = ParseInterval(selection.gap);
+  if (!gap) {
+    throw InputError(ArgumentName("gap", selection.gap) +
+                     ": is no length of time; give 2h, 90min or 30s");
+  }
+  nights.gap = *gap;
   return nights;
 }
 

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "data/measurements/dataset.h"
+#include "data/measurements/reading/clock.h"
 #include "data/measurements/reading/motion.h"
 
 namespace errmap::data {
@@ -23,5 +25,11 @@ struct Nights {
 Nights FindNights(const Eigen::VectorXd& time,
                   const Motion& motion,
                   bool dated);
+
+/// The same by a clock, or the pause that the selection gives. Without a clock
+/// there is one session. Throws InputError if that is no length of time.
+Nights FindNights(const Clock& clock,
+                  const Motion& motion,
+                  const DatasetSelection& selection);
 
 }  // namespace errmap::data

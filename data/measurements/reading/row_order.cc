@@ -5,8 +5,17 @@
 #include <cstddef>
 #include <map>
 #include <numeric>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "data/columns.h"
+#include "data/measurements/column_roles.h"
+#include "data/measurements/reading/axis.h"
+#include "data/measurements/reading/base_rows.h"
+#include "data/measurements/reading/midnight.h"
+#include "data/measurements/sessions.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -56,8 +65,10 @@ bool RanksBefore(const std::string& a,
   return rank.at(a) < rank.at(b);
 }
 
-}  // namespace
-
+// The places (n) of rows in the order of their times (n): by one clock for all
+// where the sessions (n names; "": none) lie apart in it, else in each session
+// by itself, these by number or in order of appearance. Nothing where times
+// come again in other rows, as those of a clock that starts anew would.
 std::optional<std::vector<Index>> OrderOfTime(
     const Eigen::VectorXd& time, const std::vector<std::string>& sessions) {
   if (!AreDistinct(time, sessions)) return std::nullopt;
@@ -77,11 +88,8 @@ std::optional<std::vector<Index>> OrderOfTime(
   return places;
 }
 
-bool FilesInterleave(const Eigen::VectorXd& time,
-                     const std::vector<Index>& files) {
-  return !LieApart(time, files);
-}
-
+// Whether the number of the cycle (n) changes every few rows, and not to the
+// next one or to the first, or at one position (n codes; none: not known).
 bool AreMixed(const std::vector<double>& cycles,
               const std::vector<Index>& positions) {
   constexpr std::size_t kFewestRows = 12;
@@ -100,6 +108,99 @@ bool AreMixed(const std::vector<double>& cycles,
     odd += stays || (now != before + 1.0 && now != first) ? 1 : 0;
   }
   return 2 * odd > changes && kFewRows * changes > cycles.size();
+}
+
+bool CyclesAreMixed(const TableInReading& in) {
+  std::ptrdiff_t column = in.read.roles.group;
+  if (column == kNoColumn) column = in.FirstCalled(Word::kRun);
+  if (column == kNoColumn) return false;
+  std::vector<double> cycles;
+  for (const Index row : in.base_rows) {
+    cycles.push_back(
+        in.table().At(column).values[static_cast<std::size_t>(row)]);
+  }
+  const std::vector<Index>& codes = in.read.axis.levels.codes;
+  return AreMixed(cycles,
+                  codes.size() == cycles.size() ? codes : std::vector<Index>());
+}
+
+// Of each base row, by the column that is called so; "" without one.
+std::vector<std::string> SessionLabels(const TableInReading& in) {
+  std::vector<std::string> labels(in.base_rows.size());
+  std::ptrdiff_t column = in.table().Find(in.selection.session);
+  if (in.selection.session.empty()) column = in.FirstCalled(Word::kSession);
+  for (std::size_t i = 0; column >= 0 && i < labels.size(); ++i) {
+    labels[i] = in.table().CellText(in.table().At(column),
+                                    static_cast<std::size_t>(in.base_rows[i]));
+  }
+  return labels;
+}
+
+// False where there is no such order.
+bool SortByTime(TableInReading* in) {
+  const auto places = OrderOfTime(in->clock.time, SessionLabels(*in));
+  if (!places) return false;
+  std::vector<Index> order;
+  std::vector<bool> taken(in->given.num_rows, false);
+  for (const Index place : *places) {
+    order.push_back(in->base_rows[static_cast<std::size_t>(place)]);
+    taken[static_cast<std::size_t>(order.back())] = true;
+  }
+  for (std::size_t row = 0; row < taken.size(); ++row) {
+    if (!taken[row]) order.push_back(static_cast<Index>(row));
+  }
+  in->read.table = TakeRows(in->table(), order);
+  in->read.order = std::move(order);
+  in->base_rows = AllRows(in->base_rows.size());
+  return true;
+}
+
+void FindClockAndAxis(TableInReading* in, bool looks_for_axis) {
+  in->clock = FindClock(in->table(), in->selection, in->base_rows);
+  if (!looks_for_axis) return;
+  in->read.axis = FindAxis(
+      in->table(), in->selection, in->read.roles.target, in->base_rows);
+}
+
+}  // namespace
+
+void PutInOrder(TableInReading* in, RowsFor use) {
+  const bool looks_for_axis =
+      use == RowsFor::kLearning || !in->selection.position.empty();
+  FindClockAndAxis(in, looks_for_axis);
+  if (use == RowsFor::kLearning && LeaveOutSavedTwice(in)) {
+    FindClockAndAxis(in, looks_for_axis);
+  }
+  constexpr Index kFewestRows = 12;
+  const auto n = static_cast<Index>(in->base_rows.size());
+  const Index back = TimesBack(in->clock.time);
+  const bool sorted = in->read.axis.motion.is_sorted && n >= kFewestRows;
+  // Dates go back hardly ever; hours, and what begins anew, each day.
+  const bool often =
+      4 * back > n || (in->clock.dated && back >= 3 && 50 * back > n);
+  const bool disorder =
+      in->clock.is_found() &&
+      (often || (sorted && back > 0) ||
+       (in->clock.dated && in->given.parts.size() > 1 &&
+        !LieApart(in->clock.time, PartsOfRows(in->given, in->base_rows))));
+  const bool mixed = !in->clock.is_found() && CyclesAreMixed(*in);
+  if (disorder && SortByTime(in)) {
+    in->read.reading.order = "time";
+    FindClockAndAxis(in, looks_for_axis);
+  } else if (sorted || mixed) {
+    // What was sorted by position, or shuffled, tells no history.
+    in->ordered = false;
+    in->read.reading.order = "none";
+  }
+  if (in->ordered) {
+    GoOnOverMidnight(in->table(), in->base_rows, &in->clock);
+  } else {
+    in->clock = {};
+    in->clock.known.assign(in->base_rows.size(), true);
+    in->clock.time.resize(n);
+    std::ranges::copy(in->base_rows, in->clock.time.begin());
+  }
+  in->nights = FindNights(in->clock, in->Passes(), in->selection);
 }
 
 }  // namespace errmap::data

@@ -1,0 +1,83 @@
+#include "data/measurements/reading/base_rows.h"
+
+#include <string>
+
+#include "data/column_words.h"
+#include "data/columns.h"
+#include "data/measurements/column_checks.h"
+#include "data/measurements/column_roles.h"
+#include "data/measurements/faults/row_faults.h"
+#include "data/measurements/reading/directions.h"
+#include "data/text.h"
+
+namespace errmap::data {
+
+using Eigen::Index;
+
+namespace {
+
+// A way that the positions are to tell.
+bool IsDerived(const CsvTable& given, const ColumnFilter& filter) {
+  return filter.column == kDirectionColumn && given.Find(kDirectionColumn) < 0;
+}
+
+// Rows of totals and remarks.
+void LeaveOutWords(TableInReading* in, std::vector<bool>* passes) {
+  std::vector<bool> numbering;
+  for (const CsvColumn& column : in->table().columns) {
+    numbering.push_back(KeepsRecord(column.name) ||
+                        IsCalled(column.name, Word::kTime));
+  }
+  if (in->read.roles.group != kNoColumn) {
+    numbering[static_cast<std::size_t>(in->read.roles.group)] = true;
+  }
+  const std::vector<Index> left_out = LeaveOutRowsOfWords(
+      in->table(), numbering, in->selection.missing, passes);
+  if (left_out.empty()) return;
+  std::vector<Index> kept = AllRows(in->table().num_rows);
+  for (const Index row : left_out) {
+    kept[static_cast<std::size_t>(row)] = -1;
+    in->read.reading.rows_left_out.push_back(
+        {.row = row, .why = "holds words where the others have numbers"});
+  }
+  // Their words are no times either.
+  for (CsvColumn& column : in->Changed().columns) {
+    if (column.is_text()) column = TakeRows(column, kept);
+  }
+}
+
+}  // namespace
+
+void ChooseBaseRows(TableInReading* in) {
+  std::vector<ColumnFilter> filters;
+  for (const ColumnFilter& filter : in->selection.where) {
+    if (!IsDerived(in->given, filter)) filters.push_back(filter);
+  }
+  std::vector<bool> passes = RowsThatPass(in->table(), filters);
+  LeaveOutWords(in, &passes);
+  for (std::size_t row = 0; row < passes.size(); ++row) {
+    if (passes[row]) in->base_rows.push_back(static_cast<Index>(row));
+  }
+}
+
+bool LeaveOutSavedTwice(TableInReading* in) {
+  if (!in->clock.dated || in->clock.DatesRise()) return false;
+  std::vector<bool> is_kept = in->IsBaseRow();
+  const std::vector<Index> again =
+      RepeatedRows(in->table(), in->read.roles.target, is_kept);
+  if (again.empty()) return false;
+  for (const Index row : again) {
+    is_kept[static_cast<std::size_t>(row)] = false;
+    in->read.reading.rows_left_out.push_back(
+        {.row = row, .why = "stands twice, with its time"});
+  }
+  std::erase_if(in->base_rows, [&](Index row) {
+    return !is_kept[static_cast<std::size_t>(row)];
+  });
+  in->Changed().remarks.push_back(
+      PrintablePath(in->given.file) + ": " + std::to_string(again.size()) +
+      " rows stand twice, with their times; each is read once");
+  return true;
+}
+
+}  // namespace errmap::data

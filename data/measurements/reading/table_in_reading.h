@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/column_words.h"
+#include "data/csv.h"
+#include "data/measurements/dataset.h"
+#include "data/measurements/reading/clock.h"
+#include "data/measurements/reading/counting.h"
+#include "data/measurements/reading/motion.h"
+#include "data/measurements/reading/nights.h"
+#include "data/measurements/reading/read_table.h"
+
+namespace errmap::data {
+
+/// A table while it is read: what the steps of ReadRoles hand on.
+struct TableInReading {
+  const CsvTable& given;
+  const DatasetSelection& selection;
+  ReadTable read = {};
+  std::vector<Eigen::Index> base_rows = {};  // that filters by columns leave
+  Clock clock = {};                          // of those
+  Nights nights = {};
+  bool ordered = true;  // whether the rows stand in the order of time
+
+  const CsvTable& table() const { return read.table ? *read.table : given; }
+  /// The same to be changed: a table of its own from then on.
+  CsvTable& Changed();
+  void AddColumn(CsvColumn column);
+  /// In the place of another, or behind the last.
+  void PutColumn(std::size_t place, CsvColumn column);
+
+  /// (rows of the table)
+  std::vector<bool> IsBaseRow() const;
+  /// How the base rows go through the positions; nothing without an axis.
+  const Motion& Passes() const;
+  /// The first column that is called so, or that counts these; -1: none.
+  std::ptrdiff_t FirstCalled(Word word) const;
+  std::ptrdiff_t FirstThatCounts(Counted counted) const;
+};
+
+}  // namespace errmap::data
