@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "data/argument_name.h"
-#include "data/columns.h"
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_match.h"
@@ -15,7 +14,6 @@
 #include "data/measurements/reading/directions.h"
 #include "data/measurements/row_filters.h"
 #include "data/text.h"
-#include "data/way_words.h"
 #include "models/trained_range.h"
 #include "stats/indices.h"
 #include "stats/not_a_number.h"
@@ -160,15 +158,17 @@ void LeaveOutSpikes(const FittedModel& fitted,
 // When the map was fitted, the rows that it is not made for were no part of its
 // log. A memory that counts rows must see the others only: what stands between
 // two of these lies on the line between them, which its filters take for
-// nothing new.
+// nothing new. Where no filter had left any out, they are not counted either.
 void PassOverRowsNotMadeFor(const FittedModel& fitted,
                             const data::CsvTable& table,
-                            const data::FoundSessions& found,
                             Index first_row,
+                            data::FoundSessions* found,
                             MatrixXd* readings) {
   const std::vector<bool> made_for = RowsMadeFor(fitted, table);
+  const bool counts_all = data::DirectionFilter(fitted.where) != nullptr;
+  const VectorXd time = found->time;
   const auto session_of = [&](Index row) {
-    return found.sessions.codes[static_cast<std::size_t>(row)];
+    return found->sessions.codes[static_cast<std::size_t>(row)];
   };
   Index last = -1;  // row that the map is made for, or an earlier one
   for (Index row = 0; row < readings->rows(); ++row) {
@@ -177,14 +177,15 @@ void PassOverRowsNotMadeFor(const FittedModel& fitted,
       continue;
     }
     const bool goes_on = last >= 0 && session_of(last) == session_of(row);
-    const double step =
-        goes_on ? found.time[row] - found.time[last] : stats::kNaN;
+    if (goes_on && !counts_all) found->time[row] = found->time[last] + 1.0;
+    const double step = goes_on ? time[row] - time[last] : stats::kNaN;
     for (Index between = row - 1; between > last; --between) {
       if (session_of(between) != session_of(row)) break;
-      const double part =
-          goes_on ? (found.time[row] - found.time[between]) / step : 0.0;
+      const double part = goes_on ? (time[row] - time[between]) / step : 0.0;
       readings->row(between) = (1.0 - part) * readings->row(row) +
                                part * readings->row(goes_on ? last : row);
+      if (goes_on && !counts_all)
+        found->time[between] = found->time[row] - part;
     }
     last = row;
   }
@@ -220,71 +221,32 @@ Earlier ReadEarlier(const FittedModel& fitted, const std::string& file) {
   return earlier;
 }
 
-// Whether a word says that the position rises, or that it falls; "forward" may
-// mean either.
-std::optional<bool> Rises(const std::string& word) {
-  if (data::FirstIsUp(word, "down")) return true;
-  if (data::FirstIsUp(word, "up")) return false;
-  return std::nullopt;
-}
-
-// What a column calls the way that a word for it names: "+" for "up". The word
-// itself where the column has it, or no other way.
-std::optional<std::string> WayInColumn(const data::CsvTable& table,
-                                       const data::CsvColumn& column,
-                                       const std::string& way) {
-  const std::optional<bool> wanted = Rises(way);
-  std::string same = way;
-  bool any_other = false;
-  for (const std::string& label :
-       data::LabelsOf(
-           table, column, data::AllRows(table.num_rows), data::kNoLimit)
-           .labels) {
-    if (label == way) return way;
-    const std::optional<bool> up = Rises(label);
-    if (up && up == wanted) same = label;
-    any_other = any_other || (up && up != wanted);
-  }
-  return same != way || any_other ? std::optional(same) : std::nullopt;
-}
-
-// The rows that go as all those of training did, where a table has others.
-std::optional<data::ColumnFilter> WayFilter(const FittedModel& fitted,
-                                            const data::CsvTable& table) {
-  const std::optional<std::string> way = OneWayOf(fitted);
-  const std::ptrdiff_t column = table.Find(data::kDirectionColumn);
-  if (!way || column < 0) return std::nullopt;
-  const auto label = WayInColumn(table, table.At(column), *way);
-  if (!label) return std::nullopt;
-  return data::ColumnFilter{.column = data::kDirectionColumn, .value = *label};
-}
-
 }  // namespace
 
-std::optional<std::string> OneWayOf(const FittedModel& fitted) {
-  if (fitted.reading == nullptr || data::DirectionFilter(fitted.where)) {
+std::optional<std::string> WayOf(const FittedModel& fitted) {
+  if (fitted.reading == nullptr || !fitted.reading->direction.sure) {
     return std::nullopt;
   }
   const data::Reading::Direction& direction = fitted.reading->direction;
-  if (!direction.sure || direction.values.size() != 1) return std::nullopt;
-  return direction.values.front();
+  const data::ColumnFilter* const filter = data::DirectionFilter(fitted.where);
+  if (filter == nullptr) {
+    return direction.values.size() == 1 ? std::optional(direction.values[0])
+                                        : std::nullopt;
+  }
+  const auto place = data::PlaceOfWay(direction, ValueText(*filter));
+  return place ? std::optional(direction.values[*place]) : std::nullopt;
 }
 
 std::vector<data::ColumnFilter> FiltersFor(const FittedModel& fitted,
                                            const data::CsvTable& table) {
+  const std::optional<std::string> way =
+      table.Find(kWayColumn) < 0 ? std::nullopt : WayOf(fitted);
   std::vector<data::ColumnFilter> filters;
-  const data::ColumnFilter* const direction =
-      data::DirectionFilter(fitted.where);
   for (const data::ColumnFilter& filter : fitted.where) {
-    const std::ptrdiff_t column = table.Find(filter.column);
-    if (column < 0) continue;
-    filters.push_back(filter);
-    if (&filter != direction) continue;
-    if (auto label = WayInColumn(table, table.At(column), ValueText(filter))) {
-      filters.back().value = *std::move(label);
-    }
+    const bool is_told = way && &filter == data::DirectionFilter(fitted.where);
+    if (!is_told && table.Find(filter.column) >= 0) filters.push_back(filter);
   }
-  if (auto way = WayFilter(fitted, table)) filters.push_back(*std::move(way));
+  if (way) filters.push_back({.column = kWayColumn, .value = *way});
   return filters;
 }
 
@@ -374,9 +336,9 @@ MapLog MakeMapLog(const FittedModel& fitted,
                  map.first_row,
                  &log->input_values,
                  &map.warnings);
-  if (history.time_unit == "rows" && !fitted.where.empty()) {
+  if (history.time_unit == "rows") {
     PassOverRowsNotMadeFor(
-        fitted, table, found, map.first_row, &log->input_values);
+        fitted, table, map.first_row, &found, &log->input_values);
   }
   log->first_rows = data::FirstRows(
       found.sessions, log->input_values(Eigen::all, history.remembered()));

@@ -28,11 +28,16 @@ data::FoundSessions FindSessionsFor(const History& history,
                                     const data::CsvTable& table,
                                     const MapLogArguments& arguments);
 
-/// "up" or "down" where all rows of the training data went one way along the
-/// axis and no filter of the map says so; nothing else.
-std::optional<std::string> OneWayOf(const FittedModel& fitted);
+/// The column of the ways, "up" and "down", that ReadForMap adds to a table
+/// whose rows go another way than the map is made for, or call it otherwise.
+inline constexpr const char* kWayColumn = "direction of motion";
 
-/// Of the rows that the map is made for, what this table can tell.
+/// Returns the way along the axis that the map is made for: that of its filter,
+/// else that of all its training rows. Nothing if these went both ways.
+std::optional<std::string> WayOf(const FittedModel& fitted);
+
+/// Returns the filters for the rows that the map is made for, as far as the
+/// table has their columns.
 std::vector<data::ColumnFilter> FiltersFor(const FittedModel& fitted,
                                            const data::CsvTable& table);
 

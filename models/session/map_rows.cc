@@ -13,7 +13,6 @@
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/measured_files.h"
 #include "data/measurements/reading/derived_columns.h"
-#include "data/measurements/reading/directions.h"
 #include "data/measurements/reading/read_table.h"
 #include "data/measurements/row_filters.h"
 #include "data/measurements/sessions.h"
@@ -82,6 +81,10 @@ data::DatasetSelection SelectionOfRows(const FittedModel& fitted,
   return selection;
 }
 
+double WaysOf(const data::Reading& reading) {
+  return reading.direction.values.size() == 2 ? 2.0 : 1.0;
+}
+
 double RowsPerCycle(const data::Reading& reading) {
   return reading.cycles.count == 0
              ? 0.0
@@ -98,8 +101,12 @@ std::string OtherPace(const FittedModel& fitted, const data::Reading& reading) {
       !history->needs_sessions() || fitted.reading == nullptr) {
     return "";
   }
+  // A map of one way that left out no rows counts those of its way.
+  const bool counts_its_way = WayOf(fitted).has_value() &&
+                              data::DirectionFilter(fitted.where) == nullptr;
   const double then = RowsPerCycle(*fitted.reading);
-  const double now = RowsPerCycle(reading);
+  const double now =
+      RowsPerCycle(reading) / (counts_its_way ? WaysOf(reading) : 1.0);
   if (then == 0.0 || now == 0.0 || std::abs(now / then - 1.0) < kAlike) {
     return "";
   }
@@ -149,38 +156,56 @@ data::ReadTable ReadRows(const FittedModel& fitted,
   return read;
 }
 
-// Whether the rows go another way than those of training: by a column, or by
-// the positions where these are whole passes. Probes here and there go no way.
-bool GoAnotherWay(const FittedModel& fitted,
-                  const data::Reading& reading,
-                  const std::string& way) {
+// Whether the ways that were read are those of the rows: by a column, or by the
+// positions where these are whole passes. Probes here and there go no way.
+bool AreWaysTold(const FittedModel& fitted, const data::Reading& reading) {
   constexpr double kWhole = 0.9;
-  const data::Reading::Direction& direction = reading.direction;
-  const bool tells =
-      direction.by == "column" ||
-      RowsPerCycle(reading) >= kWhole * RowsPerCycle(*fitted.reading);
-  return direction.sure && tells &&
-         std::ranges::any_of(direction.values, [&](const std::string& value) {
-           return value != way;
-         });
+  return reading.direction.sure &&
+         (reading.direction.by == "column" ||
+          RowsPerCycle(reading) / WaysOf(reading) >=
+              kWhole * RowsPerCycle(*fitted.reading) / WaysOf(*fitted.reading));
 }
 
-// The map's own, and the way of its training data where the rows go another.
-std::vector<data::ColumnFilter> FiltersToTell(const FittedModel& fitted,
-                                              const data::Reading& reading) {
-  std::vector<data::ColumnFilter> filters = fitted.where;
-  const std::optional<std::string> way = OneWayOf(fitted);
-  if (way && GoAnotherWay(fitted, reading, *way)) {
-    filters.push_back({.column = data::kDirectionColumn, .value = *way});
+// Whether the map's filter, or the lack of one, does for these rows.
+bool NeedsNoWays(const FittedModel& fitted,
+                 const data::Reading::Direction& direction,
+                 const std::string& way) {
+  const data::ColumnFilter* const filter = data::DirectionFilter(fitted.where);
+  if (filter == nullptr) {
+    return std::ranges::count(direction.values, way) ==
+           std::ssize(direction.values);
   }
-  return filters;
+  return direction.column == filter->column &&
+         std::ranges::count(direction.labels, ValueText(*filter)) > 0;
+}
+
+// kWayColumn of rows whose table is `seen`; nothing where no map asks for it.
+std::optional<data::CsvColumn> WaysOfRows(const FittedModel& fitted,
+                                          const data::CsvTable& seen,
+                                          const data::Reading& reading) {
+  const std::optional<std::string> way = WayOf(fitted);
+  const data::Reading::Direction& direction = reading.direction;
+  if (!way || !AreWaysTold(fitted, reading) ||
+      NeedsNoWays(fitted, direction, *way)) {
+    return std::nullopt;
+  }
+  std::vector<Index> codes(seen.num_rows, 0);
+  for (std::size_t row = 0; direction.column && row < codes.size(); ++row) {
+    const std::string label =
+        seen.CellText(seen.At(seen.Find(*direction.column)), row);
+    codes[row] =
+        std::ranges::find(direction.labels, label) - direction.labels.begin();
+  }
+  std::vector<std::string> words = direction.values;
+  words.emplace_back();  // of other labels
+  return data::WordColumn(kWayColumn, codes, std::move(words));
 }
 
 }  // namespace
 
 std::string MadeForText(const FittedModel& fitted,
-                        const data::CsvTable& table,
-                        const std::vector<bool>& made_for) {
+                        const data::CsvTable& table) {
+  const std::vector<bool> made_for = RowsMadeFor(fitted, table);
   const auto count = std::ranges::count(made_for, true);
   if (count == std::ssize(made_for)) return "";
   return fmt::format("{} of {} rows have {}, for which the map is made",
@@ -209,8 +234,12 @@ data::TableForMap ReadForMap(const FittedModel& fitted,
   }
   data::ReadTable rows =
       ReadRows(fitted, arguments, &read.table, &read.remarks);
+  if (auto ways = WaysOfRows(
+          fitted, rows.table ? *rows.table : read.table, rows.reading)) {
+    read.table.columns.push_back(*std::move(ways));
+  }
   data::AddDerivedColumns(
-      FiltersToTell(fitted, rows.reading),
+      fitted.where,
       PositionOf(fitted),
       columns == MapColumns::kInputsAndTarget ? fitted.target.name : "",
       fitted.history != nullptr ? fitted.history->session : "",
@@ -287,9 +316,7 @@ MapRows MakeMapRows(const FittedModel& fitted,
                     const MapRowsOptions& options) {
   data::PreparedDataset prepared =
       data::MakeDataset(table, SelectionFor(fitted, table, options));
-  if (std::string made_for =
-          MadeForText(fitted, table, RowsMadeFor(fitted, table));
-      !made_for.empty()) {
+  if (std::string made_for = MadeForText(fitted, table); !made_for.empty()) {
     prepared.remarks.push_back(std::move(made_for));
   }
   MapLog map =

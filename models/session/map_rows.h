@@ -15,10 +15,8 @@
 namespace errmap::models {
 
 /// "850 of 1700 rows have direction +, for which the map is made"; "" where it
-/// is made for all of `made_for`.
-std::string MadeForText(const FittedModel& fitted,
-                        const data::CsvTable& table,
-                        const std::vector<bool>& made_for);
+/// is made for all of them.
+std::string MadeForText(const FittedModel& fitted, const data::CsvTable& table);
 
 enum class MapColumns { kInputs, kInputsAndTarget };
 

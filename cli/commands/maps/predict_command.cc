@@ -312,8 +312,7 @@ int RunPredict(const PredictArguments& arguments) {
                       learnt,
                       report::Count(inputs.rows(), "row")));
     }
-    if (const std::string made_for =
-            models::MadeForText(fitted, table, found.made_for);
+    if (const std::string made_for = models::MadeForText(fitted, table);
         !made_for.empty()) {
       Say("warning: " + made_for);
     }

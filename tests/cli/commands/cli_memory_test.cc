@@ -141,6 +141,7 @@ TEST_F(CliMemory, PutsRowsInOrderOfTime) {
 TEST_F(CliMemory, CountsTheRowsThatTheMapIsMadeFor) {
   constexpr int kPositions = 12;
   std::string text = "day,cycle,x_mm,t1_degC,error_um\n";
+  std::string upwards = text;
   for (int row = 0; row < 3 * 5 * 2 * kPositions; ++row) {
     const int day = row / (10 * kPositions);
     const int cycle = row / (2 * kPositions);
@@ -150,11 +151,15 @@ TEST_F(CliMemory, CountsTheRowsThatTheMapIsMadeFor) {
                       0.3 * std::sin(1.3 * row) + (up ? 0.0 : 0.5);
     const double error =
         0.2 * at * (t1 - 20.0) + (up ? 0.0 : 3.0) + 0.1 * std::sin(7.7 * row);
-    text += std::to_string(day + 1) + "," + std::to_string(cycle + 1) + "," +
-            std::to_string(50 * at) + "," + data::CsvNumber(t1) + "," +
-            data::CsvNumber(error) + "\n";
+    const std::string line =
+        std::to_string(day + 1) + "," + std::to_string(cycle + 1) + "," +
+        std::to_string(50 * at) + "," + data::CsvNumber(t1) + "," +
+        data::CsvNumber(error) + "\n";
+    text += line;
+    if (up) upwards += line;
   }
   Write("ways.csv", text);
+  Write("up.csv", upwards);
   const Json fitted = RunJson({"fit",
                                "ways.csv",
                                "--model",
@@ -171,6 +176,25 @@ TEST_F(CliMemory, CountsTheRowsThatTheMapIsMadeFor) {
   EXPECT_NEAR(judged["summary"]["rmse"].get<double>(),
               fitted["train"]["rmse"].get<double>(),
               1e-9);
+  // All rows of its file go up: as if they had been chosen.
+  ASSERT_EQ(Run({"fit",
+                 "up.csv",
+                 "--model",
+                 "poly:ridge:view=history",
+                 "-o",
+                 "one.json"})
+                .status,
+            0);
+  const Outcome one = Run({"evaluate", "one.json", "ways.csv"});
+  const Json both =
+      RunJson({"evaluate", "one.json", "ways.csv", "--format", "json"});
+  const Json alone =
+      RunJson({"evaluate", "one.json", "up.csv", "--format", "json"});
+  EXPECT_EQ(both["summary"]["n"], 3 * 5 * kPositions);
+  EXPECT_NEAR(both["summary"]["rmse"].get<double>(),
+              alone["summary"]["rmse"].get<double>(),
+              1e-9);
+  EXPECT_THAT(one.err, Not(HasSubstr("counting rows")));
 }
 
 TEST_F(CliMemory, RunsThroughEarlierRowsFirst) {

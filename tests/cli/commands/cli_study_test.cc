@@ -166,9 +166,10 @@ TEST_F(CliStudy, AMapKnowsTheRowsThatItIsMadeFor) {
         "direction,position_mm,error_mm\ndown,0,0.002\ndown,10,0.003\n");
   const Outcome none = Run({"predict", map, "down.csv"});
   EXPECT_EQ(none.status, 0) << none.err;
-  EXPECT_THAT(none.err, HasSubstr("warning: 0 of 2 rows have direction up"));
+  EXPECT_THAT(none.err,
+              HasSubstr("warning: 0 of 2 rows have direction of motion up"));
   EXPECT_THAT(RefusalOf(Run({"evaluate", map, "down.csv"}), kUnusable),
-              HasSubstr("no row is left where 'direction' is 'up'"));
+              HasSubstr("no row is left where 'direction of motion' is 'up'"));
 }
 
 TEST_F(CliStudy, TableNamesTheComponentsAndCsvHasARowPerModel) {

@@ -365,6 +365,8 @@ TEST_F(Cli, PredictIsForTheWayThatTheMapWasFittedTo) {
   Write("both.csv", names + Ways({"", ""}));
   Write("named.csv", "direction," + names + Ways({"+,", "-,"}));
   Write("words.csv", "direction," + names + Ways({"up,", "down,"}));
+  Write("other.csv", "approach," + names + Ways({"+,", "-,"}));
+  Write("forth.csv", "direction," + names + Ways({"forward,", "reverse,"}));
   ASSERT_EQ(
       Run({"fit", "up.csv", "--model", "poly:eq8", "-o", "up.json"}).status, 0);
   ASSERT_EQ(Run({"fit",
@@ -379,7 +381,8 @@ TEST_F(Cli, PredictIsForTheWayThatTheMapWasFittedTo) {
             0);
   EXPECT_EQ(CountWhy(Run({"predict", "up.json", "up.csv"}).out, "where"), 0);
   for (const char* map : {"up.json", "filtered.json"}) {
-    for (const char* file : {"both.csv", "named.csv", "words.csv"}) {
+    for (const char* file :
+         {"both.csv", "named.csv", "words.csv", "other.csv", "forth.csv"}) {
       const Outcome outcome = Run({"predict", map, file});
       EXPECT_EQ(CountWhy(outcome.out, "where"), 30) << map << " " << file;
       EXPECT_THAT(outcome.err, HasSubstr("30 of 60 rows have direction"));
