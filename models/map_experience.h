@@ -32,7 +32,7 @@ struct StandingStill {
 };
 
 /// First rows of the training sessions, as x'.
-struct StartReadings {
+struct SessionStarts {
   VectorXd mean;        // (s)
   MatrixXd covariance;  // (s x s)
   Index sessions = 0;
@@ -50,7 +50,7 @@ struct SessionReadings {
   VectorXd scatter;
   Index units = 0;  // sessions, or the other units held out
   /// Missing in older files, and for fewer than four sessions.
-  std::optional<StartReadings> starts = {};
+  std::optional<SessionStarts> starts = {};
 };
 
 /// The training data of a map, beyond the range of each column: the ranges of

@@ -11,6 +11,7 @@
 #include "data/formats/nesting.h"
 #include "data/input_error.h"
 #include "data/text.h"
+#include "models/file/checksum.h"
 #include "models/file/map_members_json.h"
 #include "models/file/model_json.h"
 #include "models/history/history.h"

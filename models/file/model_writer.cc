@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "data/files/atomic_file.h"
+#include "models/file/checksum.h"
 #include "models/file/map_members_json.h"
 #include "models/file/model_json.h"
 #include "models/history/history.h"

@@ -192,9 +192,9 @@ void SetLimits(const MatrixXd& states,
   trained->sessions->scatter = (scatter / mean).cwiseMax(1.0);
 }
 
-// Of scaled rows.
-std::optional<StartReadings> StartsOf(const data::Dataset& training,
-                                      const MatrixXd& scaled) {
+std::optional<SessionStarts> StartsOf(const data::Dataset& training,
+                                      const Applicability& trained,
+                                      const MatrixXd& states) {
   constexpr std::size_t kFewestSessions = 4;
   std::set<Index> sessions;
   std::vector<Index> rows;
@@ -204,10 +204,10 @@ std::optional<StartReadings> StartsOf(const data::Dataset& training,
     ++row;
   }
   if (rows.size() < kFewestSessions) return std::nullopt;
-  const MatrixXd first = scaled(rows, Eigen::all);
+  const MatrixXd first = Scaled(trained, states(rows, Eigen::all));
   const VectorXd mean = first.colwise().mean();
   const MatrixXd apart = first.rowwise() - mean.transpose();
-  return StartReadings{.mean = mean,
+  return SessionStarts{.mean = mean,
                        .covariance = apart.transpose() * apart /
                                      static_cast<double>(rows.size() - 1),
                        .sessions = std::ssize(rows)};
@@ -378,17 +378,17 @@ std::optional<Applicability> MakeApplicability(const FittedModel& fitted,
   const std::vector<Index> chosen =
       stats::SpreadSample(training.num_rows(), kMostRowsKept);
   const data::Dataset rows = training.SelectRows(chosen);
-  const MatrixXd states = StatesOf(inputs(chosen, Eigen::all), columns);
+  const MatrixXd all_states = StatesOf(inputs, columns);
+  const MatrixXd states = all_states(chosen, Eigen::all);
   Applicability trained = FitStates(states, fitted.inputs, columns);
   trained.derived = DerivedRanges(fitted, training);
-  trained.repeats = RepeatsOf(training, StatesOf(inputs, columns));
+  trained.repeats = RepeatsOf(training, all_states);
   trained.standing = LearnStandingStill(training, of_training);
   const InnerFolds inner = MakeInnerFolds(rows, {});
   SetLimits(states, inner.folds, fitted.inputs, &trained);
   if (trained.sessions) {
     trained.sessions->units = inner.units;
-    trained.sessions->starts =
-        StartsOf(training, Scaled(trained, StatesOf(inputs, columns)));
+    trained.sessions->starts = StartsOf(training, trained, all_states);
   }
   return trained;
 }

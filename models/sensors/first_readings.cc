@@ -34,7 +34,7 @@ MatrixXd SharedByUnits(const FittedModel& fitted) {
 
 // How starts scatter, by those seen and, as these are few, by all rows, which
 // count as a fifth of a session.
-MatrixXd CovarianceAtStart(const StartReadings& starts,
+MatrixXd CovarianceAtStart(const SessionStarts& starts,
                            const MatrixXd& any_row) {
   constexpr double kAllRows = 0.2;
   constexpr double kLeastVariance = 1e-4;
@@ -49,14 +49,12 @@ MatrixXd CovarianceAtStart(const StartReadings& starts,
 
 FirstReadings::StudentT::StudentT(const VectorXd& of_mean,
                                   const MatrixXd& covariance)
-    : mean(of_mean),
-      precision(fitting::CholeskyInverse(covariance)),
-      log_determinant(2.0 * Eigen::LLT<MatrixXd>(covariance)
-                                .matrixLLT()
-                                .diagonal()
-                                .array()
-                                .log()
-                                .sum()) {}
+    : mean(of_mean) {
+  const Eigen::LLT<MatrixXd> root(covariance);
+  const Index size = covariance.rows();
+  precision = root.solve(MatrixXd::Identity(size, size));
+  log_determinant = 2.0 * root.matrixLLT().diagonal().array().log().sum();
+}
 
 double FirstReadings::StudentT::LogDensity(const VectorXd& scaled,
                                            Index shifted,

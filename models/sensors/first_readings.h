@@ -10,10 +10,11 @@ namespace errmap::models {
 /// How likely the first readings of a session are. Near rest sensors differ by
 /// little, but always alike, so they tell more there than later.
 ///
-/// They are like those of the sessions of training or, where a log begins later
-/// or a day begins otherwise, like any row of theirs. Each is a Student t of
-/// all columns, x', of as many degrees of freedom as sessions. Columns of one
-/// unit share a variance, as halls differ.
+/// There are two hypotheses: a start like those of training or, if a log begins
+/// later or a day begins otherwise, any row of training. Under each the scaled
+/// readings x' (Applicability) have a Student t distribution with as many
+/// degrees of freedom as sessions. Columns of one unit share a variance, since
+/// halls differ.
 class FirstReadings {
  public:
   /// `fitted` has applicability->sessions->starts.

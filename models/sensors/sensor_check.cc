@@ -144,35 +144,50 @@ struct Suspect {
 // sound sessions one in a hundred shows as much (tests/benchmarks/mornings.py).
 constexpr double kExchanged = 2.75;
 constexpr double kShifted = 3.75;
+// Of a fault of the first row, beyond the number of faults that may be.
 constexpr double kAtStart = 2.0;
+
+// Calls off(i, found) for each state column and swapped(i, j, found) for each
+// pair in one unit.
+template <typename Off, typename Swapped>
+void ForEachFault(const FittedModel& fitted, Off off, Swapped swapped) {
+  const Index columns = std::ssize(fitted.applicability->columns);
+  for (Index i = 0; i < columns; ++i) {
+    const data::ColumnInfo& one = ColumnOf(fitted, i);
+    off(i,
+        SensorFaultFound{
+            .fault = SensorFault::kOff, .columns = {one}, .looks_like = ""});
+    for (Index j = i + 1; j < columns; ++j) {
+      const data::ColumnInfo& other = ColumnOf(fitted, j);
+      if (one.unit.symbol != other.unit.symbol) continue;
+      swapped(i,
+              j,
+              SensorFaultFound{.fault = SensorFault::kSwapped,
+                               .columns = {one, other},
+                               .looks_like = ""});
+    }
+  }
+}
 
 std::vector<Suspect> SuspectsOf(const FittedModel& fitted,
                                 const MatrixXd& states) {
   std::vector<Suspect> suspects;
   const ReadingsTogether readings(*fitted.applicability, states);
   const VectorXd& scatter = fitted.applicability->sessions->scatter;
-  for (Index i = 0; i < states.cols(); ++i) {
+  const auto off = [&](Index i, SensorFaultFound found) {
+    found.value = readings.Shift(i);
     const double explained = readings.ByShift(i);
     suspects.push_back(
-        {.found = {.fault = SensorFault::kOff,
-                   .columns = {ColumnOf(fitted, i)},
-                   .value = readings.Shift(i),
-                   .looks_like = ""},
+        {.found = std::move(found),
          .likelier = readings.Gain(explained) - kShifted,
          .shown = readings.Gain(explained, scatter[i]) - kShifted});
-    for (Index j = i + 1; j < states.cols(); ++j) {
-      if (ColumnOf(fitted, i).unit.symbol != ColumnOf(fitted, j).unit.symbol) {
-        continue;
-      }
-      const double gain = readings.Gain(readings.ByExchange(i, j)) - kExchanged;
-      suspects.push_back(
-          {.found = {.fault = SensorFault::kSwapped,
-                     .columns = {ColumnOf(fitted, i), ColumnOf(fitted, j)},
-                     .looks_like = ""},
-           .likelier = gain,
-           .shown = gain});
-    }
-  }
+  };
+  const auto swapped = [&](Index i, Index j, SensorFaultFound found) {
+    const double gain = readings.Gain(readings.ByExchange(i, j)) - kExchanged;
+    suspects.push_back(
+        {.found = std::move(found), .likelier = gain, .shown = gain});
+  };
+  ForEachFault(fitted, off, swapped);
   return suspects;
 }
 
@@ -244,24 +259,16 @@ std::optional<SensorFaultFound> AtTheStart(const FittedModel& fitted,
     likeliest = log_density;
     found = std::move(fault);
   };
-  for (Index i = 0; i < states.cols(); ++i) {
-    suspect(readings.LogDensity(first, i),
-            {.fault = SensorFault::kOff,
-             .columns = {ColumnOf(fitted, i)},
-             .value = readings.Shift(first, i),
-             .looks_like = ""});
-    for (Index j = i + 1; j < states.cols(); ++j) {
-      if (ColumnOf(fitted, i).unit.symbol != ColumnOf(fitted, j).unit.symbol) {
-        continue;
-      }
-      VectorXd exchanged = first;
-      std::swap(exchanged[i], exchanged[j]);
-      suspect(readings.LogDensity(exchanged),
-              {.fault = SensorFault::kSwapped,
-               .columns = {ColumnOf(fitted, i), ColumnOf(fitted, j)},
-               .looks_like = ""});
-    }
-  }
+  const auto off = [&](Index i, SensorFaultFound fault) {
+    fault.value = readings.Shift(first, i);
+    suspect(readings.LogDensity(first, i), std::move(fault));
+  };
+  const auto swapped = [&](Index i, Index j, SensorFaultFound fault) {
+    VectorXd exchanged = first;
+    std::swap(exchanged[i], exchanged[j]);
+    suspect(readings.LogDensity(exchanged), std::move(fault));
+  };
+  ForEachFault(fitted, off, swapped);
   if (found && IsExtrapolated(fitted, states, *found)) return std::nullopt;
   return found;
 }
