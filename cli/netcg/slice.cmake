@@ -7,6 +7,7 @@ errmap_room(netcg netcg RUNS_ONCE
   netcg_files.cc
   netcg_objective.cc
   netcg_run.cc
+  random_weights.cc
   report_study.cc
   run_file.cc
   run_report.cc

@@ -8,6 +8,7 @@
 #include <pybind11/pybind11.h>
 
 #include "cli/python/tables.h"
+#include "cli/shell/host.h"
 #include "cli/shell/standard_streams.h"
 
 namespace errmap::python {

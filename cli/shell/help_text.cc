@@ -1,6 +1,7 @@
 #include "cli/shell/help_text.h"
 
 #include <algorithm>
+#include <iomanip>
 #include <sstream>
 #include <vector>
 
@@ -47,15 +48,17 @@ bool BeginsAnew(const std::string& line) {
       kBegins, [&](const char* begin) { return line.starts_with(begin); });
 }
 
+constexpr std::string_view kExampleLabel = "Example: ";
+
 // An example on a line of its own, and continued as a shell reads it.
 std::string WrappedExample(const std::string& line, std::size_t width) {
-  const std::size_t command = line.find(": ") + 2;
   if (report::WidthOf(line) <= width) return line + "\n";
   constexpr std::size_t kIndent = 2;
-  std::istringstream text(line.substr(command));
+  std::istringstream text(line.substr(kExampleLabel.size()));
   std::vector<std::string> words;
-  for (std::string word; text >> word;) words.push_back(word);
-  return line.substr(0, command - 1) + "\n" + std::string(kIndent, ' ') +
+  for (std::string word; text >> std::quoted(word);) words.push_back(word);
+  return std::string(kExampleLabel.substr(0, kExampleLabel.size() - 1)) + "\n" +
+         std::string(kIndent, ' ') +
          report::ShellCommand(words, width, kIndent) + "\n";
 }
 
@@ -72,7 +75,7 @@ std::string Wrapped(const std::string& text, std::size_t width) {
   }
   std::string wrapped;
   for (const std::string& paragraph : paragraphs) {
-    wrapped += paragraph.starts_with("Example: ")
+    wrapped += paragraph.starts_with(kExampleLabel)
                    ? WrappedExample(paragraph, width)
                    : report::WrapText(paragraph, width) + "\n";
   }

@@ -1,6 +1,6 @@
 #include <csignal>
-#include <mutex>
 
+#include "cli/shell/host.h"
 #include "cli/shell/standard_streams.h"
 
 namespace errmap::cli {
@@ -34,26 +34,6 @@ const std::atomic<bool>& InstallInterruptFlag() {
   }
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) Catch(signal);
   return interrupted;
-}
-
-namespace {
-
-// Messages may come from any thread of a command.
-std::atomic<Host*> current{nullptr};
-std::mutex one_at_a_time;
-
-}  // namespace
-
-Host* CurrentHost() { return current.load(); }
-
-HostedRun::HostedRun(Host* host) {
-  one_at_a_time.lock();
-  current = host;
-}
-
-HostedRun::~HostedRun() {
-  current = nullptr;
-  one_at_a_time.unlock();
 }
 
 }  // namespace errmap::cli

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/shell/host.h"
+
 namespace errmap::cli {
 namespace {
 

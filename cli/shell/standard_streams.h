@@ -5,7 +5,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "cli/report/screen.h"
 
@@ -52,26 +51,6 @@ void DrawOnTerminal(std::string_view text);
 std::string WithOwnRemedies(
     std::string_view message,
     const std::function<bool(std::string_view option)>& has);
-
-/// Replaces the streams and signals of the process if another program runs
-/// commands in itself (RunHosted).
-struct Host {
-  const std::atomic<bool>* stop = nullptr;  // set: a command ends early
-  std::string printed = {};                 // to standard output
-  std::vector<std::string> messages = {};   // without "errmap: "
-};
-
-/// Returns null if the process is errmap's own.
-Host* CurrentHost();
-
-/// Makes `host` the current one for its lifetime; only one at a time.
-class HostedRun {
- public:
-  explicit HostedRun(Host* host);
-  ~HostedRun();
-  HostedRun(const HostedRun&) = delete;
-  HostedRun& operator=(const HostedRun&) = delete;
-};
 
 /// Turns Ctrl-C (SIGINT), SIGTERM and SIGHUP (a closed terminal) into a flag
 /// that fits check. A second signal ends the program at once. A signal that was

@@ -5,6 +5,7 @@
 #include <sys/ioctl.h>
 
 #include "cli/report/wrap_text.h"
+#include "cli/shell/host.h"
 #include "cli/shell/standard_streams.h"
 
 namespace errmap::cli {

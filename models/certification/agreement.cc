@@ -1,6 +1,7 @@
 #include "fitting/parallel_for.h"
 #include "models/certification/certification.h"
-#include "models/certification/parts.h"
+#include "models/certification/net_example.h"
+#include "models/certification/solvers.h"
 #include "models/net/feedforward_net.h"
 
 namespace errmap::models {

@@ -7,7 +7,8 @@
 #include "fitting/minimisers/scaled_conjugate_gradient.h"
 #include "fitting/nonlinear/variable_projection.h"
 #include "models/certification/certification.h"
-#include "models/certification/parts.h"
+#include "models/certification/net_example.h"
+#include "models/certification/strd_functions.h"
 #include "models/net/feedforward_net.h"
 
 namespace errmap::models {

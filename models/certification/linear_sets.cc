@@ -7,7 +7,7 @@
 #include "data/measurements/dataset.h"
 #include "data/text.h"
 #include "models/certification/certification.h"
-#include "models/certification/parts.h"
+#include "models/certification/strd_functions.h"
 #include "models/recipe_catalog.h"
 #include "models/regression_record.h"
 #include "stats/extended_summary.h"

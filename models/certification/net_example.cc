@@ -1,6 +1,6 @@
-#include <cmath>
+#include "models/certification/net_example.h"
 
-#include "models/certification/parts.h"
+#include <cmath>
 
 namespace errmap::models {
 

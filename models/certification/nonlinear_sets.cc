@@ -2,7 +2,8 @@
 
 #include "fitting/parallel_for.h"
 #include "models/certification/certification.h"
-#include "models/certification/parts.h"
+#include "models/certification/solvers.h"
+#include "models/certification/strd_functions.h"
 #include "stats/lre.h"
 
 namespace errmap::models {

@@ -1,10 +1,11 @@
+#include "models/certification/solvers.h"
+
 #include "fitting/minimisers/ceres_optimizer.h"
 #include "fitting/minimisers/conjugate_gradient.h"
 #include "fitting/minimisers/gradient_descent.h"
 #include "fitting/minimisers/levenberg_marquardt.h"
 #include "fitting/minimisers/nlopt_optimizer.h"
 #include "fitting/minimisers/scaled_conjugate_gradient.h"
-#include "models/certification/parts.h"
 
 namespace errmap::models {
 namespace {

@@ -1,10 +1,10 @@
+#include "models/certification/strd_functions.h"
+
 #include <array>
 #include <cmath>
 #include <map>
 #include <stdexcept>
 #include <string>
-
-#include "models/certification/parts.h"
 
 namespace errmap::models {
 namespace {

@@ -25,6 +25,7 @@
 #include "models/model_file.h"
 #include "models/recipe_catalog.h"
 #include "models/study/given_predictions.h"
+#include "models/study/journal/fit_record.h"
 #include "models/study/journal/kept_fits.h"
 #include "models/study/record/study_record.h"
 #include "models/study/split_file.h"

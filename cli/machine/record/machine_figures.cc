@@ -1,3 +1,5 @@
+#include "cli/machine/record/machine_figures.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/machine/record/machine_record.h"
 #include "cli/report/figures/figure_parts.h"
 #include "data/text.h"
 #include "data/units.h"

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/machine/record/machine_figures.h"
+#include "cli/machine/record/machine_tables.h"
 #include "cli/report/figures/figures.h"
 #include "data/argument_name.h"
 #include "models/study/record/record_json.h"

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "cli/report/figures/figures.h"
-#include "cli/report/table.h"
 #include "models/kinematics/plane_cells.h"
 #include "models/study/record/study_record.h"
 
@@ -106,20 +104,5 @@ inline constexpr const char* kMachineKey = "machine";
 
 /// Adds it to the study's record under the key "machine".
 void AddMachine(const MachineRecord& machine, models::StudyRecord* record);
-
-/// The error at the tool on days that no fit saw, each way of choosing maps a
-/// row; the same by day; the stated intervals; ISO 230-2 and, along diagonals,
-/// ISO 230-6; what each component leaves at the tool; the maps. Some may have
-/// no rows.
-std::vector<report::Table> MachineTables(const MachineRecord& machine);
-
-/// Those of them that a terminal has room for.
-std::vector<report::Table> ScreenTables(const MachineRecord& machine);
-
-/// The error at the tool over the working plane, before and after compensation
-/// by the recommended maps: mean errors as arrows, on one scale and after
-/// compensation also on a larger one, and the RMS in colours, on one scale.
-/// Nothing where the record has no plane.
-std::vector<report::Figure> MachineFigures(const MachineRecord& machine);
 
 }  // namespace errmap::machine

@@ -1,3 +1,5 @@
+#include "cli/machine/record/machine_tables.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/machine/record/machine_record.h"
 #include "data/text.h"
 #include "data/units.h"
 

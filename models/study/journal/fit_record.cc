@@ -1,3 +1,5 @@
+#include "models/study/journal/fit_record.h"
+
 #include <concepts>
 #include <cstdint>
 #include <cstring>
@@ -16,7 +18,6 @@
 #include "models/map_experience.h"
 #include "models/members.h"
 #include "models/regression_record.h"
-#include "models/study/journal/kept_fits.h"
 
 namespace errmap::models {
 

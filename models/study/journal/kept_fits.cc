@@ -15,6 +15,7 @@
 #include "data/files/link.h"
 #include "data/input_error.h"
 #include "data/text.h"
+#include "models/study/journal/fit_record.h"
 
 namespace errmap::models {
 namespace {

@@ -124,12 +124,4 @@ class ComponentJournal final : public FitJournal {
 /// Says how many fits of a study are already done, and how many remain.
 std::string DescribeResume(KeptFits* fits, const FitLabels& labels);
 
-/// Returns the bytes of an outcome's members, as this build stores them, after
-/// the SHA-256 of them and `key`.
-std::string FitToBytes(std::string_view key, const FitOutcome& outcome);
-
-/// Reads the bytes of FitToBytes; the model predicts the same bits. Throws
-/// data::InputError if they are damaged or have another key or layout.
-FitOutcome FitFromBytes(std::string_view key, std::string_view bytes);
-
 }  // namespace errmap::models

@@ -1,10 +1,11 @@
+#include "models/study/judgement/blend_or_simpler.h"
+
 #include <algorithm>
 #include <numeric>
 #include <optional>
 #include <variant>
 #include <vector>
 
-#include "models/study/judgement/parts.h"
 #include "stats/error_metrics.h"
 
 namespace errmap::models {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <tuple>
 
+#include "models/study/judgement/blend_or_simpler.h"
 #include "models/study/judgement/extrapolated_rows.h"
-#include "models/study/judgement/parts.h"
+#include "models/study/judgement/telling_holdout.h"
+#include "models/study/judgement/worth_of_sensors.h"
 
 namespace errmap::models {
 

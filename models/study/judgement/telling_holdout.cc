@@ -1,6 +1,6 @@
-#include <utility>
+#include "models/study/judgement/telling_holdout.h"
 
-#include "models/study/judgement/parts.h"
+#include <utility>
 
 namespace errmap::models {
 

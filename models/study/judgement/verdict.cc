@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "models/study/judgement/parts.h"
+#include "models/study/judgement/telling_holdout.h"
 
 namespace errmap::models {
 

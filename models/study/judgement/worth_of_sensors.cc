@@ -1,8 +1,9 @@
+#include "models/study/judgement/worth_of_sensors.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "models/study/judgement/parts.h"
 #include "models/study/judgement/recommendation.h"
 
 namespace errmap::models {

@@ -1,3 +1,5 @@
+#include "cli/machine/record/machine_figures.h"
+
 #include <limits>
 #include <string>
 #include <vector>

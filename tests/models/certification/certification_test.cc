@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "fitting/minimisers/gradient_check.h"
-#include "models/certification/parts.h"
+#include "models/certification/net_example.h"
+#include "models/certification/solvers.h"
+#include "models/certification/strd_functions.h"
 #include "models/net/feedforward_net.h"
 
 namespace errmap::models {

@@ -1,3 +1,5 @@
+#include "models/study/journal/fit_record.h"
+
 #include <bit>
 #include <cstring>
 #include <functional>

@@ -23,6 +23,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include "models/study/journal/fit_record.h"
 #include "tests/models/model_test_data.h"
 #include "tests/models/study/study_test_tools.h"
 

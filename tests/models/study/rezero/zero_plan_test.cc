@@ -1,3 +1,5 @@
+#include "models/study/rezero/zero_plan.h"
+
 #include <cmath>
 #include <stdexcept>
 

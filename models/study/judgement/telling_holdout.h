@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "models/study/judgement/holdout_comparison.h"
+#include "models/study/study.h"
+
+namespace errmap::models {
+
+/// Returns the hold-out for predicted errors, as an index into `holdouts`. Two
+/// sessions say more of a third than any number of groups of the same days.
+/// Nothing if all failed.
+std::optional<std::size_t> StrictestHoldout(
+    const std::vector<Holdout>& holdouts,
+    const std::vector<HoldoutComparison>& comparisons);
+
+/// Returns the hold-out that chooses a map. With fewer than
+/// kFewestSessionsToDecide sessions a fold lacks too much of the data, and
+/// groups tell maps apart better.
+std::optional<std::size_t> DecisiveHoldout(
+    const std::vector<Holdout>& holdouts,
+    const std::vector<HoldoutComparison>& comparisons);
+
+/// Returns null if no later sessions were predicted.
+const HoldoutComparison* ForwardOverSessions(
+    const std::vector<Holdout>& holdouts,
+    const std::vector<HoldoutComparison>& comparisons);
+
+}  // namespace errmap::models
