@@ -62,7 +62,7 @@ class ParameterSpace final : public DampedLeastSquares {
     ThrowIfInterrupted();
     function_.Evaluate(x_, &residuals_, &jacobian);
     ThrowIfInterrupted();
-    gradient_.noalias() = jacobian.transpose() * residuals_;
+    gradient_ = jacobian.transpose() * residuals_;
     gradient_ += ridge_ * x_;
     if (largest_ != nullptr) {
       norms_ = (jacobian.colwise().squaredNorm().transpose().array() + ridge_)
