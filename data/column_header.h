@@ -12,7 +12,7 @@ enum class UnitSource {
   kNone,      // the name says nothing: no unit
   kAssumed,   // by the kind of name: "position" in mm, "t12" in degC
   kStated,    // the name carries it: "error_mm", "error [µm]"
-  kUnread,    // a bare word that may mean a unit ("t1_C", "flow_m³"): no unit
+  kUnread,    // a bare word that may mean a unit ("x_C", "flow_m³"): no unit
   kDoubtful,  // several units, or one with a number ("error_10um"): no unit
   kUnknown,   // in brackets or parentheses, but not a known unit: no unit
 };
@@ -30,7 +30,8 @@ struct Header {
 /// "error um", "error_UM". Upper and lower case are equal, except for single
 /// letters and short symbols of other quantities than length ("x_V", "t1_K").
 /// Both code points of the micro sign are known. C, F, m, in, ft and " are
-/// names when bare ("T_in", "pos_c"), units in brackets only. A quotient of
+/// names when bare ("T_in", "pos_c"), units in brackets only, but for C and F
+/// behind the name of a temperature ("T1_C", "T_bed_F"). A quotient of
 /// units (`/`, `_per_`) is of Quantity::kOther. A unit of errors (lengths,
 /// angles) counts anywhere in the name if it is the only unit: "error_um_mean",
 /// "Error in um (mean)".

@@ -15,8 +15,8 @@ namespace {
 constexpr auto kWords = std::to_array<std::string_view>({
     // kError
     "error err errors xerr yerr zerr deviation dev fehler abweichung abw "
-    "messfehler erreur "
-    "ecart deviazione errore scarto scostamento desvio desviacion erro "
+    "messfehler erreur ecart deviazione errore scarto scostamento desvio "
+    "desviacion erro "
     "afwijking fout odchylka blad chyba avvikelse fel afvigelse avvik fejl "
     "hiba elteres eroare abatere napaka odstopanje odstupanje похибка "
     "відхилення σφαλμα αποκλιση "
@@ -71,8 +71,7 @@ constexpr auto kWords = std::to_array<std::string_view>({
     // kCounter
     "segment record index row id sample messung versuch durchgang nr no "
     "number nummer zeile test trial repeat rep reps repetition wiederholung "
-    "repeticion "
-    "ripetizione block batch hour hr minute min "
+    "repeticion ripetizione block batch hour hr minute min "
     "second sec stunde sekunde ms msec night nacht nuit notte noche week "
     "woche semaine settimana semana visit campaign kampagne sitzung warmup "
     "experiment dataset doy hhmm hhmmss",
@@ -127,10 +126,10 @@ std::string WithGaps(std::string_view name) {
 
 }  // namespace
 
-// Letters with accents of Latin-1 are two bytes of UTF-8, the
-// first of them 0xC3, those of Latin Extended-A begin with 0xC4 or 0xC5; an
-// accent of its own (0xCC) follows its letter. Cyrillic capitals (0xD0) are 32
-// letters before the small ones.
+// Letters with accents of Latin-1 are two bytes of UTF-8, the first of them
+// 0xC3; those of Latin Extended-A begin with 0xC4 or 0xC5; an accent of its own
+// (0xCC) follows its letter. Cyrillic capitals (0xD0) are 32 letters before the
+// small ones.
 std::string PlainText(std::string_view text) {
   constexpr std::string_view kLatin =
       "aaaaaaaceeeeiiiidnooooo*ouuuuypsaaaaaaaceeeeiiiidnooooo/ouuuuypy";

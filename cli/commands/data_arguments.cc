@@ -105,7 +105,7 @@ void FlagAdder::operator()(const desk::StudyOption& option,
 void FlagAdder::Finish(const desk::StudyOption& option) const {
   const Option added = FindOption(command_, FlagOf(option.key));
   if (*option.value != '\0') added.Value(option.value);
-  added.Under(heading_);
+  if (!heading_.empty()) added.Under(heading_);
   if (option.seldom) added.Seldom();
 }
 

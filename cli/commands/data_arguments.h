@@ -38,7 +38,7 @@ std::string FlagOf(std::string_view key);
 /// to a command. The visited members must outlive the command.
 class FlagAdder {
  public:
-  explicit FlagAdder(CLI::App* command, std::string_view heading = "Options")
+  explicit FlagAdder(CLI::App* command, std::string_view heading = {})
       : command_(command), heading_(heading) {}
 
   void operator()(const desk::StudyOption& option, std::string& text) const;

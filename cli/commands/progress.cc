@@ -1,6 +1,5 @@
 #include "cli/commands/progress.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -36,10 +35,10 @@ std::string ProgressText(const ProgressState& state, std::size_t width) {
   const std::array texts = {whole + best + " (" + state.holdout + ")",
                             whole + best,
                             fits + brief + best};
-  const auto* const fits_in = std::ranges::find_if(
-      texts,
-      [&](const std::string& text) { return report::WidthOf(text) <= width; });
-  return fits_in == texts.end() ? whole : *fits_in;
+  for (const std::string& text : texts) {
+    if (report::WidthOf(text) <= width) return text;
+  }
+  return whole;
 }
 
 Progress::Progress(bool enabled)

@@ -23,11 +23,9 @@ void ReadHoldouts(ReportView* view) {
   const models::HoldoutRecord* decisive = HoldoutOf(*view, view->decisive);
   view->decisive_is_unseen = decisive != nullptr && (decisive->whole_groups ||
                                                      decisive->whole_sessions);
-  for (const models::HoldoutRecord& holdout : component.holdouts) {
-    if (IsOfLaterSessions(holdout) && holdout.name != view->decisive) {
-      view->later = holdout.name;
-    }
-  }
+  const models::HoldoutRecord* later =
+      LaterHoldoutOf(component, view->decisive);
+  if (later != nullptr) view->later = later->name;
   if (component.gap) view->neighbours = component.gap->neighbours;
   // The recommendation may follow the neighbours, where there are no groups.
   if (view->neighbours == view->decisive) view->neighbours.clear();
@@ -152,9 +150,27 @@ bool IsOfLaterSessions(const models::HoldoutRecord& holdout) {
   return holdout.whole_sessions && holdout.name.starts_with("forward:");
 }
 
-std::string UnseenUnit(const models::HoldoutRecord& holdout) {
-  return (IsOfLaterSessions(holdout) ? "later " : "unseen ") +
-         holdout.unit_of_analysis;
+const models::HoldoutRecord* LaterHoldoutOf(const ComponentRecord& component,
+                                            const std::string& decisive) {
+  const models::HoldoutRecord* later = nullptr;
+  for (const models::HoldoutRecord& holdout : component.holdouts) {
+    if (IsOfLaterSessions(holdout) && holdout.name != decisive) {
+      later = &holdout;
+    }
+  }
+  return later;
+}
+
+std::string UnseenWords(const ReportView& view, const std::string& name) {
+  const models::HoldoutRecord* holdout = HoldoutOf(view, name);
+  if (holdout == nullptr) return "held-out rows";
+  if (holdout->whole_groups || holdout->whole_sessions) {
+    return (IsOfLaterSessions(*holdout) ? "later " : "unseen ") +
+           holdout->unit_of_analysis;
+  }
+  return holdout->another_file       ? "another file"
+         : holdout->among_neighbours ? "neighbours"
+                                     : "held-out rows";
 }
 
 }  // namespace errmap::report

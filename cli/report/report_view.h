@@ -60,8 +60,11 @@ std::string PrettyUnit(const std::string& symbol);
 
 /// True if whole sessions are held out and predicted from those before them.
 bool IsOfLaterSessions(const models::HoldoutRecord& holdout);
-/// What a hold-out of whole sessions or groups judges: "unseen cycle", "later
-/// day". Every table, picture and sentence names it so.
-std::string UnseenUnit(const models::HoldoutRecord& holdout);
+/// Returns the last such hold-out other than `decisive`, or null.
+const models::HoldoutRecord* LaterHoldoutOf(const ComponentRecord& component,
+                                            const std::string& decisive);
+/// "unseen cycle", "later day", "another file", "neighbours": what a hold-out
+/// judges. The tables and figures of a component name it so.
+std::string UnseenWords(const ReportView& view, const std::string& holdout);
 
 }  // namespace errmap::report

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "data/argument_name.h"
+#include "data/column_words.h"
 #include "data/columns.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
@@ -301,9 +302,8 @@ std::string WordFor(const Grouping& grouping) {
         return read && read->has_date && !read->has_time;
       });
   if (are_dates && !grouping.labels.empty()) return "day";
-  // Columns that are found by their German names.
-  if (IsOneOf(grouping.column, "Zyklus zyklus")) return "cycle";
-  if (IsOneOf(grouping.column, "Tag tag")) return "day";
+  if (IsCalled(grouping.column, Word::kCycle)) return "cycle";
+  if (IsCalled(grouping.column, Word::kDay)) return "day";
   return grouping.column;
 }
 

@@ -87,8 +87,7 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments);
 /// Parses the words after "compare". Throws UsageError.
 CompareArguments ReadCompareArguments(std::vector<std::string> words);
 
-// What the command line asks for. Each function throws UsageError if the
-// command line is wrong.
+// What the command line asks for; UsageError if it is wrong.
 
 /// Reads the study file of --config, changed by --set and by the flags of the
 /// command line.

@@ -12,13 +12,10 @@ namespace {
 
 constexpr std::size_t kNameLength = 24;
 
-// "every:3 (neighbours known)", "groups:5 (unseen cycle)".
+// "every:3 (neighbours)", "groups:5 (unseen cycle)".
 std::string HoldoutLabel(const ReportView& view, const std::string& holdout) {
-  const models::HoldoutRecord* record = HoldoutOf(view, holdout);
-  return Shortened(holdout, kNameLength) +
-         (record != nullptr && (record->whole_groups || record->whole_sessions)
-              ? " (" + UnseenUnit(*record) + ")"
-              : " (neighbours known)");
+  return Shortened(holdout, kNameLength) + " (" + UnseenWords(view, holdout) +
+         ")";
 }
 
 std::string GapWords(const ReportView& view,

@@ -102,7 +102,8 @@ Series Points(std::vector<double> x, std::vector<double> y);
 /// Draws y = 0 from the lowest to the highest x.
 Series ZeroLine(const std::vector<double>& x);
 
-// Distribution of the residuals: the figures of the report of 1995.
+// The figures of a component, for figures.cc; first those of the residuals that
+// the report of 1995 has.
 
 /// Histogram with the normal curve of the same mean and sd (Figure 11).
 Figure HistogramFigure(const ResidualContext& context);

@@ -29,7 +29,7 @@ Table NormalityTable(const ReportView& view, const std::string& holdout);
 Table IndependenceTable(const ReportView& view, const std::string& holdout);
 
 // The results of models, for people and for files. Columns are declared once,
-// in the .cc file, with their names and the tables that have them.
+// in result_table.cc, with their names and the tables that have them.
 
 /// p with Holm's correction, and `after`; nothing if the units are too few for
 /// any difference to show.
@@ -55,9 +55,6 @@ Table SummaryRows(const models::StudyRecord& record);
 inline constexpr std::size_t kIntervalColumn = 3;
 inline constexpr std::size_t kProvenColumn = 4;
 
-/// "unseen cycle", "another file", "neighbours": what a hold-out holds out.
-std::string UnseenWords(const ReportView& view, const std::string& holdout);
-
 /// Says which models learnt from a part of the rows, and how to use all; "" if
 /// none did.
 std::string DrawnRowsWords(const ReportView& view);
@@ -69,6 +66,8 @@ std::string StandInWords(const ReportView& view);
 /// One row for each model, with the hold-outs, the decisive one first: errors,
 /// significance, goal, cost.
 Table PageLeaderboard(const ReportView& view);
+
+// Further tables.
 
 /// The error of each map and the cost of a step on a controller.
 Table CostTable(const ReportView& view);

@@ -393,17 +393,6 @@ Table LeaderboardRows(const models::StudyRecord& record) {
   return table;
 }
 
-std::string UnseenWords(const ReportView& view, const std::string& name) {
-  const models::HoldoutRecord* holdout = HoldoutOf(view, name);
-  if (holdout == nullptr) return "held-out rows";
-  if (holdout->whole_groups || holdout->whole_sessions) {
-    return UnseenUnit(*holdout);
-  }
-  return holdout->another_file       ? "another file"
-         : holdout->among_neighbours ? "neighbours"
-                                     : "held-out rows";
-}
-
 std::string DrawnRowsWords(const ReportView& view) {
   std::vector<std::string> names;
   std::int64_t most = 0;

@@ -37,8 +37,7 @@ bool IsSummary(std::string_view text) {
       "mean average avg total totals subtotal sum summe gesamt ergebnis "
       "teilergebnis gesamtergebnis mittel mittelwert moyenne media min max "
       "minimum maximum std stdev sd sigma median count range rms anzahl eof "
-      "end "
-      "ende massimo minimo medel gemiddelde suma celkem razem "
+      "end ende massimo minimo medel gemiddelde suma celkem razem "
       "\u6700\u5927\u503c \u6700\u5c0f\u503c \u5e73\u5747\u503c "
       "\u5e73\u5747");
 }

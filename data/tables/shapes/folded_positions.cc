@@ -172,9 +172,10 @@ bool SayTheSame(const std::vector<RunColumn>& columns) {
     const auto number = std::ranges::count_if(columns, says);
     return number == 0 || number == std::ssize(columns);
   };
-  return all_or_none([](const RunColumn& of) { return of.name.date != ""; }) &&
+  return all_or_none(
+             [](const RunColumn& of) { return !of.name.date.empty(); }) &&
          all_or_none(
-             [](const RunColumn& of) { return of.name.direction != ""; });
+             [](const RunColumn& of) { return !of.name.direction.empty(); });
 }
 
 // What tells the slots apart: sessions, dates, cycles and ways, where all names

@@ -4,11 +4,13 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "data/csv.h"
+#include "data/input_error.h"
 
 namespace errmap::data::small_tables {
 
@@ -18,7 +20,8 @@ inline std::vector<std::string> NamesIn(const CsvTable& table) {
   return names;
 }
 
-inline std::string RefusalOf(const std::string& text, OddRows odd) {
+inline std::string RefusalOf(std::string_view text,
+                             OddRows odd = OddRows::kRefuse) {
   try {
     ParseCsv(text, "f.csv", odd);
   } catch (const InputError& error) {

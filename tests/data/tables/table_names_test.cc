@@ -1,6 +1,6 @@
 // Where the names and units of columns may stand, and what they become.
 
-#include <cmath>
+#include <algorithm>
 #include <string>
 #include <vector>
 

@@ -63,15 +63,16 @@ std::string WhereToMeasure(const std::vector<models::BeyondRecord>& beyond) {
                        const std::string& column,
                        const char* side,
                        double value) {
-    const std::string_view key = *state == '\0' ? side : state;
-    if (!std::isfinite(value) || std::ranges::find(named, key) != named.end()) {
+    const bool has_state = *state != '\0';
+    if (!std::isfinite(value) ||
+        (has_state && std::ranges::find(named, state) != named.end())) {
       return;
     }
-    named.push_back(key);
+    if (has_state) named.emplace_back(state);
     const std::string limit = fmt::format(
         "{} {} {:.4g}", data::Printable(column, column.size()), side, value);
-    parts.push_back(*state == '\0' ? "readings with " + limit
-                                   : fmt::format("{} ({})", state, limit));
+    parts.push_back(has_state ? fmt::format("{} ({})", state, limit)
+                              : "readings with " + limit);
   };
   for (const models::BeyondRecord& of : beyond) {
     const StatesBeyond states = StatesOf(of.column);

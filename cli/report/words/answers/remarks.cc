@@ -117,24 +117,12 @@ Remarks AnotherDay(const Numbers& of) {
                   : "not known: name the column of cycles with --group");
 }
 
-// The hold-out of whole days that come after those learnt from, where the
-// recommendation is not judged by it anyway; null: none.
-const HoldoutRecord* LaterHoldout(const Numbers& of) {
-  const HoldoutRecord* later = nullptr;
-  for (const HoldoutRecord& holdout : of.record.holdouts) {
-    if (IsOfLaterSessions(holdout) && holdout.name != of.Advice().holdout) {
-      later = &holdout;
-    }
-  }
-  return later;
-}
-
 // The map will be used on later days: its error there if it is fitted only to
 // the days before them.
 Remarks LaterOn(const Numbers& of) {
   constexpr double kWorthSaying = 1.25;  // of the error on another day
   const RecommendationRecord& advice = of.Advice();
-  const HoldoutRecord* const later = LaterHoldout(of);
+  const HoldoutRecord* const later = LaterHoldoutOf(of.record, advice.holdout);
   if (later == nullptr) return {};
   const double rmse = TestRmse(of.Model(advice.model), later->name);
   if (!(rmse > kWorthSaying * of.Rmse(advice.model, advice.holdout))) return {};
@@ -263,7 +251,8 @@ Remarks HeldAgainstGoal(const Numbers& of) {
       of.Result(advice.model, advice.holdout).test;
   switch (advice.goal_standing) {
     case GoalStanding::kMet: {
-      const HoldoutRecord* const later = LaterHoldout(of);
+      const HoldoutRecord* const later =
+          LaterHoldoutOf(of.record, advice.holdout);
       if (later != nullptr &&
           TestRmse(of.Model(advice.model), later->name) > of.record.goal) {
         return {{"goal", wanted + ": reached, but not later on", Tone::kBad}};
