@@ -43,6 +43,7 @@ void GoOnOverMidnight(const CsvTable& table,
   constexpr double kHour = 3600.0;
   if (!clock->is_found()) return;
   const double step = MedianStepOf(clock->time);
+  if (!std::isfinite(step)) return;  // it never goes on
   const double most_off = std::min(kHour / 2.0, 3.0 * step);
   const bool halves =
       clock->dated && clock->unit == "date" && AreHoursOfHalves(clock->time);

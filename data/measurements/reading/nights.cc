@@ -9,6 +9,7 @@
 #include "data/input_error.h"
 #include "data/measurements/date_time.h"
 #include "data/measurements/sessions.h"
+#include "data/text.h"
 
 namespace errmap::data {
 namespace {

@@ -11,6 +11,7 @@
 #include "data/measurements/reading/derived_columns.h"
 #include "data/measurements/reading/describe_reading.h"
 #include "data/measurements/reading/digit_dates.h"
+#include "data/measurements/reading/directions.h"
 #include "data/measurements/reading/merged_cells.h"
 #include "data/measurements/reading/midnight.h"
 #include "data/measurements/reading/passes.h"

@@ -25,17 +25,20 @@ using Eigen::Index;
 
 using Span = std::pair<double, double>;
 
-// Whether nearly all rows of a session have a time of their own.
+// Whether nearly no time comes again in a session after other times.
 bool AreDistinct(const Eigen::VectorXd& time,
                  const std::vector<std::string>& sessions) {
   std::vector<std::pair<std::string, double>> moments;
   for (std::size_t i = 0; i < sessions.size(); ++i) {
     moments.emplace_back(sessions[i], time[static_cast<Index>(i)]);
   }
+  const auto without_repeats = [&] {
+    moments.erase(std::unique(moments.begin(), moments.end()), moments.end());
+    return std::ssize(moments);
+  };
+  const auto runs = without_repeats();
   std::ranges::sort(moments);
-  const auto distinct =
-      std::unique(moments.begin(), moments.end()) - moments.begin();
-  return 10 * distinct >= 9 * std::ssize(sessions);
+  return 10 * without_repeats() >= 9 * runs;
 }
 
 // Whether no session begins before another ends.
@@ -68,10 +71,11 @@ bool RanksBefore(const std::string& a,
 // The places (n) of rows in the order of their times (n): by one clock for all
 // where the sessions (n names; "": none) lie apart in it, else in each session
 // by itself, these by number or in order of appearance. Nothing where times
-// come again in other rows, as those of a clock that starts anew would.
+// without dates come again, as those of a clock that starts anew would.
 std::optional<std::vector<Index>> OrderOfTime(
-    const Eigen::VectorXd& time, const std::vector<std::string>& sessions) {
-  if (!AreDistinct(time, sessions)) return std::nullopt;
+    const Clock& clock, const std::vector<std::string>& sessions) {
+  const Eigen::VectorXd& time = clock.time;
+  if (!clock.dated && !AreDistinct(time, sessions)) return std::nullopt;
   const bool apart = LieApart(time, sessions);
   std::map<std::string, std::size_t> rank;
   for (const std::string& session : sessions) {
@@ -138,7 +142,7 @@ std::vector<std::string> SessionLabels(const TableInReading& in) {
 
 // False where there is no such order.
 bool SortByTime(TableInReading* in) {
-  const auto places = OrderOfTime(in->clock.time, SessionLabels(*in));
+  const auto places = OrderOfTime(in->clock, SessionLabels(*in));
   if (!places) return false;
   std::vector<Index> order;
   std::vector<bool> taken(in->given.num_rows, false);

@@ -401,6 +401,32 @@ std::string WithDates(const std::vector<Log::Row>& rows,
   return text.insert(text.find('\n', text.size() / 3) + 1, put_in);
 }
 
+// A pass has one time: dates come again in the rows of a pass, and nowhere
+// else. Sorted by position they come again everywhere.
+TEST(Reading, PutsPassesWithOneDateEachInOrder) {
+  std::vector<Log::Row> rows = Log().Rows();
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (rows[i].position > rows[i - 1].position)
+      rows[i].time = rows[i - 1].time;
+  }
+  const auto make = [](const std::vector<Log::Row>& of) {
+    return MakeDataset(ParseCsv(WithDates(of), "log.csv"), {});
+  };
+  const PreparedDataset measured = make(rows);
+  std::vector<Log::Row> newest_first = rows;
+  std::ranges::stable_sort(
+      newest_first, std::ranges::greater(), &Log::Row::time);
+  std::vector<Log::Row> by_position = rows;
+  std::ranges::stable_sort(by_position, {}, &Log::Row::position);
+  for (const auto& others : {newest_first, by_position}) {
+    const PreparedDataset found = make(others);
+    EXPECT_EQ(found.reading.order, "time");
+    EXPECT_EQ(found.dataset.target_values(), measured.dataset.target_values());
+    EXPECT_EQ(found.dataset.log()->time, measured.dataset.log()->time);
+    EXPECT_EQ(found.reading.sessions.count, 4);
+  }
+}
+
 TEST(Reading, LeavesOutTheRowOfWordsWhereverTimePutsTheOthers) {
   std::vector<Log::Row> rows = Log().Rows();
   std::ranges::stable_sort(rows, {}, &Log::Row::position);
