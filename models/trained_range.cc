@@ -6,13 +6,15 @@
 #include <limits>
 
 #include "data/measurements/faults/thermometers.h"
+#include "models/map_experience.h"
 #include "stats/order_statistic.h"
 
 namespace errmap::models {
 namespace {
 
 bool IsWithin(const TrainedInput& input, double value) {
-  return value >= input.min && value <= input.max;
+  return std::max(input.min - value, value - input.max) <=
+         kRangeTolerance * (input.max - input.min);
 }
 
 // Within the trained range and as much again around it: another day is warmer,
