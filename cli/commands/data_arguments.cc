@@ -160,7 +160,8 @@ void AddRowOptions(CLI::App* command,
       });
 }
 
-void AddMapLogArguments(CLI::App* command, models::MapLogArguments* arguments) {
+void AddMapDataArguments(CLI::App* command,
+                         models::MapDataArguments* arguments) {
   AddOption(command,
             "--after EARLIER.csv",
             arguments->after,
@@ -177,7 +178,27 @@ void AddMapLogArguments(CLI::App* command, models::MapLogArguments* arguments) {
             "uninterrupted run");
 }
 
-void AddFromRest(CLI::App* command, models::MapLogArguments* arguments) {
+void AddJoinedLogArguments(CLI::App* command,
+                           models::MapDataArguments* arguments) {
+  AddOption(command,
+            "--with LOG.csv",
+            arguments->with,
+            "Log of more columns, such as thermometers, joined by time");
+  AddOption(command,
+            "--clock-offset D",
+            arguments->clock_offset,
+            "How far that log's clock is ahead: 3s, -2min");
+}
+
+void AddTargetOfMap(CLI::App* command, models::MapDataArguments* arguments) {
+  AddOption(command,
+            "--target COL",
+            arguments->target,
+            "Column of the measured errors (default: that of the map)\n"
+            "--target=-COL for corrections");
+}
+
+void AddFromRest(CLI::App* command, models::MapDataArguments* arguments) {
   AddFlag(command,
           "--from-rest",
           arguments->from_rest,

@@ -76,9 +76,15 @@ void AddRowOptions(CLI::App* command,
                    data::FaultPolicy* faults);
 
 /// Adds --after, --time and --session to a command.
-void AddMapLogArguments(CLI::App* command, models::MapLogArguments* arguments);
+void AddMapDataArguments(CLI::App* command,
+                         models::MapDataArguments* arguments);
+/// Adds --with and --clock-offset to a command.
+void AddJoinedLogArguments(CLI::App* command,
+                           models::MapDataArguments* arguments);
+/// Adds --target to a command that reads measured errors.
+void AddTargetOfMap(CLI::App* command, models::MapDataArguments* arguments);
 /// Adds --from-rest to a command that predicts rows.
-void AddFromRest(CLI::App* command, models::MapLogArguments* arguments);
+void AddFromRest(CLI::App* command, models::MapDataArguments* arguments);
 
 /// Parses the value of `flag`, such as "2um" or "0.002". Throws UsageError
 /// naming `flag`.

@@ -86,7 +86,7 @@ class MachineEvaluator {
   MachineEvaluator(const models::Machine& machine,
                    const data::CsvTable& points,
                    const data::CsvTable* log,
-                   const models::MapLogArguments& arguments)
+                   const models::MapDataArguments& arguments)
       : machine_(machine), points_(points), log_(log), arguments_(arguments) {}
 
   MachinePoints Evaluate() {
@@ -358,7 +358,7 @@ class MachineEvaluator {
   const models::Machine& machine_;
   const data::CsvTable& points_;
   const data::CsvTable* log_;
-  const models::MapLogArguments& arguments_;
+  const models::MapDataArguments& arguments_;
   long long num_with_memory_ = 0;
   std::set<std::string> said_;
   std::vector<std::string> remarks_;
@@ -369,7 +369,7 @@ class MachineEvaluator {
 MachinePoints EvaluateAt(const models::Machine& machine,
                          const data::CsvTable& points,
                          const data::CsvTable* log,
-                         const models::MapLogArguments& arguments) {
+                         const models::MapDataArguments& arguments) {
   return MachineEvaluator(machine, points, log, arguments).Evaluate();
 }
 

@@ -33,6 +33,6 @@ struct MachinePoints {
 MachinePoints EvaluateAt(const models::Machine& machine,
                          const data::CsvTable& points,
                          const data::CsvTable* log,
-                         const models::MapLogArguments& arguments);
+                         const models::MapDataArguments& arguments);
 
 }  // namespace errmap::machine

@@ -1,10 +1,13 @@
 #include "data/measurements/column_match.h"
 
 #include <cstddef>
+#include <optional>
 #include <utility>
 
+#include "data/argument_name.h"
 #include "data/column_header.h"
 #include "data/measurements/column_checks.h"
+#include "data/measurements/reading/derived_columns.h"
 #include "data/measurements/reading/digit_dates.h"
 #include "data/measurements/reading/merged_cells.h"
 #include "data/text.h"
@@ -21,7 +24,8 @@ namespace {
 
 // The column with the wanted name in another unit.
 const CsvColumn& SameNameInAnyUnit(const CsvTable& table,
-                                   const std::string& wanted) {
+                                   const std::string& wanted,
+                                   const std::string& remedy) {
   const std::string base = ReadHeader(wanted).base;
   const CsvColumn* found = nullptr;
   std::vector<std::string> names;
@@ -52,13 +56,65 @@ const CsvColumn& SameNameInAnyUnit(const CsvTable& table,
       table,
       wanted,
       "; " +
-          (nearest.empty() ? std::string("add it or fit a map without it.")
+          (nearest.empty() ? remedy + "."
                            : "did you mean " + QuotedName(nearest) + "?") +
           " The columns are " + ListOfNames(names));
 }
 
 std::string UnitInWords(const Unit& unit) {
   return unit.symbol.empty() ? "no unit" : unit.symbol;
+}
+
+// With `has_map_unit` a column without a unit is in that of the map, and the
+// other way round.
+MatchedColumn MatchNamed(const CsvTable& table,
+                         const std::string& name,
+                         const ColumnInfo& of_map,
+                         bool has_map_unit) {
+  MatchedColumn match{.of_map = of_map, .of_file = {name, UnitOfColumn(name)}};
+  if (has_map_unit &&
+      (match.of_file.unit.symbol.empty() || of_map.unit.symbol.empty())) {
+    match.of_file.unit = of_map.unit;
+  }
+  if (AreConvertible(match.of_file.unit, of_map.unit)) return match;
+  throw InputError(PrintablePath(table.file) + ": column " + QuotedName(name) +
+                   " is in " + UnitInWords(match.of_file.unit) +
+                   ", the map's " + QuotedName(of_map.name) + " in " +
+                   UnitInWords(of_map.unit) +
+                   ", and the one is not to be converted into the other; "
+                   "rename the column with its unit, or add another");
+}
+
+void TakeAs(const MatchedColumn& match, TableForMap* result) {
+  if (match.Remark().empty()) return;
+  result->remarks.push_back(match.Remark());
+  CsvTable& table = result->table;
+  CsvColumn& column =
+      table.columns[static_cast<std::size_t>(table.Find(match.of_file.name))];
+  column.name = match.of_map.name;
+  if (!match.is_converted()) return;
+  for (double& value : column.values.Own()) value = match.InMapUnit(value);
+}
+
+MatchedColumn MatchTarget(const TargetOfMap& target, CsvTable* table) {
+  const std::string& named =
+      target.named.empty() ? target.column.name : target.named;
+  if (std::optional<DerivedTarget> derived = FindDerivedTarget(*table, named)) {
+    table->columns.push_back(std::move(derived->column));
+  }
+  if (target.named.empty()) {
+    return MatchColumn(
+        *table,
+        target.column,
+        "name the column of the errors with " + ArgumentName("target", "COL") +
+            ", one of " + "corrections with " + ArgumentName("target", "-COL"));
+  }
+  RequireColumn(*table, named, ArgumentName("target"));
+  const MatchedColumn match = MatchNamed(*table, named, target.column, true);
+  std::erase_if(table->columns, [&](const CsvColumn& column) {
+    return column.name == target.column.name && column.name != named;
+  });
+  return match;
 }
 
 }  // namespace
@@ -82,44 +138,32 @@ std::string MatchedColumn::Remark() const {
              : Printable(of_map.name, of_map.name.max_size()) + remark;
 }
 
-MatchedColumn MatchColumn(const CsvTable& table, const ColumnInfo& of_map) {
-  const std::ptrdiff_t exact = table.Find(of_map.name);
-  const CsvColumn& column =
-      exact >= 0 ? table.At(exact) : SameNameInAnyUnit(table, of_map.name);
-  MatchedColumn match{.of_map = of_map,
-                      .of_file = {column.name, UnitOfColumn(column.name)}};
+MatchedColumn MatchColumn(const CsvTable& table,
+                          const ColumnInfo& of_map,
+                          const std::string& remedy) {
   // The very name, and nothing in it that says otherwise; an earlier version
   // read no unit in "t1_C".
-  if (exact >= 0 &&
-      (match.of_file.unit.symbol.empty() || of_map.unit.symbol.empty())) {
-    match.of_file.unit = of_map.unit;
-  }
-  if (AreConvertible(match.of_file.unit, of_map.unit)) return match;
-  throw InputError(PrintablePath(table.file) + ": column " +
-                   QuotedName(column.name) + " is in " +
-                   UnitInWords(match.of_file.unit) + ", the map's " +
-                   QuotedName(of_map.name) + " in " + UnitInWords(of_map.unit) +
-                   ", and the one is not to be converted into the other; "
-                   "rename the column with its unit, or add another");
+  const bool is_exact = table.Find(of_map.name) >= 0;
+  return MatchNamed(table,
+                    is_exact
+                        ? of_map.name
+                        : SameNameInAnyUnit(table, of_map.name, remedy).name,
+                    of_map,
+                    is_exact);
 }
 
-TableForMap InMapUnits(CsvTable table, const std::vector<ColumnInfo>& of_map) {
-  TableForMap result;
-  FillMergedCells(FindMergedCells(table), &table);
-  WriteDates(FindDigitDates(table), &table);
+TableForMap InMapUnits(CsvTable table,
+                       const std::vector<ColumnInfo>& inputs,
+                       const TargetOfMap* target) {
+  TableForMap result{.table = std::move(table), .remarks = {}};
+  FillMergedCells(FindMergedCells(result.table), &result.table);
+  WriteDates(FindDigitDates(result.table), &result.table);
   // Told here, and to nobody again.
-  result.remarks = std::exchange(table.remarks, {});
-  for (const ColumnInfo& wanted : of_map) {
-    const MatchedColumn match = MatchColumn(table, wanted);
-    if (match.Remark().empty()) continue;
-    result.remarks.push_back(match.Remark());
-    CsvColumn& column =
-        table.columns[static_cast<std::size_t>(table.Find(match.of_file.name))];
-    column.name = wanted.name;
-    if (!match.is_converted()) continue;
-    for (double& value : column.values.Own()) value = match.InMapUnit(value);
+  result.remarks = std::exchange(result.table.remarks, {});
+  for (const ColumnInfo& wanted : inputs) {
+    TakeAs(MatchColumn(result.table, wanted), &result);
   }
-  result.table = std::move(table);
+  if (target != nullptr) TakeAs(MatchTarget(*target, &result.table), &result);
   return result;
 }
 

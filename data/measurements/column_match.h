@@ -26,8 +26,12 @@ struct MatchedColumn {
 
 /// The column of that name, or else the only one that has the name in another
 /// unit ("t1 [K]" for "t1_degC", letters in any case). Throws InputError where
-/// there is none or more than one, or where its unit cannot be converted.
-MatchedColumn MatchColumn(const CsvTable& table, const ColumnInfo& of_map);
+/// there is none or more than one, or where its unit cannot be converted; it
+/// then ends with `remedy`.
+MatchedColumn MatchColumn(
+    const CsvTable& table,
+    const ColumnInfo& of_map,
+    const std::string& remedy = "add it or fit a map without it");
 
 /// A table in the names and units of a map, and what was done for it.
 struct TableForMap {
@@ -38,8 +42,17 @@ struct TableForMap {
   std::vector<Eigen::Index> order = {};
 };
 
+/// The target of a map, and the column that a user names for it, or "": one of
+/// the table, or a derived one (reading/derived_columns.h).
+struct TargetOfMap {
+  ColumnInfo column;
+  std::string named = {};
+};
+
 /// Renames and converts the columns that stand for those of the map; throws as
-/// MatchColumn does.
-TableForMap InMapUnits(CsvTable table, const std::vector<ColumnInfo>& of_map);
+/// MatchColumn does. `target` may be null.
+TableForMap InMapUnits(CsvTable table,
+                       const std::vector<ColumnInfo>& inputs,
+                       const TargetOfMap* target = nullptr);
 
 }  // namespace errmap::data

@@ -23,7 +23,7 @@ namespace {
 
 data::DatasetSelection SelectionFor(const History& history,
                                     const data::CsvTable& table,
-                                    const MapLogArguments& arguments) {
+                                    const MapDataArguments& arguments) {
   data::DatasetSelection selection;
   selection.time = history.time_unit == "rows" ? "none" : arguments.time;
   // Of several possible time columns, the one that the map was fitted with.
@@ -36,6 +36,11 @@ data::DatasetSelection SelectionFor(const History& history,
   if (selection.session.empty()) {
     selection.session = history.session.empty() ? "none" : history.session;
     if (!history.session.empty() && table.Find(history.session) < 0) {
+      // A clock shows the nights.
+      if (history.time_unit == "s") {
+        selection.session.clear();
+        return selection;
+      }
       throw data::InputError(fmt::format(
           "{}: no column {}, which tells the map's memory where a session "
           "begins; add it, or name another with {}",
@@ -75,7 +80,7 @@ std::string UntilSettled(const History& history) {
 
 void WarnOfSessions(const History& history,
                     const data::CsvTable& table,
-                    const MapLogArguments& arguments,
+                    const MapDataArguments& arguments,
                     MapLog* map) {
   const data::SessionLog& log = *map->log;
   map->missing = FindMissing(log, history, arguments.from_rest);
@@ -261,7 +266,7 @@ std::vector<bool> RowsMadeFor(const FittedModel& fitted,
 
 data::FoundSessions FindSessionsFor(const History& history,
                                     const data::CsvTable& table,
-                                    const MapLogArguments& arguments) {
+                                    const MapDataArguments& arguments) {
   return FindAll(history, table, SelectionFor(history, table, arguments));
 }
 
@@ -291,7 +296,7 @@ MatrixXd InputsOf(const FittedModel& fitted, const data::CsvTable& table) {
 
 MapLog MakeMapLog(const FittedModel& fitted,
                   const data::CsvTable& table,
-                  const MapLogArguments& arguments) {
+                  const MapDataArguments& arguments) {
   MapLog map;
   if (fitted.history == nullptr || !fitted.history->needs_sessions()) {
     if (!arguments.after.empty()) {

@@ -14,19 +14,22 @@
 
 namespace errmap::models {
 
-/// Information about the sessions of rows to predict.
-struct MapLogArguments {
+/// What is known of the files that a map is used on.
+struct MapDataArguments {
   std::string after;       // file of earlier rows
   bool from_rest = false;  // true: sessions begin where the rows do
   std::string time;
   std::string session;
+  std::string target = {};        // column of the error; default: the map's
+  std::string with = {};          // log of more columns, joined by time
+  std::string clock_offset = {};  // how far that log's clock is ahead
 };
 
 /// Finds sessions and times of a table's rows as a map's memory needs them.
 /// Throws data::InputError as MakeMapLog does.
 data::FoundSessions FindSessionsFor(const History& history,
                                     const data::CsvTable& table,
-                                    const MapLogArguments& arguments);
+                                    const MapDataArguments& arguments);
 
 /// The column of the ways, "up" and "down", that ReadForMap adds to a table
 /// whose rows go another way than the map is made for, or call it otherwise.
@@ -66,6 +69,6 @@ MatrixXd InputsOf(const FittedModel& fitted, const data::CsvTable& table);
 /// unusable (data/measurements/sessions.h).
 MapLog MakeMapLog(const FittedModel& fitted,
                   const data::CsvTable& table,
-                  const MapLogArguments& arguments);
+                  const MapDataArguments& arguments);
 
 }  // namespace errmap::models

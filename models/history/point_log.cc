@@ -102,7 +102,7 @@ class Timeline {
 Timeline TimelineOf(const History& history,
                     const RowsForMap& points,
                     const RowsForMap* log,
-                    const MapLogArguments& arguments) {
+                    const MapDataArguments& arguments) {
   Timeline timeline;
   double later = 0.0;
   if (log != nullptr) {
@@ -124,7 +124,7 @@ Timeline TimelineOf(const History& history,
 PointLog MakePointLog(const History& history,
                       const RowsForMap& points,
                       const RowsForMap* log,
-                      const MapLogArguments& arguments) {
+                      const MapDataArguments& arguments) {
   const Timeline timeline = TimelineOf(history, points, log, arguments);
   const std::vector<Row>& rows = timeline.rows();
   const auto n = std::ssize(rows);

@@ -32,6 +32,6 @@ struct PointLog {
 PointLog MakePointLog(const History& history,
                       const RowsForMap& points,
                       const RowsForMap* log,
-                      const MapLogArguments& arguments);
+                      const MapDataArguments& arguments);
 
 }  // namespace errmap::models

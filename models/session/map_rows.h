@@ -1,14 +1,15 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "data/csv.h"
-#include "data/measurements/column_match.h"
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/history/history.h"
 #include "models/history/map_log.h"
+#include "models/session/read_for_map.h"
 #include "models/session/session_offset.h"
 #include "stats/eigen.h"
 
@@ -18,23 +19,12 @@ namespace errmap::models {
 /// is made for all of them.
 std::string MadeForText(const FittedModel& fitted, const data::CsvTable& table);
 
-enum class MapColumns { kInputs, kInputsAndTarget };
-
-/// Reads files (data::ReadTables) in the names and units of the map
-/// (data::InMapUnits). Where the map knows its sessions by the file, one file
-/// is one session. Rows in another order are put in that of time, as those that
-/// a map is fitted to are.
-data::TableForMap ReadForMap(const FittedModel& fitted,
-                             const std::vector<std::string>& files,
-                             MapColumns columns,
-                             const MapLogArguments& arguments);
-
 /// Which measured rows of a table a map is held against: of those that it is
 /// made for.
 struct MapRowsOptions {
   data::MissingPolicy missing = data::MissingPolicy::kError;
   data::FaultPolicy faults = data::FaultPolicy::kKeep;
-  MapLogArguments log = {};
+  MapDataArguments log = {};
   /// False where the caller knows the rows between: no filters are run.
   bool with_memory = true;
 };
@@ -62,17 +52,18 @@ MapRows MakeMapRows(const FittedModel& fitted,
 struct MomentsOfRows {
   std::vector<Moment> at;      // a row each
   std::string session_column;  // that names the sessions; "" where none does
+  std::optional<bool> dated;   // whether times are dates; none without times
 };
 MomentsOfRows MomentsOf(const FittedModel& fitted,
                         const data::CsvTable& table,
                         const std::vector<Index>& rows,
-                        const MapLogArguments& arguments);
+                        const MapDataArguments& arguments);
 
 /// (rows of the data set) Time since the first row of the session in the
 /// table, or in the rows before it; 0 where there are no times.
 VectorXd ElapsedSinceStart(const FittedModel& fitted,
                            const MapRows& rows,
-                           const MapLogArguments& arguments);
+                           const MapDataArguments& arguments);
 
 /// (rows of the data set) Positions, as the map's held-out errors have them,
 /// from the table: the map itself need not read them. (0) where the table has

@@ -3,13 +3,17 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "data/input_error.h"
+#include "data/measurements/column_checks.h"
 #include "stats/indices.h"
 
 namespace errmap::models {
 namespace {
 
 // Rows before all others go on into the probes by themselves.
-bool RunsBetweenProbes(const FittedModel& fitted, const MapLogArguments& log) {
+bool RunsBetweenProbes(const FittedModel& fitted, const MapDataArguments& log) {
   return fitted.history != nullptr && fitted.history->needs_sessions() &&
          log.after.empty();
 }
@@ -19,7 +23,7 @@ bool RunsBetweenProbes(const FittedModel& fitted, const MapLogArguments& log) {
 data::Dataset WithRowsBetween(const FittedModel& fitted,
                               const MapRows& measured,
                               const RowsForMap& today,
-                              const MapLogArguments& log) {
+                              const MapDataArguments& log) {
   const MatrixXd inputs = ReadingsOf(fitted, measured.table);
   const PointLog merged =
       MakePointLog(*fitted.history, {measured.table, inputs}, &today, log);
@@ -33,7 +37,7 @@ data::Dataset WithRowsBetween(const FittedModel& fitted,
 }  // namespace
 
 MapRowsOptions ProbeRowsOptions(const FittedModel& fitted,
-                                const MapLogArguments& log) {
+                                const MapDataArguments& log) {
   return {.missing = data::MissingPolicy::kDropRows,
           .log = log,
           .with_memory = !RunsBetweenProbes(fitted, log)};
@@ -42,7 +46,7 @@ MapRowsOptions ProbeRowsOptions(const FittedModel& fitted,
 ProbeCorrection CorrectByProbes(const FittedModel& fitted,
                                 const MapRows& probes,
                                 const RowsForMap& today,
-                                const MapLogArguments& log) {
+                                const MapDataArguments& log) {
   const VectorXd predicted =
       fitted.Predict(RunsBetweenProbes(fitted, log)
                          ? WithRowsBetween(fitted, probes, today, log)
@@ -51,18 +55,27 @@ ProbeCorrection CorrectByProbes(const FittedModel& fitted,
       stats::AllIndices(static_cast<Index>(today.table.num_rows));
   const MomentsOfRows of_today = MomentsOf(fitted, today.table, rows, log);
   // Few probes do not show which of their columns names sessions.
-  MapLogArguments of_probes = log;
+  MapDataArguments of_probes = log;
   if (log.session.empty() && probes.table.Find(of_today.session_column) >= 0) {
     of_probes.session = of_today.session_column;
+  }
+  const MomentsOfRows of_probe_rows =
+      MomentsOf(fitted, probes.table, probes.dataset.rows(), of_probes);
+  if (of_today.dated.has_value() && of_probe_rows.dated.has_value() &&
+      of_today.dated != of_probe_rows.dated) {
+    throw data::InputError(fmt::format(
+        "{}: its clock and that of {} have no common zero, since one of them "
+        "has dates; give both files the same column of times",
+        data::PrintablePath(probes.table.file),
+        data::PrintablePath(today.table.file)));
   }
   ProbeCorrection correction{.num_probes = predicted.size(),
                              .model = FitOffset(*fitted.held_out),
                              .track = {}};
-  correction.track = TrackOffset(
-      correction.model,
-      MomentsOf(fitted, probes.table, probes.dataset.rows(), of_probes).at,
-      probes.dataset.target_values() - predicted,
-      of_today.at);
+  correction.track = TrackOffset(correction.model,
+                                 of_probe_rows.at,
+                                 probes.dataset.target_values() - predicted,
+                                 of_today.at);
   return correction;
 }
 

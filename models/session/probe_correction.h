@@ -20,7 +20,7 @@ struct ProbeCorrection {
 /// between probes, and a memory runs through the rows that are predicted, too,
 /// unless `log` has rows before all of them.
 MapRowsOptions ProbeRowsOptions(const FittedModel& fitted,
-                                const MapLogArguments& log);
+                                const MapDataArguments& log);
 
 /// For the rows of `today`, each by the probes of its session up to its time;
 /// `probes` are rows made with ProbeRowsOptions. Throws data::InputError where
@@ -28,6 +28,6 @@ MapRowsOptions ProbeRowsOptions(const FittedModel& fitted,
 ProbeCorrection CorrectByProbes(const FittedModel& fitted,
                                 const MapRows& probes,
                                 const RowsForMap& today,
-                                const MapLogArguments& log);
+                                const MapDataArguments& log);
 
 }  // namespace errmap::models

@@ -1,5 +1,6 @@
 #include "models/uncertainty/map_update.h"
 
+#include <algorithm>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -46,6 +47,9 @@ std::shared_ptr<const data::SessionLog> JoinedLog(
   return log;
 }
 
+// What is to be said instead of learning from new sessions explains most.
+constexpr double kMuch = 2.0;
+
 // Rows of the session, and the others.
 std::pair<std::vector<Index>, std::vector<Index>> SplitAt(
     const std::vector<Index>& codes, Index session) {
@@ -88,8 +92,17 @@ data::Dataset Joined(const data::Dataset& first, const data::Dataset& second) {
   return data::Dataset(std::move(parts));
 }
 
+bool UpdateTrial::is_negated() const {
+  return negated_rmse < std::min({old_rmse, new_rmse}) / kMuch;
+}
+
+bool UpdateTrial::is_shifted() const {
+  return shifted_rmse < std::min({old_rmse, new_rmse}) / kMuch;
+}
+
 bool UpdateTrial::better(double indifference) const {
-  if (!why_failed.empty() || !(new_rmse < old_rmse - indifference)) {
+  if (!why_failed.empty() || !(new_rmse < old_rmse - indifference) ||
+      is_negated() || is_shifted()) {
     return false;
   }
   VectorXd of_old(std::ssize(sessions));
@@ -115,6 +128,7 @@ UpdateTrial TryUpdate(const FittedModel& old_map,
   UpdateTrial trial;
   const VectorXd old_residuals = fresh.target_values() - old_map.Predict(fresh);
   VectorXd new_residuals(fresh.num_rows());
+  VectorXd shifted(fresh.num_rows());
   for (const Index session : sessions) {
     const auto [test, rest] = SplitAt(codes, session);
     try {
@@ -123,6 +137,7 @@ UpdateTrial TryUpdate(const FittedModel& old_map,
           known != nullptr ? Joined(*known, others) : others, context);
       const data::Dataset held = fresh.SelectRows(test);
       new_residuals(test) = held.target_values() - successor.Predict(held);
+      shifted(test) = old_residuals(test).array() - old_residuals(rest).mean();
     } catch (const std::invalid_argument& error) {
       trial.why_failed = error.what();
       return trial;
@@ -135,6 +150,10 @@ UpdateTrial TryUpdate(const FittedModel& old_map,
   }
   trial.old_rmse = stats::RootMeanSquare(old_residuals);
   trial.new_rmse = stats::RootMeanSquare(new_residuals);
+  trial.negated_rmse =
+      stats::RootMeanSquare(2.0 * fresh.target_values() - old_residuals);
+  trial.shifted_rmse = stats::RootMeanSquare(shifted);
+  trial.shift = old_residuals.mean();
   return trial;
 }
 

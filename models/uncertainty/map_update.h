@@ -6,6 +6,7 @@
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/study/study.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::models {
 
@@ -24,12 +25,22 @@ struct UpdateTrial {
   std::vector<Session> sessions;
   double old_rmse = 0.0;  // over all their rows
   double new_rmse = 0.0;
+  /// Of the old map with the other sign, and shifted by the mean error of the
+  /// other new sessions; NaN where these were not tried.
+  double negated_rmse = stats::kNaN;
+  double shifted_rmse = stats::kNaN;
+  double shift = 0.0;      // mean error of the old map in all new sessions
   std::string why_failed;  // of the successor; "": it could be fitted
 
-  /// True if the RMSE is lower by more than `indifference`, and so is its
-  /// geometric mean over the sessions. Thus one long session alone does not
-  /// decide, and a slightly worse session does not outweigh one that was far
-  /// off.
+  /// True if the new errors are those of the old map with the other sign, or by
+  /// a constant: the old map errs less so than the successor, which would
+  /// average both.
+  bool is_negated() const;
+  bool is_shifted() const;
+  /// True if neither is, the RMSE is lower by more than `indifference`, and so
+  /// is its geometric mean over the sessions. Thus one long session alone does
+  /// not decide, and a slightly worse session does not outweigh one that was
+  /// far off.
   bool better(double indifference) const;
 };
 

@@ -103,7 +103,7 @@ struct LastSession {
 
 LastSession LastSessionOf(const models::FittedModel& fitted,
                           const models::MapRows& rows,
-                          const models::MapLogArguments& log) {
+                          const models::MapDataArguments& log) {
   const std::vector<Index> all = data::AllRows(rows.table.num_rows);
   const models::MomentsOfRows moments =
       models::MomentsOf(fitted, rows.table, all, log);
@@ -177,15 +177,40 @@ std::vector<Index> ProbesWithMemory(const models::MapRows& rows,
   return kept.empty() ? probes : kept;
 }
 
+// Those at positions that the map was fitted to; all where there are none.
+std::vector<Index> ProbesWithinTravel(const std::vector<models::RowFlag>& flags,
+                                      const std::vector<Index>& probes,
+                                      bool quiet) {
+  std::vector<Index> within;
+  std::ranges::copy_if(probes, std::back_inserter(within), [&](Index probe) {
+    const models::RowFlag& flag = flags[static_cast<std::size_t>(probe)];
+    return flag.why != models::Outside::kRange ||
+           !data::IsPosition(flag.column);
+  });
+  if (within.empty() || within.size() == probes.size()) return probes;
+  SayUnless(quiet,
+            {fmt::format("{} of {} probes are judged: the others are beyond "
+                         "the positions that the map was fitted to",
+                         within.size(),
+                         probes.size())});
+  return within;
+}
+
 // What is missing before the probes that are judged.
-models::Missing MissingBefore(const models::MapRows& rows,
+models::Missing MissingBefore(const models::FittedModel& fitted,
+                              const models::MapRows& rows,
                               const std::vector<Index>& probes) {
   const auto lacks = [&](models::Missing missing) {
     return [&rows, missing](Index probe) {
       return MissingBeforeProbe(rows, probe) == missing;
     };
   };
-  if (std::ranges::all_of(probes, lacks(models::Missing::kStart))) {
+  // Errors since a first row that is not there have no zero.
+  const bool lacks_zero =
+      fitted.align == data::Alignment::kFirst &&
+      std::ranges::any_of(probes, lacks(models::Missing::kStart));
+  if (lacks_zero ||
+      std::ranges::all_of(probes, lacks(models::Missing::kStart))) {
     return models::Missing::kStart;
   }
   return std::ranges::any_of(probes, lacks(models::Missing::kReadings))
@@ -242,13 +267,14 @@ int RunCheck(const ProbeArguments& arguments, const std::string& command_line) {
                    data::NamesOfFiles(arguments.files))) {
     return kEveryFitFailed;
   }
-  const LastSession last = LastSessionOf(fitted, rows, arguments.rows.log);
+  LastSession last = LastSessionOf(fitted, rows, arguments.rows.log);
+  last.probes = ProbesWithinTravel(judged.flags, last.probes, arguments.quiet);
   const models::SessionProbes probes =
       ProbesOf(fitted, rows, arguments, last.probes, predicted);
   models::SessionCheck check = models::CheckSession(
       errors,
       probes,
-      MissingBefore(rows, last.probes),
+      MissingBefore(fitted, rows, last.probes),
       SensorFaultOfSession(fitted, rows, last, arguments.rows.faults));
   // Of a session whose first rows are not known nothing is said as a whole.
   if (check.status == models::SessionStatus::kHolds &&
@@ -322,7 +348,9 @@ void AddCheckCommand(CLI::App* app, Run* run) {
             "this: 2um\nerrmap when has more");
   AddRowOptions(command, &command->rows.missing, &command->rows.faults);
   AddFormatOption(command, &command->format);
-  AddMapLogArguments(command, &command->rows.log);
+  AddMapDataArguments(command, &command->rows.log);
+  AddTargetOfMap(command, &command->rows.log);
+  AddJoinedLogArguments(command, &command->rows.log);
   AddFromRest(command, &command->rows.log);
   AddQuietFlag(command, &command->quiet);
   SetFooter(command,

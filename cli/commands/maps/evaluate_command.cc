@@ -234,7 +234,9 @@ void AddEvaluateCommand(CLI::App* app, Run* run) {
       .Required();
   AddRowOptions(command, &command->rows.missing, &command->rows.faults);
   AddFormatOption(command, &command->format);
-  AddMapLogArguments(command, &command->rows.log);
+  AddMapDataArguments(command, &command->rows.log);
+  AddTargetOfMap(command, &command->rows.log);
+  AddJoinedLogArguments(command, &command->rows.log);
   AddFromRest(command, &command->rows.log);
   AddQuietFlag(command, &command->quiet);
   SetFooter(command,

@@ -1,6 +1,6 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -21,6 +21,7 @@
 #include "data/files/atomic_file.h"
 #include "data/formula_text.h"
 #include "data/input_error.h"
+#include "data/measurements/column_checks.h"
 #include "data/measurements/column_match.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/dataset.h"
@@ -31,6 +32,7 @@
 #include "models/sensors/sensor_check.h"
 #include "models/session/probe_correction.h"
 #include "models/uncertainty/learnt_rows.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::cli {
 namespace {
@@ -40,14 +42,36 @@ struct PredictArguments {
   std::vector<std::string> files;
   std::string out;
   std::string probes;
-  models::MapLogArguments log;
+  models::MapDataArguments log;
   bool quiet = false;
 };
 
-// Every row, in a data set whose target is not known, and so 0.
+// Rows of a table with all readings, and what is read in all of them.
+struct WholeRows {
+  MatrixXd readings;        // (rows of the table x inputs) NaN: missing
+  std::vector<Index> rows;  // without missing ones
+
+  MatrixXd inputs() const { return readings(rows, Eigen::all); }
+};
+
+WholeRows FindWholeRows(const models::FittedModel& fitted,
+                        const data::CsvTable& table) {
+  WholeRows whole{.readings = models::ReadingsOf(fitted, table), .rows = {}};
+  for (const models::TrainedInput& input : fitted.inputs) {
+    // Refuses what is no number and not missing either.
+    data::NumericColumn(
+        table, input.column.name, data::MissingPolicy::kDropRows, nullptr);
+  }
+  for (Index row = 0; row < whole.readings.rows(); ++row) {
+    if (whole.readings.row(row).allFinite()) whole.rows.push_back(row);
+  }
+  return whole;
+}
+
+// In a data set whose target is not known, and so 0.
 data::Dataset RowsToPredict(const models::FittedModel& fitted,
                             const data::CsvTable& table,
-                            MatrixXd inputs,
+                            const WholeRows& whole,
                             const models::MapLog& map) {
   data::Dataset::Parts parts;
   parts.source = table.file;
@@ -55,12 +79,13 @@ data::Dataset RowsToPredict(const models::FittedModel& fitted,
     parts.inputs.push_back(input.column);
   }
   parts.target = fitted.target;
-  parts.target_values = VectorXd::Zero(inputs.rows());
-  parts.input_values = std::move(inputs);
+  parts.input_values = whole.inputs();
+  parts.target_values = VectorXd::Zero(parts.input_values.rows());
   parts.log = map.log;
   if (map.log != nullptr) {
-    parts.log_rows.resize(table.num_rows);
-    std::iota(parts.log_rows.begin(), parts.log_rows.end(), map.first_row);
+    for (const Index row : whole.rows) {
+      parts.log_rows.push_back(map.first_row + row);
+    }
   }
   return data::Dataset(std::move(parts));
 }
@@ -111,11 +136,15 @@ struct Predicted {
   const data::CsvTable& table;
   const std::vector<Index>& order;  // as data::TableForMap has it
   const models::MapLog& map;
-  models::Prediction prediction;
+  // Of each row of the table; NaN where a reading is missing.
+  VectorXd errors;
+  std::vector<bool> is_whole;  // false there
   std::optional<models::ProbeCorrection> probes;
-  std::vector<models::RowFlag> flags;
-  std::vector<bool> made_for;  // as models::RowsMadeFor
+  std::vector<models::RowFlag> flags;  // the column that is missing
+  std::vector<bool> made_for;          // as models::RowsMadeFor
+  Index clipped = 0;
 
+  Index NumWhole() const { return std::ranges::count(is_whole, true); }
   models::Missing MissingBefore(std::size_t row) const {
     return map.log == nullptr
                ? models::Missing::kNothing
@@ -125,10 +154,11 @@ struct Predicted {
 
 // Why a row is unlike those of training; "" where it is not.
 std::string_view WhyOutside(const Predicted& found, std::size_t row) {
+  if (!found.is_whole[row]) return "missing";
   if (!found.made_for[row]) return "where";
   const models::RowFlag& flag = found.flags[row];
   if (flag.outside()) return models::ToString(flag.why);
-  if (!std::isfinite(found.prediction.errors[static_cast<Index>(row)])) {
+  if (!std::isfinite(found.errors[static_cast<Index>(row)])) {
     return "not finite";
   }
   switch (found.MissingBefore(row)) {
@@ -144,7 +174,7 @@ std::string_view WhyOutside(const Predicted& found, std::size_t row) {
 
 // ",LOWER,UPPER" at each coverage; empty cells without an interval.
 std::string IntervalCells(const Predicted& found, bool inside, Index row) {
-  const double predicted = found.prediction.errors[row];
+  const double predicted = found.errors[row];
   std::string cells;
   for (std::size_t i = 0; i < models::PredictionInterval::kCoverages.size();
        ++i) {
@@ -163,10 +193,10 @@ std::string IntervalCells(const Predicted& found, bool inside, Index row) {
 // one that is called so.
 std::ptrdiff_t TimeColumn(const Predicted& found, const std::string& named) {
   if (!named.empty()) return found.table.Find(named);
-  if (found.fitted.history != nullptr && !found.fitted.history->time.empty()) {
-    return found.table.Find(found.fitted.history->time);
-  }
-  return data::TimeColumn(found.table);
+  const models::History* const history = found.fitted.history.get();
+  const std::ptrdiff_t of_map =
+      history == nullptr ? -1 : found.table.Find(history->time);
+  return of_map < 0 ? data::TimeColumn(found.table) : of_map;
 }
 
 // The columns that tell a row apart, where the file has them: its number and
@@ -210,7 +240,7 @@ std::string PredictionsCsv(const Predicted& found, const std::string& time) {
     for (const data::CsvColumn* id : ids) {
       text += data::CsvField(found.table.CellText(*id, at)) + ",";
     }
-    const double predicted = found.prediction.errors[row];
+    const double predicted = found.errors[row];
     const std::string_view why = WhyOutside(found, at);
     text += std::isfinite(predicted) ? data::CsvNumber(predicted) : "";
     text += IntervalCells(found, why.empty(), row);
@@ -228,7 +258,7 @@ void SayWhatIsPredicted(const Predicted& found) {
   const std::string& unit = fitted.target.unit.symbol;
   const bool aligned = fitted.align == data::Alignment::kFirst;
   Say(fmt::format("{} predicted as {}{}{}; compensate by minus that",
-                  report::Count(found.prediction.errors.size(), "row"),
+                  report::Count(found.NumWhole(), "row"),
                   fitted.target.name,
                   unit.empty() ? "" : " in " + unit,
                   aligned ? " since the session's first row" : ""));
@@ -254,8 +284,7 @@ void SaySensorFault(const models::FittedModel& fitted, const MatrixXd& inputs) {
   Say("warning: " + text);
 }
 
-void SayClipped(const models::Prediction& prediction) {
-  const Index clipped = prediction.clipped.count();
+void SayClipped(Index clipped) {
   if (clipped == 0) return;
   Say(
       fmt::format("warning: {} clipped by the map's guards, since an input "
@@ -263,62 +292,119 @@ void SayClipped(const models::Prediction& prediction) {
                   report::Count(clipped, "row")));
 }
 
+// Rows that lack a reading are told by the column of the first.
+void SayMissing(const Predicted& found) {
+  const Index missing = std::ssize(found.is_whole) - found.NumWhole();
+  if (missing == 0) return;
+  const auto first = static_cast<std::size_t>(
+      std::ranges::find(found.is_whole, false) - found.is_whole.begin());
+  Say(
+      fmt::format("warning: {} of {} lack{} a reading, the first {} in data "
+                  "row {}: nothing is predicted there",
+                  missing,
+                  report::Count(std::ssize(found.is_whole), "row"),
+                  missing == 1 ? "s" : "",
+                  data::QuotedName(found.flags[first].column.name),
+                  first));
+}
+
+Predicted PredictRows(const models::FittedModel& fitted,
+                      const data::TableForMap& read,
+                      const WholeRows& whole,
+                      const models::MapLog& map,
+                      const PredictArguments& arguments) {
+  const data::Dataset rows = RowsToPredict(fitted, read.table, whole, map);
+  const MatrixXd form_inputs = fitted.FormInputs(rows);
+  const models::Prediction prediction = fitted.PredictForm(form_inputs);
+  const std::vector<models::RowFlag> flags =
+      models::FlagRows(fitted, whole.inputs(), form_inputs);
+  const auto num_rows = read.table.num_rows;
+  Predicted found{
+      .fitted = fitted,
+      .table = read.table,
+      .order = read.order,
+      .map = map,
+      .errors = VectorXd::Constant(static_cast<Index>(num_rows), stats::kNaN),
+      .is_whole = std::vector<bool>(num_rows),
+      .probes = {},
+      .flags = std::vector<models::RowFlag>(num_rows),
+      .made_for = models::RowsMadeFor(fitted, read.table),
+      .clipped = prediction.clipped.count()};
+  for (std::size_t i = 0; i < whole.rows.size(); ++i) {
+    const auto row = static_cast<std::size_t>(whole.rows[i]);
+    found.errors[whole.rows[i]] = prediction.errors[static_cast<Index>(i)];
+    found.is_whole[row] = true;
+    found.flags[row] = flags[i];
+  }
+  for (std::size_t row = 0; row < num_rows; ++row) {
+    if (found.is_whole[row]) continue;
+    const auto readings = whole.readings.row(static_cast<Index>(row));
+    Index input = 0;
+    while (std::isfinite(readings[input])) ++input;
+    found.flags[row].column =
+        fitted.inputs[static_cast<std::size_t>(input)].column;
+  }
+  if (!arguments.probes.empty()) {
+    found.probes = Correct(fitted, {read.table, whole.readings}, arguments);
+    found.errors += found.probes->track.offset;
+  }
+  return found;
+}
+
+void SayAll(const Predicted& found, const WholeRows& whole) {
+  const MatrixXd inputs = whole.inputs();
+  SayWhatIsPredicted(found);
+  SayMissing(found);
+  SayOutside(found.fitted.inputs,
+             inputs,
+             found.flags,
+             data::AllRows(found.table.num_rows),
+             false);
+  SaySensorFault(found.fitted, inputs);
+  SayClipped(found.clipped);
+  if (const Index learnt =
+          models::CountLearntRows(found.fitted, inputs, nullptr);
+      learnt > 0) {
+    Say(
+        fmt::format("the readings of {} of {} are ones that the map was "
+                    "trained on: on new ones it errs more",
+                    learnt,
+                    report::Count(inputs.rows(), "row")));
+  }
+  if (const std::string made_for =
+          models::MadeForText(found.fitted, found.table);
+      !made_for.empty()) {
+    Say("warning: " + made_for);
+  }
+}
+
 int RunPredict(const PredictArguments& arguments) {
   CheckOutputName("-o", arguments.out, [&] {
     std::vector<std::string> read = arguments.files;
     read.insert(read.end(),
-                {arguments.model, arguments.log.after, arguments.probes});
+                {arguments.model,
+                 arguments.log.after,
+                 arguments.log.with,
+                 arguments.probes});
     return read;
   }());
   const models::FittedModel fitted = LoadMap(arguments.model, arguments.quiet);
   const data::TableForMap read = models::ReadForMap(
       fitted, arguments.files, models::MapColumns::kInputs, arguments.log);
-  const data::CsvTable& table = read.table;
-  const MatrixXd inputs = models::InputsOf(fitted, table);
-  const models::MapLog map = models::MakeMapLog(fitted, table, arguments.log);
+  const WholeRows whole = FindWholeRows(fitted, read.table);
+  const models::MapLog map =
+      models::MakeMapLog(fitted, read.table, arguments.log);
   SayRead(read, arguments.quiet);
-  const data::Dataset rows = RowsToPredict(fitted, table, inputs, map);
-  const MatrixXd form_inputs = fitted.FormInputs(rows);
-  Predicted found{.fitted = fitted,
-                  .table = table,
-                  .order = read.order,
-                  .map = map,
-                  .prediction = fitted.PredictForm(form_inputs),
-                  .probes = {},
-                  .flags = {},
-                  .made_for = models::RowsMadeFor(fitted, table)};
-  if (!arguments.probes.empty()) {
-    found.probes = Correct(fitted, {table, inputs}, arguments);
-    found.prediction.errors += found.probes->track.offset;
-  }
-  found.flags = models::FlagRows(fitted, inputs, form_inputs);
+  const Predicted found = PredictRows(fitted, read, whole, map, arguments);
   const std::string text = PredictionsCsv(found, arguments.log.time);
   if (arguments.out.empty()) {
     PrintResult(text);
   } else {
     data::WriteFileAtomically(arguments.out, text);
   }
-  const std::vector<Index> all_rows = data::AllRows(table.num_rows);
-  if (!arguments.quiet) {
-    SayWhatIsPredicted(found);
-    SayOutside(fitted.inputs, inputs, found.flags, all_rows, false);
-    SaySensorFault(fitted, inputs);
-    SayClipped(found.prediction);
-    if (const Index learnt = models::CountLearntRows(fitted, inputs, nullptr);
-        learnt > 0) {
-      Say(
-          fmt::format("the readings of {} of {} are ones that the map was "
-                      "trained on: on new ones it errs more",
-                      learnt,
-                      report::Count(inputs.rows(), "row")));
-    }
-    if (const std::string made_for = models::MadeForText(fitted, table);
-        !made_for.empty()) {
-      Say("warning: " + made_for);
-    }
-  }
-  return SayNotFinite(found.prediction.errors,
-                      all_rows,
+  if (!arguments.quiet) SayAll(found, whole);
+  return SayNotFinite(found.errors(whole.rows),
+                      whole.rows,
                       data::NamesOfFiles(arguments.files))
              ? kEveryFitFailed
              : kDone;
@@ -346,7 +432,9 @@ void AddPredictCommand(CLI::App* app, Run* run) {
             "Readings of the same session: the map is shifted by the offset "
             "found before each row. The interval narrows, or widens where they "
             "contradict one offset");
-  AddMapLogArguments(command, &command->log);
+  AddMapDataArguments(command, &command->log);
+  AddTargetOfMap(command, &command->log);
+  AddJoinedLogArguments(command, &command->log);
   AddFromRest(command, &command->log);
   AddQuietFlag(command, &command->quiet);
   SetFooter(
@@ -360,6 +448,7 @@ what differs.
 - distance, leverage: the thermal state is far from all trained ones
 - start, gap: the memory of the map lacks earlier rows
 - where: the map is not made for such rows
+- missing: a reading (offender) is missing, and nothing is predicted
 Exit status: 0 done; 4 if a prediction is not finite: its cell stays empty.
 Example: errmap predict map.json data/sets/turning_centre/later_days.csv -o predicted.csv)");
   command.Runs(RunPredict);

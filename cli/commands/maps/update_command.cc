@@ -34,8 +34,7 @@ struct UpdateArguments {
   std::string model;
   std::string file;
   std::vector<std::string> known;  // what the map learnt from; none: as it says
-  std::string time;
-  std::string session;
+  models::MapDataArguments columns;
   data::MissingPolicy missing = data::MissingPolicy::kError;
   data::FaultPolicy faults = data::FaultPolicy::kKeep;
   std::string out;
@@ -49,8 +48,8 @@ data::Dataset ReadRows(const models::FittedModel& map,
                        const std::string& file,
                        const UpdateArguments& arguments) {
   data::DatasetSelection selection{.target = map.target.name,
-                                   .time = arguments.time,
-                                   .session = arguments.session,
+                                   .time = arguments.columns.time,
+                                   .session = arguments.columns.session,
                                    .align = map.align,
                                    .missing = arguments.missing,
                                    .faults = arguments.faults,
@@ -60,10 +59,7 @@ data::Dataset ReadRows(const models::FittedModel& map,
     selection.inputs.push_back(input.column.name);
   }
   const data::TableForMap read = models::ReadForMap(
-      map,
-      {file},
-      models::MapColumns::kInputsAndTarget,
-      {.after = {}, .time = arguments.time, .session = arguments.session});
+      map, {file}, models::MapColumns::kInputsAndTarget, arguments.columns);
   selection.where = models::FiltersFor(map, read.table);
   data::PreparedDataset prepared = data::MakeDataset(read.table, selection);
   SayRead(read, arguments.quiet);
@@ -140,8 +136,10 @@ std::optional<data::Dataset> ReadKnown(
     const std::vector<desk::InputFile>& files,
     const UpdateArguments& arguments) {
   std::optional<data::Dataset> known;
+  UpdateArguments as_fitted = arguments;
+  as_fitted.columns.target.clear();
   for (const desk::InputFile& file : files) {
-    data::Dataset rows = ReadRows(map, file.file, arguments);
+    data::Dataset rows = ReadRows(map, file.file, as_fitted);
     known = known ? models::Joined(*known, rows) : std::move(rows);
   }
   return known;
@@ -164,6 +162,9 @@ Json UpdateJson(const UpdateArguments& arguments,
           {"not_at_hand", known.lost},
           {"old_rmse", trial.old_rmse},
           {"new_rmse", trial.new_rmse},
+          {"negated_rmse", trial.negated_rmse},
+          {"shifted_rmse", trial.shifted_rmse},
+          {"shift", trial.shift},
           {"sessions", models::ToJson(trial.sessions)},
           {"provenance", provenance}};
 }
@@ -299,12 +300,13 @@ void AddUpdateCommand(CLI::App* app, Run* run) {
       .OneAtATime();
   AddOption(command,
             "--time COL",
-            command->time,
+            command->columns.time,
             "Column of times (default: the only time* or zeit*)");
   AddOption(command,
             "--session COL",
-            command->session,
+            command->columns.session,
             "Column of sessions (default: session, day, run or tag)");
+  AddTargetOfMap(command, &command->columns);
   AddRowOptions(command, &command->missing, &command->faults);
   AddSeedOption(command, &command->seed);
   AddFormatOption(command, &command->format);

@@ -25,7 +25,7 @@ namespace {
 struct WhenArguments {
   std::string model;
   std::optional<std::string> goal;
-  models::MapLogArguments log;  // `after`: from the last probe to now
+  models::MapDataArguments log;  // `after`: from the last probe to now
   std::string format = "table";
 };
 
@@ -181,7 +181,7 @@ void AddWhenCommand(CLI::App* app, Run* run) {
             command->goal,
             "Limit that 90 % of the errors must keep: 2um (default: no goal, "
             "the table alone)");
-  AddMapLogArguments(command, &command->log);
+  AddMapDataArguments(command, &command->log);
   FindOption(command, "--after").About("Readings from the last probe to now");
   AddFormatOption(command, &command->format);
   SetFooter(

@@ -40,7 +40,7 @@ struct VolumetricArguments {
   std::string machine;
   std::string points;
   std::string out;
-  models::MapLogArguments log;
+  models::MapDataArguments log;
   models::VolumetricOptions options;
   bool quiet = false;
 };
@@ -333,7 +333,7 @@ void AddVolumetricCommand(CLI::App* app, Run* run) {
             command->out,
             "File to write (default: stdout)")
       .Under(kOutputOptions);
-  AddMapLogArguments(command, &command->log);
+  AddMapDataArguments(command, &command->log);
   AddFromRest(command, &command->log);
   AddOption(command,
             "--draws",

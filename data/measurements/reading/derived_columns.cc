@@ -142,7 +142,6 @@ std::optional<DerivedTarget> FindDerivedTarget(const CsvTable& table,
 
 void AddDerivedColumns(const std::vector<ColumnFilter>& filters,
                        const std::string& position,
-                       const std::string& target,
                        const std::string& session,
                        CsvTable* table) {
   const std::vector<Index> rows = AllRows(table->num_rows);
@@ -153,10 +152,6 @@ void AddDerivedColumns(const std::vector<ColumnFilter>& filters,
     auto sessions = FindSessionsInLabels(*table, labels, rows, 1);
     if (!sessions) break;
     table->columns.push_back(std::move(*sessions));
-  }
-  if (std::optional<DerivedTarget> derived =
-          FindDerivedTarget(*table, target)) {
-    table->columns.push_back(std::move(derived->column));
   }
   const bool needs_direction =
       std::ranges::any_of(filters, [&](const ColumnFilter& filter) {

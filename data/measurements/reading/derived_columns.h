@@ -27,12 +27,10 @@ struct DerivedTarget {
 std::optional<DerivedTarget> FindDerivedTarget(const CsvTable& table,
                                                const std::string& name);
 
-/// The columns that `filters`, `target` and `session` name and a table lacks,
-/// where its positions or labels can tell them: for files that a map is used
-/// on.
+/// The columns that `filters` and `session` name and a table lacks, where its
+/// positions or labels can tell them: for files that a map is used on.
 void AddDerivedColumns(const std::vector<ColumnFilter>& filters,
                        const std::string& position,
-                       const std::string& target,
                        const std::string& session,
                        CsvTable* table);
 

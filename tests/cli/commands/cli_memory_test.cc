@@ -195,6 +195,12 @@ TEST_F(CliMemory, CountsTheRowsThatTheMapIsMadeFor) {
               alone["summary"]["rmse"].get<double>(),
               1e-9);
   EXPECT_THAT(one.err, Not(HasSubstr("counting rows")));
+  // Nothing else tells where a session begins.
+  Write("no_day.csv", "x_mm,t1_degC,error_um\n0,20,1\n50,21,2\n");
+  EXPECT_THAT(
+      RefusalOf(Run({"predict", "one.json", "no_day.csv"}), kCliMemoryUnusable),
+      HasSubstr("no column 'day', which tells the map's memory where a "
+                "session begins; add it, or name another with --session"));
 }
 
 TEST_F(CliMemory, RunsThroughEarlierRowsFirst) {
@@ -244,15 +250,10 @@ TEST_F(CliMemory, WarnsOncePerSessionThatBeginsInside) {
       HasSubstr("time goes back"));
 }
 
-TEST_F(CliMemory, RefusesDataWithoutSessionsOrTimes) {
+TEST_F(CliMemory, RefusesDataWithoutTimes) {
   WriteMap("map.json", Days(3));
-  Write("no_day.csv", "time_s,t1_degC,error_um\n0,20,40\n60,21,41\n");
   Write("no_time.csv", "day,t1_degC,error_um\n1,20,40\n1,21,41\n");
   for (const char* command : {"predict", "evaluate"}) {
-    EXPECT_THAT(
-        RefusalOf(Run({command, "map.json", "no_day.csv"}), kCliMemoryUnusable),
-        HasSubstr("no_day.csv: no column 'day', which tells the map's "
-                  "memory where a session begins"));
     EXPECT_THAT(RefusalOf(Run({command, "map.json", "no_time.csv"}),
                           kCliMemoryUnusable),
                 HasSubstr("no_time.csv: no column of times, which the map's "

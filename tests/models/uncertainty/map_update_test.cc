@@ -48,6 +48,22 @@ TEST(UpdateTrial, AFailedSuccessorIsNotBetter) {
   EXPECT_FALSE(trial.better(0.02));
 }
 
+// A successor would average both.
+TEST(UpdateTrial, AnotherSignOrOffsetIsNotLearnt) {
+  for (const auto member :
+       {&UpdateTrial::negated_rmse, &UpdateTrial::shifted_rmse}) {
+    UpdateTrial trial = TrialOf({{"1", 47.0, 40.0}, {"2", 36.0, 30.0}});
+    ASSERT_TRUE(trial.better(0.02));
+    trial.*member = 0.6;
+    EXPECT_FALSE(trial.better(0.02));
+    EXPECT_EQ(trial.is_negated(), member == &UpdateTrial::negated_rmse);
+    EXPECT_EQ(trial.is_shifted(), member == &UpdateTrial::shifted_rmse);
+    // It hardly explains more than the successor learns.
+    trial.*member = 20.0;
+    EXPECT_TRUE(trial.better(0.02));
+  }
+}
+
 // A session that both maps predict exactly says nothing of either.
 TEST(UpdateTrial, ASessionWithoutErrorsDecidesNothing) {
   EXPECT_TRUE(TrialOf({{"1", 0.0, 0.0}, {"2", 2.0, 1.0}}).better(0.02));

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/report/number_text.h"
+#include "data/argument_name.h"
 #include "data/text.h"
 #include "models/study/judgement/goal.h"
 
@@ -97,10 +98,25 @@ std::string TrialText(const models::UpdateTrial& trial,
                     error(session.old_rmse),
                     error(session.new_rmse));
   }
-  return text + fmt::format("  {:<12}  {:>9}  {:>9}\n",
-                            "all",
-                            error(trial.old_rmse),
-                            error(trial.new_rmse));
+  text += fmt::format("  {:<12}  {:>9}  {:>9}\n",
+                      "all",
+                      error(trial.old_rmse),
+                      error(trial.new_rmse));
+  if (trial.is_negated()) {
+    text += fmt::format(
+        "the new errors have the opposite sign: so the old map errs {} in "
+        "them; if they are corrections: {}\n",
+        error.WithUnit(trial.negated_rmse),
+        data::ArgumentName("target", "-COL"));
+  } else if (trial.is_shifted()) {
+    text += fmt::format(
+        "the new errors are shifted by {}: so the old map errs {} in them; "
+        "re-zero it, or learn from the new sessions alone: {}\n",
+        error.WithUnit(trial.shift),
+        error.WithUnit(trial.shifted_rmse),
+        data::ArgumentName("known", "NEW.csv"));
+  }
+  return text;
 }
 
 std::string OffsetLine(const models::ProbeCorrection& correction,
@@ -108,6 +124,13 @@ std::string OffsetLine(const models::ProbeCorrection& correction,
   const models::OffsetTrack& track = correction.track;
   const auto corrected = std::ranges::count_if(
       track.used, [](Eigen::Index used) { return used > 0; });
+  if (corrected == 0) {
+    return fmt::format(
+        "warning: {} move{} none of {}: they are of another session, or later",
+        Count(correction.num_probes, "probe"),
+        correction.num_probes == 1 ? "s" : "",
+        Count(track.offset.size(), "row"));
+  }
   const Eigen::Index last = track.offset.size() - 1;
   const double known = std::sqrt(track.variance[last]);
   const ErrorText error(unit, std::sqrt(correction.model.noise));

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -18,7 +19,22 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class UpdateCommand : public CliPromise {};
+class UpdateCommand : public CliPromise {
+ protected:
+  // Days whose errors are as many times as large, which no offset explains.
+  static std::string GrownDays(int first, int last, double factor) {
+    std::string text;
+    for (const std::string& line : SplitLines(DaysInCliPromise(first, last))) {
+      const std::size_t at = line.rfind(',') + 1;
+      text += line.substr(0, at) +
+              (text.empty()
+                   ? line.substr(at)
+                   : data::CsvNumber(factor * std::stod(line.substr(at)))) +
+              "\n";
+    }
+    return text;
+  }
+};
 
 TEST_F(UpdateCommand, UpdatesAMapThatNewSessionsMakeBetter) {
   Write("new.csv", DaysInCliPromise(11, 14, 9.0));
@@ -51,8 +67,8 @@ TEST_F(UpdateCommand, UpdatesOnceMoreFromAllThatWasLearnt) {
     }
     return names;
   };
-  Write("new.csv", DaysInCliPromise(11, 14, 9.0));
-  Write("newer.csv", DaysInCliPromise(15, 16, 30.0));
+  Write("new.csv", GrownDays(11, 14, 1.6));
+  Write("newer.csv", GrownDays(15, 16, 2.5));
   const Json once = update("map.json", "new.csv");
   ASSERT_EQ(once["updated"], true);
   EXPECT_THAT(files(once), ElementsAre("map.json", "train.csv", "new.csv"));
@@ -87,7 +103,7 @@ TEST_F(UpdateCommand, FindsWhatTheMapLearntFromWhereverItIsRun) {
   const auto move = [&](const char* from, const char* to) {
     std::filesystem::rename(scratch_ / from, scratch_ / to);
   };
-  Write("data/new.csv", DaysInCliPromise(11, 14, 9.0));
+  Write("data/new.csv", GrownDays(11, 14, 1.6));
   const auto update = [&](const std::string& map, const std::string& data) {
     return RunJson(
         {"update", map, data, "-o", "newer.json", "--format", "json"});
@@ -126,6 +142,18 @@ TEST_F(UpdateCommand, KeepsTheOldMapUnlessTheNewOneIsBetter) {
           Run({"update", "map.json", "one.csv", "-o", "one.json", "--quiet"}),
           kUnusable),
       HasSubstr("two new sessions"));
+}
+
+TEST_F(UpdateCommand, KeepsTheOldMapWhereSignOrZeroIsOther) {
+  Write("opposite.csv", GrownDays(11, 14, -1.0));
+  Write("shifted.csv", DaysInCliPromise(11, 14, 40.0));
+  for (const auto& [file, what] :
+       {std::pair("opposite.csv", "have the opposite sign"),
+        std::pair("shifted.csv", "are shifted by 39.7 um")}) {
+    const Outcome outcome = Run({"update", "map.json", file, "-o", "new.json"});
+    EXPECT_THAT(outcome.out, HasSubstr(what));
+    EXPECT_EQ(Read("new.json"), Read("map.json")) << file;
+  }
 }
 
 }  // namespace
