@@ -78,6 +78,15 @@ bool IsSign(double gain) {
   return std::abs(gain + 1.0) < kAboutOne;
 }
 
+// Whether so few probes tell this gain from a shape: another sign or scale,
+// which no state of a machine is, and any where there are more than five.
+bool IsTold(double gain, Index probes) {
+  constexpr double kScale = 3.0;
+  constexpr Index kFew = 5;
+  return probes > kFew || IsSign(gain) || gain > kScale ||
+         std::abs(gain) < 1.0 / kScale;
+}
+
 // Errors over predictions where that alone brings the probes within the limit,
 // whose noise grows alike, and explains three quarters of their mean square;
 // else NaN. Some factor fits three probes of many a wrong shape, another sign
@@ -144,8 +153,13 @@ void ChooseRemedy(const SessionProbes& probes,
   } else if (ShareAbove(best->left, limit) > kSureOff && check->probes > 2) {
     // A wrong sign or unit is looked for before days are measured anew.
     const double gain = ExplainingGain(probes, limit);
-    check->remedy = std::isnan(gain) ? Remedy::kRefit : Remedy::kGain;
-    if (!std::isnan(gain)) check->gain = gain;
+    if (std::isnan(gain)) {
+      check->remedy = Remedy::kRefit;
+    } else {
+      check->gain = gain;
+      check->remedy =
+          IsTold(gain, check->probes) ? Remedy::kGain : Remedy::kUnknown;
+    }
   } else {
     check->remedy = Remedy::kUnknown;
   }
