@@ -183,7 +183,7 @@ void AddJoinedLogArguments(CLI::App* command,
   AddOption(command,
             "--with LOG.csv",
             arguments->with,
-            "Log of more columns, such as thermometers, joined by time");
+            "Log of more columns, joined by time");
   AddOption(command,
             "--clock-offset D",
             arguments->clock_offset,

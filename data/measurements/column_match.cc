@@ -1,5 +1,6 @@
 #include "data/measurements/column_match.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -150,6 +151,15 @@ MatchedColumn MatchColumn(const CsvTable& table,
                         : SameNameInAnyUnit(table, of_map.name, remedy).name,
                     of_map,
                     is_exact);
+}
+
+void NameLike(const std::string& name, CsvTable* table) {
+  if (name.empty() || table->Find(name) >= 0) return;
+  const auto found =
+      std::ranges::find_if(table->columns, [&](const CsvColumn& column) {
+        return EqualsIgnoringCase(column.name, name);
+      });
+  if (found != table->columns.end()) found->name = name;
 }
 
 TableForMap InMapUnits(CsvTable table,

@@ -33,6 +33,10 @@ MatchedColumn MatchColumn(
     const ColumnInfo& of_map,
     const std::string& remedy = "add it or fit a map without it");
 
+/// Gives a column that has `name` in other letters that name, where none has
+/// it.
+void NameLike(const std::string& name, CsvTable* table);
+
 /// A table in the names and units of a map, and what was done for it.
 struct TableForMap {
   CsvTable table;

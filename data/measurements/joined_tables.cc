@@ -390,19 +390,4 @@ void AddFileColumn(const std::string& label, CsvTable* table) {
       WordColumn(kFileColumn, std::vector<Index>(table->num_rows, 0), {label}));
 }
 
-CsvTable AppendedTable(const CsvTable& earlier,
-                       const CsvTable& later,
-                       const std::vector<std::string>& columns) {
-  CsvTable table = Begun(earlier);
-  table.file = earlier.file + ", then " + later.file;
-  AppendRows(later, &table);
-  for (const std::string& name : columns) {
-    CsvColumn column =
-        earlier.columns[RequireColumn(earlier, name, ArgumentName("after"))];
-    AppendFile(later.columns[RequireColumn(later, name, "DATA")], &column);
-    table.columns.push_back(std::move(column));
-  }
-  return table;
-}
-
 }  // namespace errmap::data

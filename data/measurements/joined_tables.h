@@ -45,10 +45,4 @@ OddRows OddRowsFor(const DatasetSelection& selection);
 /// one that is there.
 void AddFileColumn(const std::string& label, CsvTable* table);
 
-/// `later` below `earlier`, the columns of `columns` alone. Throws InputError
-/// where a column is in one of them only.
-CsvTable AppendedTable(const CsvTable& earlier,
-                       const CsvTable& later,
-                       const std::vector<std::string>& columns);
-
 }  // namespace errmap::data

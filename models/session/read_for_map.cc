@@ -16,7 +16,6 @@
 #include "data/measurements/reading/read_table.h"
 #include "data/measurements/reading/time_units.h"
 #include "data/measurements/row_filters.h"
-#include "data/text.h"
 #include "models/history/history.h"
 #include "models/map_experience.h"
 
@@ -257,16 +256,6 @@ std::optional<data::CsvColumn> WaysOfRows(const FittedModel& fitted,
   return data::WordColumn(kWayColumn, codes, std::move(words));
 }
 
-// Gives a column that has `name` in other letters that name.
-void NameLike(const std::string& name, data::CsvTable* table) {
-  if (name.empty() || table->Find(name) >= 0) return;
-  const auto found =
-      std::ranges::find_if(table->columns, [&](const data::CsvColumn& column) {
-        return data::EqualsIgnoringCase(column.name, name);
-      });
-  if (found != table->columns.end()) found->name = name;
-}
-
 // One table of the files, its sessions and times named as the map names them.
 data::JoinedTable ReadFiles(const FittedModel& fitted,
                             const std::vector<std::string>& files,
@@ -283,9 +272,9 @@ data::JoinedTable ReadFiles(const FittedModel& fitted,
   if (by_file && read.table.Find(data::kFileColumn) < 0) {
     data::AddFileColumn(data::FileLabel(read.table.file), &read.table);
   }
-  if (arguments.session.empty()) NameLike(session, &read.table);
+  if (arguments.session.empty()) data::NameLike(session, &read.table);
   if (arguments.time.empty() && fitted.history != nullptr) {
-    NameLike(fitted.history->time, &read.table);
+    data::NameLike(fitted.history->time, &read.table);
   }
   return read;
 }

@@ -85,8 +85,16 @@ TEST_F(CliFiles, AMapOfFilesTakesTheNextFileForADay) {
   EXPECT_THAT(predicted.out, Not(HasSubstr("start")));
   EXPECT_EQ(Run({"check", "map.json", "today.csv", "--quiet"}).status, 0);
   // What went before is of the same day.
+  const std::vector<std::string> lines = SplitLines(Read("today.csv"));
+  std::string morning = lines[0] + "\n";
+  std::string noon = morning;
+  for (std::size_t row = 1; row < lines.size(); ++row) {
+    (row < lines.size() / 2 ? morning : noon) += lines[row] + "\n";
+  }
+  Write("morning.csv", morning);
+  Write("noon.csv", noon);
   EXPECT_THAT(
-      Run({"predict", "map.json", "today.csv", "--after", "today.csv"}).err,
+      Run({"predict", "map.json", "noon.csv", "--after", "morning.csv"}).err,
       Not(HasSubstr("changes nothing")));
 }
 

@@ -247,7 +247,7 @@ TEST_F(CliMemory, WarnsOncePerSessionThatBeginsInside) {
   EXPECT_THAT(ColumnOf(rested, "inside"), ::testing::Each(1.0));
   EXPECT_THAT(
       Run({"predict", "map.json", "later.csv", "--after", "later.csv"}).err,
-      HasSubstr("time goes back"));
+      HasSubstr("no session of later.csv goes on in later.csv"));
 }
 
 TEST_F(CliMemory, RefusesDataWithoutTimes) {

@@ -327,7 +327,7 @@ TEST_F(VolumetricCommand, APairTakesTheDirectionOfItsCoordinate) {
 TEST_F(VolumetricCommand, FlagsPointsWhereAMapExtrapolates) {
   WriteMap("exx.json", "error_mm", "mm", 0.001, "position_mm", "mm", 1e-5);
   Write("m.toml", OneSlide("EXX = \"exx.json\""));
-  Write("p.csv", "x_mm\n-300\n-301\n");
+  Write("p.csv", "x_mm\n-300\n-330\n");
   const Outcome outcome = Volumetric("m.toml", "p.csv");
   const std::vector<Record> points = Records(outcome.out);
   EXPECT_EQ(points[0].at("inside"), "1");

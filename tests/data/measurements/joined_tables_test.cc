@@ -33,22 +33,6 @@ std::vector<std::string> Cells(const CsvTable& table, const char* name) {
   return cells;
 }
 
-TEST(AppendedTable, GoesOnWithTheRowsOfTheLater) {
-  const CsvTable table =
-      AppendedTable(ParseCsv("a,b\n1,x\n2,y\n", "one.csv"),
-                    ParseCsv("b,c,a\n,0,3\nz,0,4\n", "two.csv"),
-                    {"b", "a"});
-  ASSERT_EQ(table.num_rows, 4U);
-  ASSERT_EQ(table.columns.size(), 2U);
-  EXPECT_THAT(table.columns[1].values, ElementsAre(1, 2, 3, 4));
-  std::vector<std::string> cells;
-  for (std::size_t row = 0; row < 4; ++row) {
-    cells.push_back(table.CellText(table.columns[0], row));
-  }
-  EXPECT_THAT(cells, ElementsAre("x", "y", "", "z"));
-  EXPECT_EQ(table.Where(2, "a"), "two.csv: line 2 (data row 0), column 'a'");
-}
-
 TEST(JoinTables, MakesASessionOfEachFileWhereNothingElseTellsThemApart) {
   const JoinedTable joined =
       Join({{"a/2024-03-01.csv", "t_degC,error_um\n20,1\n21,2\n"},

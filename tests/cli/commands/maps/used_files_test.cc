@@ -158,6 +158,47 @@ TEST_F(UsedFiles, LeaveRowsWithoutAReadingOut) {
   EXPECT_THAT(SplitLines(outcome.out)[8], HasSubstr(",,,,,0,missing,t2_degC"));
 }
 
+// A log as the logger has it: of the whole day, by its own clock, in its own
+// order and letters.
+TEST_F(UsedFiles, GoOnFromAnyLogOfTheDay) {
+  const std::vector<std::string> whole_day = Predicted({"same.csv"});
+  const std::vector<std::string> expected(whole_day.begin() + 20,
+                                          whole_day.end());
+  std::vector<std::string> lines = SplitLines(Read("same.csv"));
+  std::string noon = lines.front() + "\n";
+  for (std::size_t row = 21; row < lines.size(); ++row) {
+    noon += lines[row] + "\n";
+  }
+  Write("noon.csv", noon);
+  const auto expect_whole = [&](const std::string& log) {
+    EXPECT_EQ(Predicted({"noon.csv", "--after", log}), expected) << log;
+  };
+  expect_whole("same.csv");
+  Rewrite("same.csv", "minutes.csv", [](auto* cells) {
+    std::string& time = (*cells)[kTime];
+    time = time == "time_s" ? "Time [min]"
+                            : data::CsvNumber(std::stod(time) / 60.0);
+    std::string& day = (*cells)[kDay];
+    if (day == "day") day = "Day";
+  });
+  expect_whole("minutes.csv");
+  Rewrite("same.csv", "no_day.csv", [](auto* cells) {
+    *cells = {(*cells)[kTime], (*cells)[kT1], (*cells)[kT2], (*cells)[kT3]};
+  });
+  expect_whole("no_day.csv");
+  std::string newest_first = lines.front() + "\n";
+  for (std::size_t row = lines.size() - 1; row > 0; --row) {
+    newest_first += lines[row] + "\n";
+  }
+  Write("newest_first.csv", newest_first);
+  expect_whole("newest_first.csv");
+  // The day before is over.
+  Write("yesterday.csv", DaysInCliPromise(10, 10));
+  EXPECT_THAT(
+      Run({"predict", "map.json", "noon.csv", "--after", "yesterday.csv"}).err,
+      HasSubstr("no session of yesterday.csv goes on"));
+}
+
 TEST_F(UsedFiles, RefuseProbesByAnotherClock) {
   Rewrite("same.csv", "dated.csv", [](auto* cells) {
     std::string& cell = (*cells)[kTime];
