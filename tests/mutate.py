@@ -6,8 +6,8 @@
 Each mutant (all, or those of these numbers from 1) is put into its source file,
 its test program is built in BUILD and the units named, which pass without it,
 are run: one of them has to fail. The file is put back whatever happens. --check
-only looks whether every text that is to be changed stands once in its file,
-which CI does. Status 1 where more than --survivors (2) live. A mutant that does
+only looks whether every text that is to be changed stands once in its file, as
+the suite does. Status 1 where more than --survivors (2) live. A mutant that does
 not build, or whose unit takes two minutes longer than without it, is dead.
 """
 

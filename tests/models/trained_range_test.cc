@@ -19,8 +19,13 @@ TrainedInput Trained(const char* name, double min, double max) {
           .sd = 1.0};
 }
 
-TEST(InputsOutside, IsEmptyWithinTheTrainedRangeBoundsIncluded) {
-  const Eigen::MatrixXd values{{20.0}, {25.0}};
+// Noise at a bound, up to kRangeTolerance of the range, is not outside.
+TEST(InputsOutside, IsEmptyWithinTheTrainedRangeAndALittleBeyond) {
+  EXPECT_FALSE(
+      IsInside({Trained("t1_degC", 20.0, 25.0)}, Eigen::MatrixXd{{25.2}}, 0));
+  EXPECT_FALSE(
+      IsInside({Trained("t1_degC", 20.0, 25.0)}, Eigen::MatrixXd{{19.8}}, 0));
+  const Eigen::MatrixXd values{{19.91}, {25.09}};
   EXPECT_THAT(InputsOutside({Trained("t1_degC", 20.0, 25.0)}, values),
               ::testing::IsEmpty());
   EXPECT_TRUE(IsInside({Trained("t1_degC", 20.0, 25.0)}, values, 1));
