@@ -111,7 +111,7 @@ MatchedColumn MatchTarget(const TargetOfMap& target, CsvTable* table) {
             ", one of " + "corrections with " + ArgumentName("target", "-COL"));
   }
   RequireColumn(*table, named, ArgumentName("target"));
-  const MatchedColumn match = MatchNamed(*table, named, target.column, true);
+  MatchedColumn match = MatchNamed(*table, named, target.column, true);
   std::erase_if(table->columns, [&](const CsvColumn& column) {
     return column.name == target.column.name && column.name != named;
   });

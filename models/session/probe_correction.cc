@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "data/input_error.h"
-#include "data/measurements/column_checks.h"
+#include "data/text.h"
 #include "stats/indices.h"
 
 namespace errmap::models {

@@ -16,6 +16,7 @@
 #include "data/measurements/reading/read_table.h"
 #include "data/measurements/reading/time_units.h"
 #include "data/measurements/row_filters.h"
+#include "data/text.h"
 #include "models/history/history.h"
 #include "models/map_experience.h"
 

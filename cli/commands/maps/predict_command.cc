@@ -27,6 +27,7 @@
 #include "data/measurements/dataset.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/measured_files.h"
+#include "data/text.h"
 #include "models/history/map_log.h"
 #include "models/history/view.h"
 #include "models/sensors/sensor_check.h"
