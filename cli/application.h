@@ -10,8 +10,8 @@ namespace errmap::cli {
 /// interrupted, 1 anything else. Errors are one line on stderr.
 int RunApplication(int argc, char** argv);
 
-/// The same within another program, which has made a HostedRun:
-/// `words` are a command and its arguments.
+/// Runs a command within another program, which has made a HostedRun: `words`
+/// are a command and its arguments.
 int RunHosted(std::vector<std::string> words);
 
 }  // namespace errmap::cli

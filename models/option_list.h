@@ -25,7 +25,7 @@ namespace errmap::models {
 
 using OptionText = decltype(EffectiveOption::value);
 
-/// An option as users read of it.
+/// An option as described to users.
 struct OptionInfo {
   std::string name;
   std::string about;   // "hidden nodes"

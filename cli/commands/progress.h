@@ -13,8 +13,8 @@ struct ProgressState {
   int done = 0;
   int all = 0;
   double seconds = 0.0;  // since the start
-  /// Seconds left. NaN: estimated from the finished fits, once a twentieth of
-  /// all is done; before that it would be a guess.
+  /// Seconds left. NaN: estimated from the finished fits once a twentieth of
+  /// all fits is done.
   double left = std::numeric_limits<double>::quiet_NaN();
   std::string best = {};     // best model so far, its error; "": none yet
   std::string holdout = {};  // the hold-out under which it is the best

@@ -10,7 +10,7 @@ namespace errmap::report {
 /// Latin-1.
 std::string HtmlText(std::string_view text);
 
-/// The same, without line breaks between a number and its % or unit.
+/// Escapes text, and prevents line breaks between a number and its % or unit.
 std::string HtmlSentence(std::string_view text);
 
 /// Escapes a name from somebody's data, and isolates its writing direction from

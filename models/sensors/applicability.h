@@ -31,7 +31,7 @@ StateMeasures MeasureStates(const Applicability& trained,
 std::optional<Applicability> MakeApplicability(const FittedModel& fitted,
                                                const data::Dataset& training);
 
-/// Why a row is outside of the training data.
+/// The reason why a row is outside the training data.
 enum class Outside {
   kNo,
   kRange,     // a column or derived input leaves its range by

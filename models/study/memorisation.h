@@ -14,7 +14,7 @@ enum class NoiseLearning { kUnknown, kLittle, kSome, kMuch };
 /// "unknown", "little", "some", "much".
 std::string_view ToString(NoiseLearning learning);
 
-/// Tells if a model can memorise its training rows.
+/// Evidence on whether a model memorises its training rows.
 struct Memorisation {
   /// R2 on the training rows, about their mean.
   double train_r2 = stats::kNaN;

@@ -19,8 +19,8 @@ struct Bounds95 {
 
   bool exist() const { return lower <= upper; }
   bool ExcludeZero() const { return lower > 0.0 || upper < 0.0; }
-  /// Of a difference a - b: what a (`is_first`) or b is above the other at
-  /// most, one-sided.
+  /// Upper one-sided bounds of how far a (`is_first`) or b exceeds the other,
+  /// for a difference a - b.
   double ExcessAtMost(bool is_first) const {
     return is_first ? at_most : -at_least;
   }

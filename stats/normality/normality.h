@@ -38,7 +38,8 @@ struct Normality {
 
 inline constexpr Index kGridDraws = 999;
 
-/// Fewest values with a shape: of three, two equal ones reject at any level.
+/// Fewest values for a test of shape: with three, two equal ones reject at any
+/// level.
 inline constexpr Index kFewestForShape = 4;
 
 /// p by simulating the null distribution for one size, mean and sd estimated:
