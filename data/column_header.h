@@ -25,7 +25,7 @@ struct Header {
   UnitSource source = UnitSource::kNone;
 };
 
-/// Reads a column name. A unit stands in brackets of any kind, or bare after
+/// Reads a column name. A unit is given in brackets of any kind, or bare after
 /// `_`, a space, `-`, `.`, `,` or `/` at the end: "error [µm]", "error {um}",
 /// "error um", "error_UM". Upper and lower case are equal, except for single
 /// letters and short symbols of other quantities than length ("x_V", "t1_K").

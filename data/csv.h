@@ -70,8 +70,8 @@ struct CsvTable {
   /// Lines of words and comments above and below the table: a program's name, a
   /// date, the axis.
   std::vector<std::string> titles;
-  /// Remarks for the user: what is unusual in the file and how it was read, one
-  /// line each.
+  /// Remarks for the user, one line each: what is unusual in the file, and how
+  /// it was read.
   std::vector<std::string> remarks;
 };
 

@@ -19,7 +19,7 @@ struct InputOutside {
 };
 
 /// Returns the inputs that leave their trained range in some row of `values` (m
-/// x p; NaN where a cell is empty, which counts as no reading), in the map's
+/// x p; NaN if a cell is empty, which counts as no reading), in the map's
 /// order.
 std::vector<InputOutside> InputsOutside(const std::vector<TrainedInput>& inputs,
                                         const MatrixXd& values);

@@ -27,7 +27,7 @@ struct ProgressState {
 std::string ProgressText(const ProgressState& state, std::size_t width);
 
 /// Shows the progress of fits on stderr: a bar on a terminal, elsewhere a plain
-/// line every ten seconds, so that short runs say nothing. Safe to call from
+/// line every ten seconds, so that short runs print nothing. Safe to call from
 /// any thread.
 class Progress {
  public:

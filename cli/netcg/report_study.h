@@ -53,8 +53,8 @@ struct NetcgStudy {
   std::vector<NetcgStudyRun> runs;
   double seconds = 0.0;            // of all runs together
   std::vector<std::string> notes;  // where it differs from the report
-  /// For options.netcg.out, where that is given: the files of all runs, and run
-  /// file and pattern files that make them again.
+  /// For options.netcg.out, if given: the files of all runs, and the run file
+  /// and pattern files that reproduce them.
   std::vector<NetcgOutputFile> files;
 };
 

@@ -17,7 +17,7 @@ std::string HtmlSentence(std::string_view text);
 /// the text around it (<bdi>).
 std::string HtmlName(std::string_view name);
 
-/// Returns a table that scrolls where the screen is narrower; `rows` are HTML.
+/// Returns a table that scrolls if the screen is narrower; `rows` are HTML.
 std::string ScrolledTable(std::string_view label, const std::string& rows);
 
 /// Escapes backquoted text and names for Markdown; line breaks become

@@ -16,8 +16,8 @@ struct FileOptions {
 std::vector<std::string> SimulationFileNames();
 
 /// Returns the content of one of these files:
-/// - a component's readings, one CSV file per direction where it matters, with
-///   the columns record, day, cycle, position_mm (where there is a position),
+/// - a component's readings, one CSV file per direction if it matters, with
+///   the columns record, day, cycle, position_mm (if there is a position),
 ///   t00_degC ... t39_degC and error_mm or error_urad. A component of a slide
 ///   has a row per stop (of the forward sweep, where direction does not
 ///   matter); one of temperature alone a row at the end of each sweep;

@@ -19,8 +19,8 @@ struct CycleRestarts {
 };
 
 /// Returns the restarts of the first of `cycles` (indices into the table; -1 is
-/// none) whose numbers count up or down and start again now and then. The rows
-/// are in the order of measurement.
+/// none) whose numbers count up or down and sometimes start again. The rows are
+/// in the order of measurement.
 std::optional<CycleRestarts> FindCycleRestarts(
     const CsvTable& table,
     const std::vector<Eigen::Index>& rows,

@@ -64,7 +64,7 @@ std::vector<RowFlag> FlagRows(const FittedModel& fitted,
                               const Eigen::MatrixXd& form_inputs);
 
 /// Returns, for each held-out row in the order of the folds, true if it is
-/// inside of its fold's training data.
+/// inside its fold's training data.
 std::vector<bool> InsideOfFolds(const FittedModel& fitted,
                                 const data::Dataset& dataset,
                                 const Holdout& holdout);

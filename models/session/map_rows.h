@@ -42,8 +42,8 @@ struct MapRows {
   std::vector<std::string> warnings;    // of the map's memory, one line each
 };
 
-/// Makes them from a table that ReadForMap returned. Throws data::InputError as
-/// MakeDataset and MakeMapLog do.
+/// Makes the rows from a table that ReadForMap returned. Throws
+/// data::InputError as MakeDataset and MakeMapLog do.
 MapRows MakeMapRows(const FittedModel& fitted,
                     data::CsvTable table,
                     const MapRowsOptions& options);

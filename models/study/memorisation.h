@@ -52,7 +52,7 @@ Memorisation AssessMemorisation(const ModelRecipe& recipe,
                                 const FitContext& context);
 
 /// Returns `dataset` with its targets in a seeded random order over all rows.
-/// Inputs, groups and weights stay.
+/// Inputs, groups and weights are unchanged.
 data::Dataset ShuffleTargets(const data::Dataset& dataset, std::uint64_t seed);
 
 }  // namespace errmap::models

@@ -58,7 +58,7 @@ struct FoldResult {
   std::vector<EffectiveOption> choices;  // of the fit, such as wfactor=cv
   std::vector<StartResult> starts;       // empty if there was only one
   VectorXd test_predictions;             // one per test row of the fold
-  /// The fitted map, without what is stored above; null for predictions by
+  /// The fitted map, without the values stored above; null for predictions by
   /// other programs.
   std::shared_ptr<const FittedModel> map;
 };

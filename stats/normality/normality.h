@@ -32,7 +32,7 @@ struct Normality {
   /// Rounding step of the readings, in their unit, if not small beside their
   /// scatter (FindStep); else 0. Ties make distances from a continuous
   /// distribution too large. Each p is then that among kGridDraws normal
-  /// samples rounded alike; `ks` and `ks_exact` have no p.
+  /// samples rounded in the same way; `ks` and `ks_exact` have no p.
   double step = 0.0;
 };
 

@@ -430,7 +430,7 @@ void AddPredictCommand(CLI::App* app, Run* run) {
             "--probes PROBES.csv",
             command->probes,
             "Readings of the same session: the map is shifted by the offset "
-            "found before each row. The interval narrows, or widens where they "
+            "found before each row. The interval narrows, or widens if they "
             "contradict one offset");
   AddMapDataArguments(command, &command->log);
   AddTargetOfMap(command, &command->log);

@@ -73,7 +73,7 @@ double RoughSeconds(const models::ComponentPlan& component, int jobs);
 std::vector<std::pair<std::string, double>> RoughSecondsOfModels(
     const models::ComponentPlan& component);
 
-/// Estimates the seconds of one fit to so many rows.
+/// Estimates the seconds of one fit to this many rows.
 double RoughFitSeconds(const models::ModelRecipe& recipe,
                        const data::Dataset& dataset,
                        double rows);

@@ -40,8 +40,8 @@ struct FleetTally {
   double Left() const;
 };
 
-/// Returns report.html: one self-contained page of all components. It links
-/// those pages of components that exist; `errmap report STORE --component NAME`
+/// Returns report.html: one self-contained page of all components. It links to
+/// the pages of components that exist; `errmap report STORE --component NAME`
 /// draws one.
 std::string FleetReportHtml(const StorePaths& paths,
                             const FleetSummaries& found);
@@ -56,8 +56,8 @@ std::string FigureHtml(const report::Plot& plot,
 void DrawFleetReport(const StorePaths& paths, const FleetSummaries& found);
 
 /// Writes the results into errmap.sqlite and report.html. A damaged
-/// errmap.sqlite is renamed and written anew, without the records of deploy and
-/// watch.
+/// errmap.sqlite is renamed and replaced by a new one, without the records of
+/// deploy and watch.
 FleetSummaries MergeStore(const StorePaths& paths);
 
 /// Returns what `compare --format` prints for a fleet. For a large fleet on a

@@ -94,7 +94,7 @@ void NameRows(const std::vector<std::string>& names,
               const std::string& what,
               Plot* plot);
 
-/// A dashed line across so many rows.
+/// A dashed line across this many rows.
 Series AcrossRows(const std::string& label, double at, std::size_t rows);
 
 Series Points(std::vector<double> x, std::vector<double> y);

@@ -57,7 +57,7 @@ struct Steps {
   std::size_t on = 0;
   std::size_t back = 0;
 
-  /// True if most of so many rows go forwards, and few go back.
+  /// True if most of this many rows go forwards, and few go back.
   bool GoForward(std::size_t rows) const {
     constexpr std::size_t kSeldom = 10;
     return 2 * on > rows && kSeldom * back < rows;

@@ -58,7 +58,7 @@ class CsvCells {
 
   // ---- What parts cells.
 
-  /// A blank stands for any number of blanks.
+  /// A blank represents any number of blanks.
   char delimiter = kNoDelimiter;
   /// Number of cells of a row, or 0 if unknown. A quoted cell that contains a
   /// line with this many cells lacks its closing quote.

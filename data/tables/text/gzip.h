@@ -17,8 +17,8 @@ std::string Gzip(std::string_view text);
 /// off, or hold more than `most` bytes.
 std::string Gunzip(std::string_view compressed, std::size_t most);
 
-/// Returns the largest content accepted for so many packed bytes of a table: a
-/// hundred times as many plus 64 MiB. Measurements pack to about a tenth; a
+/// Returns the largest content accepted for this many packed bytes of a table:
+/// a hundred times as many plus 64 MiB. Measurements pack to about a tenth; a
 /// file that holds more was made to fill the memory.
 std::size_t MostUnpacked(std::size_t packed);
 

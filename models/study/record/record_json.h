@@ -87,7 +87,7 @@ class Tree {
   Tree& operator=(const Tree&) = delete;
   /// Returns false if it is not JSON.
   bool Parse(std::string_view text);
-  /// Returns the text with an indent of so many spaces, or in one line (-1).
+  /// Returns the text with an indent of this many spaces, or in one line (-1).
   /// Replaces bytes that are not UTF-8.
   std::string Text(int indent) const;
   RecordJson* root() { return root_.get(); }

@@ -12,7 +12,7 @@ namespace errmap::report {
 
 [[noreturn]] void RefuseIncompleteRecord();
 
-/// Returns what a pointer or optional of a record holds. Throws
+/// Returns the value of a pointer or optional of a record. Throws
 /// data::InputError if it is empty.
 template <typename Held>
 const auto& There(const Held& held) {
