@@ -27,7 +27,7 @@ CsvColumn TakeRows(const CsvColumn& column,
 CsvTable TakeRows(const CsvTable& table,
                   const std::vector<std::ptrdiff_t>& rows);
 
-/// Returns the cells of `column` followed by those of `more`.
+/// Appends the cells of `more` to those of `column`.
 void AppendCells(const CsvColumn& more, CsvColumn* column);
 
 /// Drops texts that no cell uses.

@@ -27,8 +27,8 @@ struct ReportRun {
   double iteration_seconds_sd = 0.0;
   double elapsed_seconds = 0.0;
 
-  /// Number of hidden nodes that follows from the number of weights: W = (I+1)H
-  /// + H+1.
+  /// Number of thermocouples that follows from the number of weights: W =
+  /// (I+1)H + H+1.
   int implied_thermocouples() const {
     return static_cast<int>((weights - hidden - 1) / hidden) - 2;
   }

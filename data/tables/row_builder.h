@@ -14,8 +14,7 @@
 namespace errmap::data {
 
 /// Adds rows to the columns of a table cell by cell, and removes cells that
-/// turn out not to be a row. End completes a row. `table`, with its columns and
-/// without rows, must outlive this object.
+/// turn out not to be a row. End completes a row.
 class RowBuilder {
  public:
   /// `table`, with its columns and without rows, must outlive this.

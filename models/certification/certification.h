@@ -78,8 +78,7 @@ struct UnivariateCertificate {
   /// Precision of the values above: 53 if double data hold the digits, 106 if
   /// the condition requires the decimal text.
   int bits = 0;
-  /// Returns the results from double data, whatever the condition: compare uses
-  /// these.
+  /// The same from double data, whatever the condition: compare uses these.
   double lre_mean_double = 0.0;
   double lre_sd_double = 0.0;
   double lre_autocorrelation_double = 0.0;

@@ -7,7 +7,7 @@
 
 namespace errmap::cli {
 
-/// Returns the value of an environment variable, or null.
+/// Gives the value of an environment variable, or null.
 using Environment = std::function<const char*(const char*)>;
 
 /// Returns the share for "I/N", I from 0 to N - 1, or for "env". The latter is

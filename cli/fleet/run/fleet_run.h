@@ -71,10 +71,10 @@ struct FleetPlan {
 /// Estimates the cost of an expanded study.
 FleetPlan PlanFleet(const desk::StudyConfig& config);
 
-/// Returns a commented study file whose components are patterns for the CSV
-/// files below a folder. Folder names that differ become fields, and so do file
-/// names. "x_down", with a word for a direction at its end, is a component and
-/// a direction. Files of one name are taken to be alike. One usable file among
+/// A commented study file whose components are patterns for the CSV files below
+/// a folder. Folder names that differ become fields, and so do file names.
+/// "x_down", with a word for a direction at its end, is a component and a
+/// direction. Files of one name are taken to be alike. One usable file among
 /// the first three of each name is enough, so that a broken file fails later,
 /// in the study, which names it. `beside` is the folder as seen from the study
 /// file; `usage` is the command that runs such a study. Throws data::InputError

@@ -88,7 +88,7 @@ struct SummaryRecommendationRecord {
   std::string sentence;
 };
 
-/// The recommended map as a model file.
+/// The model file of the recommended map.
 struct SummaryMapRecord {
   std::string sha256;
   std::int64_t bytes = 0;

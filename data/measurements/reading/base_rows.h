@@ -4,7 +4,7 @@
 
 namespace errmap::data {
 
-/// Returns the rows that pass the filters, without those of totals and remarks.
+/// Chooses the rows that pass the filters, without those of totals and remarks.
 /// Throws InputError if such a row must not be left out.
 void ChooseBaseRows(TableInReading* in);
 

@@ -44,8 +44,8 @@ class RowColumns {
   std::size_t NamedColumn(const std::string& name,
                           const std::string& argument) const;
 
-  /// The reason why a column is unusable. It is thrown with the remedy if the
-  /// user named the column; otherwise it is a remark.
+  /// Passes over an unusable column. Throws the reason with the remedy if the
+  /// user named the column; otherwise adds a remark.
   static void PassOver(bool named,
                        const std::string& why,
                        const std::string& remedy,

@@ -25,13 +25,13 @@ Loose ReadLooseNumber(std::string_view cell,
                       bool other_mark,
                       NumberForm* form);
 
-/// Finds the text before the number in a cell: the axis "X" of "X-215.9" or
-/// "N10 G1 X-215.9" in a program, "T1" of "T1=21.42"; empty if there is none.
+/// The text before the number in a cell: the axis "X" of "X-215.9" or "N10 G1
+/// X-215.9" in a program, "T1" of "T1=21.42"; empty if there is none.
 struct CellLabel {
   std::string text = {};
   bool is_axis = false;
 };
-/// Removes that text from the cell.
+/// Removes that text from the cell and returns it.
 CellLabel TakeLabel(std::string_view* cell);
 
 /// Such numbers in a file, counted for its remarks.

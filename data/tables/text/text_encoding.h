@@ -5,7 +5,7 @@
 
 namespace errmap::data {
 
-/// Returns the text of a file in another encoding as UTF-8.
+/// The text of a file in another encoding, converted to UTF-8.
 struct EncodedText {
   std::string text;      // "": the file is UTF-8, or Latin-1
   std::string encoding;  // to be told; "" where the file itself says it

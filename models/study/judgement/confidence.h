@@ -56,7 +56,7 @@ std::string_view ToString(Obstacle::Kind kind);
 /// shift), so that neighbours resemble each other only by chance.
 Obstacle FindObstacle(const stats::Comparison& tests, bool separate_sessions);
 
-/// True if the models of `pair`, one of tests.pairs, differ. In its turn
+/// Tells whether the models of `pair`, one of tests.pairs, differ. In its turn
 /// (stats::ComparisonOptions::first) p is at most 5 %, also for the t with the
 /// memory that cannot be excluded (memory_bounds.h). The interval of the RMSE
 /// difference excludes 0, or its bound does, if one direction was tested.
@@ -66,9 +66,9 @@ Confidence ThatTheyDiffer(const stats::Comparison& tests,
                           const stats::PairComparison& pair,
                           bool separate_sessions);
 
-/// True if the RMSE of `model` exceeds that of `than` by at most `margin`.
-/// Both one-sided 95 % upper bounds, resampled and with memory, must be within
-/// it. Neighbours must show no resemblance, and units must suffice.
+/// Tells whether the RMSE of `model` exceeds that of `than` by at most
+/// `margin`. Both one-sided 95 % upper bounds, resampled and with memory, must
+/// be within it. Neighbours must show no resemblance, and units must suffice.
 Confidence ThatItLosesAtMost(double margin,
                              const stats::Comparison& tests,
                              Index model,
