@@ -31,10 +31,10 @@ struct Bounds95 {
 ///
 /// Each bound is the wider of two. One is Hesterberg's (2015, Section 5.3)
 /// expanded percentile, the other Student's t times the delta-method standard
-/// error. For one RMSE, which is skewed and above 0, that is of its logarithm.
-/// A percentile never exceeds the worst single unit: with 3 units a nominal 95
-/// % covers 75 %. The t interval ignores skewness. The resulting coverage is in
-/// tests/stats/comparison/paired_comparison_null_test.cc.
+/// error. For one RMSE, which is skewed and above 0, the latter applies to its
+/// logarithm. A percentile never exceeds the worst single unit: with 3 units a
+/// nominal 95 % covers 75 %. The t interval ignores skewness. The resulting
+/// coverage is in tests/stats/comparison/paired_comparison_null_test.cc.
 class UnitBootstrap {
  public:
   /// Throws std::invalid_argument if resamples < 99 or `losses` are invalid.
