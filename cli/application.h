@@ -5,13 +5,13 @@
 
 namespace errmap::cli {
 
-/// Runs the command line and returns the exit status of design: 0 done, 2 the
-/// command line is wrong, 3 the input is unusable, 4 every fit failed, 130
-/// interrupted, 1 anything else. Errors are one line on stderr.
+/// Runs the command line and returns the exit status: 0 done, 2 the command
+/// line is wrong, 3 the input is unusable, 4 every fit failed, 130 interrupted,
+/// 1 anything else. Errors are one line on stderr.
 int RunApplication(int argc, char** argv);
 
-/// The same within another program, which has made a HostedRun:
-/// `words` are a command and its arguments.
+/// Runs a command within another program, which has made a HostedRun: `words`
+/// are a command and its arguments.
 int RunHosted(std::vector<std::string> words);
 
 }  // namespace errmap::cli

@@ -28,17 +28,17 @@ class UsageError : public std::runtime_error {
 
 /// One run of the program.
 struct Run {
-  /// The command line less what changes no figure (--jobs, --out, -o, --format,
-  /// --shard, --quiet, --all, --details, --resume, --no-cache, --force,
-  /// --keep-paths), quoted for a shell: for provenance.
+  /// The command line without options that change no figure (--jobs, --out, -o,
+  /// --format, --shard, --quiet, --all, --details, --resume, --no-cache,
+  /// --force, --keep-paths), quoted for a shell: for provenance.
   std::string command_line;
   int status = kDone;
 };
 
 using AddCommandTo = void (*)(CLI::App* app, Run* run);
 
-/// Each adds its command to `app`; when chosen, it runs and leaves its exit
-/// status in `run`, which must outlive the parse.
+/// Each function adds its command to `app`. When chosen, the command runs and
+/// leaves its exit status in `run`, which must outlive the parse.
 void AddCompareCommand(CLI::App* app, Run* run);
 void AddInitCommand(CLI::App* app, Run* run);
 void AddReadCommand(CLI::App* app, Run* run);

@@ -11,13 +11,14 @@ namespace errmap::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// A document as every command prints it; numbers that are not finite are null.
+/// Returns a document as every command prints it. Numbers that are not finite
+/// become null.
 std::string DumpJson(const Json& document);
 
 /// The block "provenance" of every document: {"version", "command_line",
 /// "configuration", "inputs": [{"file","sha256"}], "compiler", "libraries":
-/// {name: version}, "platform"}. `configuration` is what took effect, defaults
-/// included; null where there is none.
+/// {name: version}, "platform"}. `configuration` has the settings in effect,
+/// including defaults; null if there are none.
 Json ProvenanceJson(const std::string& command_line,
                     const Json& configuration,
                     const std::vector<desk::InputFile>& inputs);

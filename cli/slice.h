@@ -18,7 +18,7 @@ struct SliceCommand {
   AddCommandTo before = nullptr;  // the next one below it; null: at the end
 };
 
-/// What `errmap report` is told.
+/// The arguments of `errmap report` for a slice.
 struct ReportArguments {
   std::string folder;
   std::string figures;
@@ -27,7 +27,7 @@ struct ReportArguments {
   bool force = false;
 };
 
-/// What `errmap init` is told of a folder.
+/// The arguments of `errmap init` on a folder.
 struct InitFolder {
   std::string folder;
   std::string beside;  // the same as seen from the study file
@@ -35,21 +35,22 @@ struct InitFolder {
   std::string out;  // the study file
 };
 
-/// A feature that no other room includes: a folder of cli/ with its commands,
-/// what commands of the core ask it, its files, tables and schemas. Leave its
-/// name out of ERRMAP_SLICES, and the program is built without it; the manual's
-/// list (cli/manual/pages.cmake) still names its page.
+/// A feature in its own folder of cli/ that no other folder includes: its
+/// commands, its extensions of core commands, its files, tables and schemas.
+/// The program can be built without it: leave its name out of ERRMAP_SLICES.
+/// The manual's list (cli/manual/pages.cmake) still names its page.
 struct Slice {
   std::vector<SliceCommand> commands;
-  /// Its ways to run `errmap compare`; null: none.
+  /// Its modes of `errmap compare`; null: none.
   std::unique_ptr<CompareMode> (*compare)() = nullptr;
-  /// The exit status of `errmap report`, where the folder is the slice's.
+  /// Runs `errmap report` if the folder belongs to the slice, and returns the
+  /// exit status.
   std::optional<int> (*report)(const ReportArguments& arguments) = nullptr;
   /// Writes the study file that `errmap init` proposes for a folder.
   void (*init)(const InitFolder& arguments) = nullptr;
 };
 
-/// Those that are built; written by CMake.
+/// The slices that are built; written by CMake.
 std::vector<Slice> Slices();
 
 }  // namespace errmap::cli

@@ -5,13 +5,14 @@
 
 namespace errmap::data {
 
-/// What a message calls an argument, such as a member of DatasetSelection, that
-/// its reader may want to change: by default "keep_dead", and "exclude = t3"
-/// with a value.
+/// Returns the name of an argument, such as a member of DatasetSelection, as
+/// messages show it. By default it is "keep_dead", and with a value "exclude =
+/// t3".
 std::string ArgumentName(std::string_view member, std::string_view value = "");
 
-/// For a program whose users know arguments by other names, such as the flags
-/// of a command line; called once, before all else. Null: those by default.
+/// Sets the names of arguments for a program whose users know them by other
+/// names, such as flags of a command line. Call it once, before anything else.
+/// Null: the default names.
 void NameArgumentsBy(std::string (*name_of)(std::string_view member,
                                             std::string_view value));
 

@@ -25,16 +25,16 @@ struct Header {
   UnitSource source = UnitSource::kNone;
 };
 
-/// Reads a column name. A unit stands in brackets of any kind, or bare after
+/// Reads a column name. A unit is given in brackets of any kind, or bare after
 /// `_`, a space, `-`, `.`, `,` or `/` at the end: "error [µm]", "error {um}",
 /// "error um", "error_UM". Upper and lower case are equal, except for single
 /// letters and short symbols of other quantities than length ("x_V", "t1_K").
 /// Both code points of the micro sign are known. C, F, m, in, ft and " are
-/// names when bare ("T_in", "pos_c"), units in brackets only, but for C and F
-/// behind the name of a temperature ("T1_C", "T_bed_F"). A quotient of
-/// units (`/`, `_per_`) is of Quantity::kOther. A unit of errors (lengths,
-/// angles) counts anywhere in the name if it is the only unit: "error_um_mean",
-/// "Error in um (mean)".
+/// units only in brackets; bare, they are names ("T_in", "pos_c"). The
+/// exceptions are C and F after the name of a temperature ("T1_C", "T_bed_F").
+/// A quotient of units (`/`, `_per_`) is of Quantity::kOther. A unit of errors
+/// (lengths, angles) counts anywhere in the name if it is the only unit:
+/// "error_um_mean", "Error in um (mean)".
 Header ReadHeader(std::string_view name);
 
 /// ReadHeader(name).unit.

@@ -45,8 +45,7 @@ class ColumnValues {
 
   ColumnValues() = default;
   ColumnValues(std::vector<double> own) : own_(std::move(own)) {}
-  /// A caller's `size` numbers, each `stride` after the one before; `keeper`
-  /// keeps them alive.
+  /// A caller's `size` numbers, `stride` apart; `keeper` keeps them alive.
   static ColumnValues Borrowed(const double* first,
                                std::ptrdiff_t stride,
                                std::size_t size,

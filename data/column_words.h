@@ -6,8 +6,8 @@
 
 namespace errmap::data {
 
-/// What a column's name may say of it, in English, German, French, Italian,
-/// Spanish and a dozen more languages.
+/// What a column's name may mean, in English, German, French, Italian, Spanish
+/// and a dozen other languages.
 enum class Word {
   kError,       // "error", "Abweichung", "écart", "scostamento"
   kCorrection,  // "correction", "Kompensation": an error with the other sign
@@ -31,45 +31,45 @@ enum class Word {
 /// In small letters without accents: "zuruck" of "Zurück".
 std::string PlainText(std::string_view text);
 
-/// The words of a name in small letters without accents, its unit left out:
-/// "x", "pos" of "X_Pos [mm]".
+/// Returns the words of a name in small letters without accents, without its
+/// unit: "x", "pos" for "X_Pos [mm]".
 std::vector<std::string> WordsOf(std::string_view column);
 
-/// Whether one of the words of a text (WordsOf) stands in a list, which blanks
-/// part.
+/// True if one of the words of a text (WordsOf) is in a list separated by
+/// blanks.
 bool HasWordOf(std::string_view text, std::string_view list);
 
-/// Whether one of these words (WordsOf) is such a word, or a longer one with it
-/// in it ("positionsabweichung").
+/// True if one of these words (WordsOf) is such a word, or contains it
+/// ("positionsabweichung").
 bool SayAny(const std::vector<std::string>& words, Word word);
 bool Says(std::string_view column, Word word);
 
-/// Whether a word (of WordsOf) is such a one, or more of them ("cycles").
+/// True if a word (of WordsOf) is such a word or its plural ("cycles").
 bool IsWord(std::string_view said, Word word);
 
-/// Whether a column is a temperature by its unit, or by its words where it has
-/// none: "No. 1 [degC]", "Temp. Nr. 1".
+/// True if a column is a temperature by its unit or, without a unit, by its
+/// words: "No. 1 [degC]", "Temp. Nr. 1".
 bool StatesTemperature(std::string_view column);
 
-/// Whether all of a name is such a word, but for "no", "number" and alike:
-/// "Cycle No." counts cycles, "elapsed_cycles" is something else. A temperature
-/// is called nothing else.
+/// True if the whole name is such a word, apart from "no", "number" and the
+/// like. "Cycle No." counts cycles, but "elapsed_cycles" is something else.
 bool IsCalled(std::string_view column, Word word);
 
-/// What a name says of the sign of an error: 1, an error ("deviation",
-/// "actual - nominal", "EXX"); -1, its opposite ("correction", "minus error",
-/// "nominal - actual", a difference of words unknown here); 0, of no error.
+/// Returns the sign of an error by its name. 1: an error ("deviation", "actual
+/// - nominal", "EXX"). -1: its opposite ("correction", "minus error", "nominal
+/// - actual", an unknown difference). 0: not an error.
 int ErrorSign(std::string_view column);
 
-/// Whether a column is in a unit that only errors have, and no axis of one
-/// letter, which may be a position in it.
+/// True if a column has a unit that only errors have, and is not an axis of one
+/// letter, which may be a position.
 bool IsInUnitOfErrors(std::string_view column);
 
-/// Whether a column is a position by its name: "position_mm", "x_pos_mm",
+/// True if a column is a position by its name: "position_mm", "x_pos_mm",
 /// "Sollposition [mm]", "X [mm]".
 bool IsCalledPosition(std::string_view name);
 
-/// Whether a name is that of a linear axis and no more: "X", "z [mm]", "axis".
+/// True if a name is that of a linear axis and nothing else: "X", "z [mm]",
+/// "axis".
 bool IsAxisLetter(std::string_view column);
 
 }  // namespace errmap::data

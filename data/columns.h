@@ -12,34 +12,35 @@ namespace errmap::data {
 /// A column of numbers; NaN is an empty cell.
 CsvColumn NumberColumn(const std::string& name, std::vector<double> values);
 
-/// A column that has words[code] in each row.
+/// A column whose row i has the text words[code of i].
 CsvColumn WordColumn(const std::string& name,
                      const std::vector<std::ptrdiff_t>& codes,
                      std::vector<std::string> words);
 
-/// The cells of these rows of a column in this order, each as often as it is
-/// named; -1 is an empty cell.
+/// Returns the cells of these rows of a column in this order, with repetitions;
+/// -1 gives an empty cell.
 CsvColumn TakeRows(const CsvColumn& column,
                    const std::vector<std::ptrdiff_t>& rows);
 
-/// Rows of a table, in this order; each keeps its line of the file.
+/// Returns these rows of a table, in this order. Each keeps its line of the
+/// file.
 CsvTable TakeRows(const CsvTable& table,
                   const std::vector<std::ptrdiff_t>& rows);
 
-/// The cells of `more` below those of `column`.
+/// Appends the cells of `more` to those of `column`.
 void AppendCells(const CsvColumn& more, CsvColumn* column);
 
-/// Drops the texts that no cell has.
+/// Drops texts that no cell uses.
 void DropUnusedTexts(CsvColumn* column);
 
-/// The distinct texts of a column, in order of appearance, and which each row
-/// has.
+/// The distinct texts of a column in order of appearance, and the index for
+/// each row.
 struct LabelsOfRows {
   std::vector<std::string> labels;
   std::vector<std::size_t> codes;  // (rows asked for) index into labels
 };
-/// Of these rows of the table; it stops at the first row with one label more
-/// than `most`, which is then the last of them.
+/// Returns the labels of these rows of the table. Stops at the first row that
+/// gives more than `most` labels, and keeps that label.
 LabelsOfRows LabelsOf(const CsvTable& table,
                       const CsvColumn& column,
                       const std::vector<std::ptrdiff_t>& rows,
@@ -49,12 +50,12 @@ inline constexpr auto kNoLimit = static_cast<std::size_t>(-1);
 /// The rows 0, 1, ... of a table.
 std::vector<std::ptrdiff_t> AllRows(std::size_t count);
 
-/// Which of several files each of these rows (ascending) is of: index into
-/// CsvTable::parts, which are not empty.
+/// Returns which of several files each of these rows (ascending) comes from, as
+/// an index into CsvTable::parts, which must not be empty.
 std::vector<std::ptrdiff_t> PartsOfRows(
     const CsvTable& table, const std::vector<std::ptrdiff_t>& rows);
 
-/// The first of "name", "name_2", "name_3" that no column has.
+/// Returns the first of "name", "name_2", "name_3" that no column has.
 std::string FreeName(const CsvTable& table, const std::string& name);
 
 }  // namespace errmap::data

@@ -12,13 +12,14 @@
 
 namespace errmap::data {
 
-/// One column as the file has it. Numbers are parsed while reading; all other
-/// cells are kept as text, once per distinct text.
+/// One column of the file. Numbers are parsed while reading; all other cells
+/// are kept as text, once per distinct text.
 struct CsvColumn {
   std::string name;
   bool has_name = true;      // false: `name` is not from the file
   ColumnValues values = {};  // (rows) quiet NaN where `exceptions` has the row
-  /// Cells that are no finite number, ascending by row: (row, index in texts).
+  /// Cells that are not finite numbers, ascending by row: (row, index in
+  /// texts).
   std::vector<std::pair<std::size_t, std::uint32_t>> exceptions = {};
   std::vector<std::string> texts =
       {};  // distinct texts of those cells, trimmed
@@ -28,7 +29,7 @@ struct CsvColumn {
 
   /// True if no cell is a number: it can group rows, but is never an input.
   bool is_text() const { return exceptions.size() == values.size(); }
-  /// The text of a cell; null where it is a number.
+  /// Returns the text of a cell; null if it is a number.
   const std::string* TextAt(std::size_t row) const;
   /// Notes that a number in this row has a decimal comma or point.
   void NoteMarks(std::size_t row, bool comma, bool point) {
@@ -46,21 +47,22 @@ struct CsvTable {
 
   /// Index of the column of that name, or -1.
   std::ptrdiff_t Find(std::string_view name) const;
-  /// The column of an index, such as Find's, that is at least 0.
+  /// Returns the column of an index of at least 0, such as Find's.
   template <typename Index>
   const CsvColumn& At(Index index) const {
     return columns[static_cast<std::size_t>(index)];
   }
   /// 1-based line of the file on which data row `row` (0-based) starts.
   std::size_t LineOfRow(std::size_t row) const;
-  /// "xdown.csv: line 18 (data row 16), column 't3_degC'", to begin a message;
-  /// a table in memory has no lines.
+  /// Returns "xdown.csv: line 18 (data row 16), column 't3_degC'", the
+  /// beginning of a message. A table in memory has no lines.
   std::string Where(std::size_t row, std::string_view column) const;
-  /// Text of a cell: its exception text, else the number in shortest form.
+  /// Text of a cell: its text if it is not a number, else the number in its
+  /// shortest form.
   std::string CellText(const CsvColumn& column, std::size_t row) const;
 
-  /// Runs of rows on successive lines: (first row, its line), ascending; rows
-  /// after comments, quoted line breaks or the header start a new run.
+  /// Series of rows on successive lines: (first row, its line), ascending; rows
+  /// after comments, quoted line breaks or the header start a new series.
   std::vector<std::pair<std::size_t, std::size_t>> line_runs;
   /// Of several files: (first row, file as given), ascending; else empty.
   std::vector<std::pair<std::size_t, std::string>> parts;
@@ -68,23 +70,23 @@ struct CsvTable {
   /// Lines of words and comments above and below the table: a program's name, a
   /// date, the axis.
   std::vector<std::string> titles;
-  /// Remarks for the user: what is unusual in the file and how it was read, one
-  /// line each.
+  /// Remarks for the user, one line each: what is unusual in the file, and how
+  /// it was read.
   std::vector<std::string> remarks;
 };
 
-/// Rows with another number of cells than the others. kRefuse names all of them
-/// in one message, kOffer also the option that leaves them out (MissingPolicy).
-/// kLeaveOut leaves them out with a remark.
+/// How to treat rows whose number of cells differs from that of the others.
+/// kRefuse names all of them in one message, kOffer also the option that leaves
+/// them out (MissingPolicy). kLeaveOut leaves them out with a remark.
 enum class OddRows { kRefuse, kOffer, kLeaveOut };
 
 /// Reads a CSV file. Its rows show what separates cells: `,` `;` `|`, tabs or
 /// blanks. Quotes follow RFC 4180, but those inside a cell need not be doubled.
-/// Commas are decimal where they separate no cells. Lines starting with `#`,
-/// blank lines at the end and a byte order mark are skipped. Text that is not
-/// UTF-8 is converted from Latin-1, or, with a remark, from the encoding that
-/// gives more known words (tables/text_encoding.h). A gzip file is unpacked
-/// first, up to kMostTextOfPrograms. Of an xlsx file one sheet is read
+/// Commas are decimal marks if they do not separate cells. Lines starting with
+/// `#`, blank lines at the end and a byte order mark are skipped. Text that is
+/// not UTF-8 is converted from Latin-1, or, with a remark, from the encoding
+/// that gives more known words (tables/text_encoding.h). A gzip file is
+/// unpacked first, up to kMostTextOfPrograms. Of an xlsx file one sheet is read
 /// ("book.xlsx:Day 2", formats/spreadsheet.h). Linear time, about twice the
 /// file's memory; independent of the locale.
 ///
@@ -104,16 +106,16 @@ enum class OddRows { kRefuse, kOffer, kLeaveOut };
 /// Throws InputError for an unreadable or empty file, a header alone, a number
 /// in place of a name, and rows of another length (OddRows). Also for a second
 /// table below, a blank line in a single column, an open quote, a NUL byte, or
-/// more than 65536 columns. Cells that are no numbers are not judged here (see
+/// more than 65536 columns. Cells that are not numbers are not judged here (see
 /// MakeDataset).
 CsvTable ReadCsv(const std::string& path, OddRows odd = OddRows::kRefuse);
 
-/// The same, with the result of Sha256OfFile; reads the file once.
+/// Reads a CSV file and its Sha256OfFile in one pass.
 CsvTable ReadCsv(const std::string& path,
                  std::string* sha256,
                  OddRows odd = OddRows::kRefuse);
 
-/// The same from text in memory; `name` stands for the file in messages.
+/// Reads CSV text in memory. `name` stands for the file in messages.
 CsvTable ParseCsv(std::string_view text,
                   const std::string& name,
                   OddRows odd = OddRows::kRefuse);

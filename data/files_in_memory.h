@@ -8,9 +8,8 @@
 
 namespace errmap::data {
 
-/// Tables and texts that are read in place of files with their names, in this
-/// thread and while this object lives. ReadCsv finds the tables, ReadFile the
-/// texts.
+/// Tables and texts that this thread reads in place of files of their names,
+/// during this object's lifetime. ReadCsv finds the tables, ReadFile the texts.
 class FilesInMemory {
  public:
   using Tables = std::map<std::string, std::shared_ptr<const CsvTable>>;
@@ -32,7 +31,7 @@ class FilesInMemory {
 };
 
 /// SHA-256 of the file's bytes, or of the names and cells of a table in memory.
-/// Throws InputError where it cannot be read.
+/// Throws InputError if it cannot be read.
 std::string Sha256OfFile(const std::string& path);
 
 }  // namespace errmap::data

@@ -4,9 +4,9 @@
 
 namespace errmap::data {
 
-/// Unusable input: a file that cannot be read or does not hold what it must.
-/// what() is one line: file, place (line, row, column), what is wrong and what
-/// to do about it. The command line ends with exit status 3.
+/// Unusable input: a file that cannot be read or lacks required content. what()
+/// is one line: file, place (line, row, column), what is wrong and how to
+/// correct it. The command line ends with exit status 3.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -6,7 +6,7 @@
 
 namespace errmap::data {
 
-/// SHA-256 (FIPS 180-4) of bytes that come in pieces.
+/// SHA-256 (FIPS 180-4) of bytes given in pieces.
 class Sha256Stream {
  public:
   Sha256Stream();
@@ -15,7 +15,7 @@ class Sha256Stream {
   Sha256Stream& operator=(const Sha256Stream&) = delete;
 
   void Add(std::string_view bytes);
-  /// The 32 bytes of the digest; what is added afterwards begins anew.
+  /// Returns the 32 bytes of the digest and starts again.
   std::string Finish();
 
  private:

@@ -11,8 +11,9 @@
 
 namespace errmap::data {
 
-/// Each distinct text of a column once: an open-addressing table of indices
-/// into CsvColumn::texts (what it holds before counts), without a second copy.
+/// Index of the distinct texts of a column. It is an open-addressing table of
+/// indices into CsvColumn::texts, including texts already there, without a
+/// second copy of the texts.
 class TextIndex {
  public:
   std::uint32_t IndexOf(std::string_view text,

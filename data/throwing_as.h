@@ -5,8 +5,8 @@
 
 namespace errmap::data {
 
-/// Returns action(). What it throws as From is thrown as To, with `before` in
-/// front of its text: the caller knows which file or argument is meant.
+/// Returns action(). Rethrows an exception From as To, with `before` in front
+/// of its text, since only the caller knows the file or argument.
 ///
 ///   ThrowingAs<InputError>("map.json: ", [&] { return Parse(text); })
 template <typename To, typename From = std::invalid_argument, typename Action>

@@ -46,7 +46,7 @@ std::optional<Unit> ReadUnit(std::string_view text, UnitPlace place);
 /// its text, with Quantity::kOther.
 Unit UnitOfSymbol(std::string_view symbol);
 
-/// The units known, for messages: "nm, um, mm, ...".
+/// Returns the known units, for messages: "nm, um, mm, ...".
 std::string KnownUnits();
 
 /// Returns the units of a quantity that can be converted into each other.

@@ -6,7 +6,8 @@
 namespace errmap::fitting {
 
 /// Thrown if a computation is interrupted from outside. Derives from the type
-/// of a caller's mistake: code that has no map yet reports both alike.
+/// of a caller's mistake, so that code without a map yet reports both in the
+/// same way.
 class Interrupted : public std::invalid_argument {
  public:
   Interrupted() : std::invalid_argument("interrupted") {}

@@ -39,8 +39,9 @@ struct PolynomialForm {
   double intercept = 0.0;  // unit of the target
   std::vector<PolynomialTerm> terms;
   /// Inputs that curved terms read clipped to their range. A term is curved if
-  /// its powers of these inputs sum to more than 1. The map goes on straight
-  /// beyond the range (polynomial/polynomial_model.h). Empty: no clipping.
+  /// its powers of these inputs sum to more than 1. The map continues as a
+  /// straight line beyond the range (polynomial/polynomial_model.h). Empty: no
+  /// clipping.
   std::vector<BendRange> bends_within = {};
 };
 
@@ -199,8 +200,9 @@ struct Guards {
 };
 
 /// Returns Guards with default margins at the trained range of the form's
-/// inputs and of `targets` (at least one). If the map goes on in an input that
-/// only grows, the error may leave its range by the width of that range.
+/// inputs and of `targets` (at least one). If the map extrapolates in an input
+/// that only increases, the error may leave its range by the width of that
+/// range.
 Guards MakeGuards(const std::vector<TrainedInput>& form_inputs,
                   const VectorXd& targets,
                   bool grows = false);

@@ -20,7 +20,7 @@ FaultEffect EffectOfRows(const data::Dataset& dataset,
                          const std::vector<Index>& rows);
 
 /// Effect of a whole input, judged on rows held out by sessions, else groups,
-/// else blocks: an in-sample error never speaks against an input. Uses at most
+/// else blocks: an in-sample error never counts against an input. Uses at most
 /// 2000 rows, spread evenly.
 FaultEffect EffectOfInput(const data::Dataset& all_rows, Index input);
 

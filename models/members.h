@@ -28,7 +28,7 @@ concept Record = kIsRecord<T>;
 
 namespace members {
 
-/// Stands for a value of any type in unevaluated code.
+/// Represents a value of any type in unevaluated code.
 struct Anything {
   template <typename T>
   operator T() const;  // NOLINT(google-explicit-constructor): that is its use

@@ -25,7 +25,7 @@ namespace errmap::models {
 
 using OptionText = decltype(EffectiveOption::value);
 
-/// An option as users read of it.
+/// An option as described to users.
 struct OptionInfo {
   std::string name;
   std::string about;   // "hidden nodes"
@@ -318,7 +318,7 @@ struct ListedModel {
   LazyOptionList<Options> options;
   /// Returns why these options, each allowed, contradict; "" if they do not.
   std::string (*contradiction)(const Options&) = nullptr;
-  /// Adds to a SPEC what it implies, if anything.
+  /// Adds options that a SPEC implies, if any.
   void (*complete)(ModelSpec*) = nullptr;
   /// True if it is compared when no models are named.
   bool is_compared = true;

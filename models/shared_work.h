@@ -10,9 +10,9 @@
 namespace errmap::models {
 
 /// Results that several recipes need for the same training rows. Each is made
-/// once, by whoever asks first; the others wait. A result must depend on its
-/// key and the rows alone. Making it must neither ask for the same key nor run
-/// other fits meanwhile. Safe to use from several threads.
+/// once, by the first recipe that asks; the others wait. A result must depend
+/// on its key and the rows alone. Making it must neither ask for the same key
+/// nor run other fits meanwhile. Safe to use from several threads.
 class SharedWork {
  public:
   /// True if every penalty of a basis will be asked for, as blends do: one pass
@@ -47,8 +47,8 @@ class SharedWork {
     return std::static_pointer_cast<const Result>(result.get());
   }
 
-  /// As Get, for results that are large and quickly made again: kept only while
-  /// somebody holds them.
+  /// As Get, for results that are large and can be made again quickly: kept
+  /// only while somebody holds them.
   template <typename Result>
   std::shared_ptr<const Result> GetWhileHeld(
       const std::string& key,

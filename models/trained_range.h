@@ -19,24 +19,24 @@ struct InputOutside {
 };
 
 /// Returns the inputs that leave their trained range in some row of `values` (m
-/// x p; NaN where a cell is empty, which counts as no reading), in the map's
+/// x p; NaN if a cell is empty, which counts as no reading), in the map's
 /// order.
 std::vector<InputOutside> InputsOutside(const std::vector<TrainedInput>& inputs,
                                         const MatrixXd& values);
 
-/// A reading that no state of the machine gives: a loose contact, or what a bus
-/// returns for no answer (-127, 85).
+/// A reading that no state of the machine gives: a loose contact, or the value
+/// of a bus without an answer (-127, 85).
 struct Spike {
   Index input = 0;  // index into the map's inputs
   Index row = 0;
   double value = 0.0;  // input's unit
 };
 
-/// Of the thermometers (m x p; NaN where a cell is empty; by input, then by
-/// row) readings more than three trained ranges, 10 degC at least, from the
-/// middle one of their column and from those before and after. A column with
-/// less than three readings has none, nor one of which more than a fifth are
-/// so, of less than ten more than one.
+/// Finds such readings of the thermometers (m x p; NaN if a cell is empty),
+/// sorted by input, then row. They differ from the median of their column and
+/// from their neighbours by more than three trained ranges, at least 10 degC. A
+/// column with fewer than three readings has none. Nor has one in which more
+/// than a fifth of the readings are such, or more than one of fewer than ten.
 std::vector<Spike> FindSpikes(const std::vector<TrainedInput>& inputs,
                               const MatrixXd& readings);
 

@@ -6,12 +6,12 @@
 
 namespace errmap::models {
 
-/// Times are sums of steps: what is due to so small a share of it is due.
+/// Times are sums of steps: a probe that is due to within this share is due.
 inline constexpr double kTimeRounding = 1e-9;
 
-/// Goes through `count` rows of a session in order of time, as a machine does
-/// whose zero is set anew now and then. The first row is a zero. Every other is
-/// judged by the zero before it: visit(row, zero); then it is one itself where
+/// Goes through `count` rows of a session in order of time, as on a machine
+/// whose zero is taken again now and then. The first row is a zero. Every other
+/// row is judged by the last zero: visit(row, zero). It then becomes a zero if
 /// is_due(row, zero). Returns the zeros, ascending.
 template <typename IsDue, typename Visit>
 std::vector<Index> ForZeros(Index count,

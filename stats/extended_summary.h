@@ -6,8 +6,8 @@
 namespace errmap::stats {
 
 /// Mean, sd (divisor n - 1) and autocorrelation at lag 1, sum d_i d_(i+1) / sum
-/// d_i^2, of a sample held to 106 bits. Keeps the digits of decimals far from
-/// zero that their nearest doubles lose.
+/// d_i^2, of a sample held to 106 bits. Keeps digits that the nearest doubles
+/// of decimals far from zero would lose.
 struct ExtendedSummary {
   DoubleDouble mean;
   DoubleDouble sd;

@@ -6,8 +6,8 @@
 
 namespace errmap::stats {
 
-/// The value that stands at `rank` (0: the smallest) when `values`, a
-/// std::vector or an Eigen vector, are sorted. rank < values.size(); no NaN.
+/// Returns the value at `rank` (0: the smallest) when `values`, a std::vector
+/// or an Eigen vector, are sorted. rank < values.size(); no NaN.
 template <typename Values>
 auto OrderStatistic(Values values, std::size_t rank) {
   const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank);

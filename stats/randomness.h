@@ -8,8 +8,8 @@
 
 namespace errmap::stats {
 
-/// Values in measured order, cut between neighbours that must not be compared.
-/// One segment is the whole order, or each group has one.
+/// Values in order of measurement, cut between neighbours that must not be
+/// compared. One segment is the whole order, or each group has one.
 using Segments = std::vector<VectorXd>;
 
 /// Returns one segment per group code, each in the order of `values` (n).

@@ -120,8 +120,8 @@ std::function<void(const std::string&)> Sayer(bool quiet);
 /// command runs.
 void AddKeepPathsFlag(CLI::App* command);
 
-/// Adds --no-cache. Without the flag `cache` is models::DefaultCacheFolder(),
-/// with it "".
+/// Adds --no-cache. `cache` is models::DefaultCacheFolder() without the flag,
+/// and "" with it.
 void AddCacheFlag(CLI::App* command, std::string* cache);
 
 /// Adds --quiet to a command without progress.

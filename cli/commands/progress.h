@@ -13,8 +13,8 @@ struct ProgressState {
   int done = 0;
   int all = 0;
   double seconds = 0.0;  // since the start
-  /// Seconds left. NaN: estimated from the finished fits, once a twentieth of
-  /// all is done; before that it would be a guess.
+  /// Seconds left. NaN: estimated from the finished fits once a twentieth of
+  /// all fits is done.
   double left = std::numeric_limits<double>::quiet_NaN();
   std::string best = {};     // best model so far, its error; "": none yet
   std::string holdout = {};  // the hold-out under which it is the best
@@ -27,7 +27,7 @@ struct ProgressState {
 std::string ProgressText(const ProgressState& state, std::size_t width);
 
 /// Shows the progress of fits on stderr: a bar on a terminal, elsewhere a plain
-/// line every ten seconds, so that short runs say nothing. Safe to call from
+/// line every ten seconds, so that short runs print nothing. Safe to call from
 /// any thread.
 class Progress {
  public:

@@ -326,8 +326,8 @@ void AddColumnOptions(CLI::App* command, ResidualsArguments* arguments) {
   AddOption(command,
             "--order COL",
             arguments->order,
-            "Column that has the order of measurement (default: the rows as "
-            "they stand)");
+            "Column with the order of measurement (default: the order of the "
+            "rows)");
   AddOption(command,
             "--group COL",
             arguments->group,

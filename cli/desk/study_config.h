@@ -42,8 +42,8 @@ struct ComponentConfig {
   models::ByName<std::string> options = {};
 };
 
-/// A study as the user requests it, on the command line or in a study file.
-/// Jobs, the output folder and what slices judge are not part of it.
+/// A study as the user requests it, on the command line or in a study file. It
+/// does not include jobs, the output folder or the settings of slices.
 struct StudyConfig {
   std::uint64_t seed = 1;
   /// For components without their own; default: none.

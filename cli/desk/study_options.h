@@ -44,12 +44,12 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
         selection.target);
   visit(StudyOption{.key = "inputs",
                     .value = "A,B,...",
-                    .help = "Columns to map from (default: all other numeric)",
+                    .help = "Input columns (default: all other numeric ones)",
                     .reach = Reach::kOne},
         selection.inputs);
   visit(StudyOption{.key = "exclude",
                     .value = "A,B,...",
-                    .help = "Columns never to map from",
+                    .help = "Columns that are never inputs",
                     .reach = Reach::kAlike,
                     .example = "exclude = [\"humidity\"]"},
         selection.exclude);

@@ -19,8 +19,8 @@ struct MachineFile {
 /// have. Also a missing model file, or a map of another quantity.
 MachineFile ReadMachineFile(const std::string& path);
 
-/// The same without the maps, whose files need not exist yet. A source has the
-/// file's name as in machine.toml, and no map.
+/// Reads a machine without its maps, whose files need not exist yet. A source
+/// has the file's name as in machine.toml, and no map.
 MachineFile ReadMachineOutline(const std::string& path);
 
 }  // namespace errmap::machine

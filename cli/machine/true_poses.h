@@ -20,34 +20,34 @@ struct TruePoses {
   MatrixXd coordinates;     // (m x coordinates of the chain)
   Eigen::MatrixX3d places;  // (m x 3) KinematicChain::NominalReach
 
-  /// Rows of these sessions, in their order.
+  /// Selects the rows of these sessions, in their order.
   std::vector<Index> RowsOf(const std::vector<std::string>& labels) const;
 };
 
-/// The columns error_x_mm, error_y_mm and error_z_mm, or in another unit of
-/// length (m x 3), in the machine's. Throws data::InputError where one is
-/// missing or holds no numbers.
+/// Returns the columns error_x_mm, error_y_mm and error_z_mm (m x 3), or those
+/// in another unit of length, converted to the machine's. Throws
+/// data::InputError if one is missing or holds no numbers.
 Eigen::MatrixX3d TrueErrors(const data::CsvTable& table,
                             const models::Machine& machine);
 
-/// Whether the table has the column error_x_mm, in any unit of length.
+/// True if the table has the column error_x_mm, in any unit of length.
 bool HasTrueErrors(const data::CsvTable& table);
 
-/// Throws data::InputError where a column is missing, holds no numbers, or has
-/// a unit of another quantity.
+/// Throws data::InputError if a column is missing, holds no numbers, or has a
+/// unit of another quantity.
 TruePoses MakeTruePoses(data::CsvTable table,
                         const models::Machine& machine,
                         const std::string& session);
 
-/// Which of the poses lie on which diagonal, from the columns `diagonal`
-/// ("p0n") and `diagonal_direction`.
+/// The poses on each diagonal, from the columns `diagonal` ("p0n") and
+/// `diagonal_direction`.
 struct DiagonalRuns {
   data::Grouping diagonals;
   std::vector<bool> upwards;  // along the name's signs
 };
 
-/// Throws data::InputError naming the row where a diagonal or its direction is
-/// none; nothing where the table has no column `diagonal`.
+/// Returns nothing if the table has no column `diagonal`. Throws
+/// data::InputError, naming the row, if a diagonal or its direction is invalid.
 std::optional<DiagonalRuns> ReadDiagonalRuns(const data::CsvTable& table);
 
 struct DiagonalFigures {
@@ -55,17 +55,17 @@ struct DiagonalFigures {
   models::PositioningFigures figures;
 };
 
-/// The figures along each diagonal, in the order of its first row, from the
-/// rows of `rows` alone; `places` and `errors` (m x 3) are those of all. A
-/// diagonal without rows is left out. Throws data::InputError where all rows of
-/// one are at one place.
+/// Returns the figures along each diagonal, in the order of its first row, from
+/// the rows of `rows` alone. `places` and `errors` (m x 3) are those of all
+/// rows. A diagonal without rows is left out. Throws data::InputError if all
+/// rows of a diagonal have the same place.
 std::vector<DiagonalFigures> DiagonalFiguresOf(const data::CsvTable& table,
                                                const DiagonalRuns& runs,
                                                const std::vector<Index>& rows,
                                                const Eigen::MatrixX3d& places,
                                                const Eigen::MatrixX3d& errors);
 
-/// KinematicChain::NominalReach of every row of coordinates (m x 3).
+/// Returns KinematicChain::NominalReach of every row of coordinates (m x 3).
 Eigen::MatrixX3d PlacesOf(const models::KinematicChain& chain,
                           const MatrixXd& coordinates);
 

@@ -13,15 +13,15 @@
 
 namespace errmap::netcg {
 
-/// Weights of a net as subroutines SETWTS and PUTWTS of NISTIR 5367, Appendix
+/// Weights of a net, as subroutines SETWTS and PUTWTS of NISTIR 5367, Appendix
 /// A, read and write them.
 struct NetcgWeights {
   Index inputs = 0;
   Index hidden = 0;
   Index outputs = 0;
   VectorXd w;  // (N) in NetcgObjective's order
-  /// How the training run scaled its targets; the program's own files do not
-  /// say.
+  /// How the training run scaled its targets. The program's own files do not
+  /// state it.
   std::optional<models::TargetScaling> scaling;
 };
 
@@ -30,50 +30,52 @@ enum class WeightDigits {
   kFull,    // all digits, and the scaling on a last line that SETWTS ignores
 };
 
-/// Throws InputError naming `name`, line, what was expected and found.
+/// Throws InputError naming `name`, the line, and what was expected and found.
 NetcgWeights ParseWeights(std::string_view text, const std::string& name);
 
-/// Nodes, then the weights into each node from a new line on.
+/// Returns the numbers of nodes, then the weights into each node, beginning on
+/// a new line.
 std::string WeightsText(const NetcgWeights& weights, WeightDigits digits);
 
-/// The graphics file of the weights into the hidden nodes: a row per input, a
-/// column per hidden node.
+/// Returns the graphics file of the weights into the hidden nodes: a row per
+/// input, a column per hidden node.
 std::string FirstLayerGraph(const NetcgWeights& weights);
-/// That of the weights into the first output.
+/// Returns the graphics file of the weights into the first output.
 std::string SecondLayerGraph(const NetcgWeights& weights);
 
-/// Which figures a report shows.
+/// Selects the figures that a report shows.
 enum class NetcgStatistics {
   kAsPrinted,  // as the program printed them; a line points to the errata
   kCorrected,  // right ones, in the same places; lines say what they are
 };
 
-/// The run report in the layout of NISTIR 5367, Appendix B.
+/// Returns the run report in the layout of NISTIR 5367, Appendix B.
 std::string RunReport(const NetcgSpecification& specification,
                       const NetcgResult& result,
                       NetcgStatistics statistics);
 
-/// "achieved error goal", "iteration limit", ...: how the report ends.
+/// Returns "achieved error goal", "iteration limit", ...: the end of the
+/// report.
 std::string EndingOf(int ierr);
 
-/// The graphics file of the error curve; of reals in that precision.
+/// Returns the graphics file of the error curve, with reals of that precision.
 std::string ErrorCurveGraph(const NetcgResult& result,
                             NetcgPrecision precision);
 
-/// The graphics file of the residuals of the first output.
+/// Returns the graphics file of the residuals of the first output.
 std::string ResidualGraph(const NetcgFigures& figures);
 
-/// What the 1995 program and its report have wrong, a line each.
+/// Returns the errors of the 1995 program and its report, a line for each.
 std::string NetcgErrata();
 
 struct NetcgOptions {
   NetcgPrecision precision = NetcgPrecision::kSingle;  // the program's
   NetcgStatistics statistics = NetcgStatistics::kAsPrinted;
   WeightDigits weight_digits = WeightDigits::kReport;
-  /// Pattern file of the training run, for the scaling of testing runs whose
-  /// weights come from elsewhere; "": none.
+  /// Pattern file of the training run, which gives the scaling of testing runs
+  /// whose weights come from elsewhere; "": none.
   std::string training_file = {};
-  /// Folder that is written to in place of the run file's; "": none.
+  /// Folder to write to, in place of the run file's; "": none.
   std::string out = {};
 };
 
@@ -82,39 +84,39 @@ struct NetcgOutputFile {
   std::string content;
 };
 
-/// A run that is done.
+/// A finished run.
 struct NetcgRecord {
   NetcgSpecification specification;
   NetcgResult result;
   std::vector<NetcgOutputFile> files;  // to be written
 };
 
-/// Told of each run before it begins: its number from 0, and how many.
+/// Called before each run with its number, from 0, and the number of runs.
 using NetcgProgress = std::function<void(
     const NetcgSpecification& run, std::size_t number, std::size_t count)>;
 
-/// Runs a run file. Names of files are relative to its folder, those of outputs
-/// to options.out where that is given (absolute ones and ones with ".." keep
-/// their last part there). All input is read and checked before the first run;
-/// a run may read weights that an earlier one writes. Writes nothing.
+/// Runs a run file. File names are relative to its folder. Outputs go to
+/// options.out if that is given; absolute names and those with ".." then keep
+/// only their last part. All input is read and checked before the first run,
+/// but a run may read weights that an earlier one writes. Writes nothing.
 /// Throws InputError naming file and line.
 std::vector<NetcgRecord> RunNetcgFile(const std::string& path,
                                       const NetcgOptions& options,
                                       const NetcgProgress& progress = {});
 
-/// The patterns that a run works on: of `table` its first rows and the columns
-/// that are chosen.
+/// Returns the patterns for a run: the first rows and the chosen columns of
+/// `table`.
 NetcgData DataOf(const NetcgSpecification& run,
                  const data::PatternTable& table);
 
-/// The files of a run, from its result.
+/// Returns the files of a run, from its result.
 std::vector<NetcgOutputFile> NetcgOutputs(const NetcgSpecification& run,
                                           const NetcgResult& result,
                                           const NetcgOptions& options,
                                           const std::string& folder);
 
-/// What was done, for people: how each run ended, its statistics as printed
-/// and right, and the files.
+/// Describes for people how each run ended, its statistics as printed and
+/// corrected, and the files.
 std::string NetcgText(const std::vector<NetcgRecord>& records,
                       const NetcgOptions& options);
 

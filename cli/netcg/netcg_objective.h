@@ -5,12 +5,10 @@
 
 namespace errmap::netcg {
 
-/// E(w) and its gradient as subroutines FORWARD and FUNC of NISTIR 5367,
-/// Appendix A, work them out: every sum one by one in the program's order, in
-/// its precision, the logistic function cut to 0 below -40. So the last digits
-/// are the program's own.
-///
-/// Weights w (N): w1 (H x (I+1)) column by column, then w2 (J x (H+1))
+/// E(w) and its gradient, computed as by subroutines FORWARD and FUNC of NISTIR
+/// 5367, Appendix A. Every sum is in the program's order and precision, and the
+/// logistic function is 0 below -40. So the last digits are those of the
+/// program. Weights w (N): w1 (H x (I+1)) column by column, then w2 (J x (H+1))
 /// likewise; the last column of each is the bias.
 template <typename Scalar>
 class NetcgObjective final : public fitting::BasicObjective<Scalar> {
@@ -18,9 +16,9 @@ class NetcgObjective final : public fitting::BasicObjective<Scalar> {
   using Vector = fitting::VectorOf<Scalar>;
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
-  /// `inputs` (P x I) and `targets` (P x J), scaled to 0.01 .. 0.99. Throws
-  /// std::invalid_argument unless there are patterns, as many of both, and
-  /// hidden nodes.
+  /// `inputs` (P x I) and `targets` (P x J) are scaled to 0.01 .. 0.99. Throws
+  /// std::invalid_argument if there are no patterns or hidden nodes, or the
+  /// numbers of rows differ.
   NetcgObjective(const Matrix& inputs,
                  const Matrix& targets,
                  Index hidden,
@@ -31,7 +29,7 @@ class NetcgObjective final : public fitting::BasicObjective<Scalar> {
   }
   Scalar Evaluate(const Vector& w, Vector* gradient) const override;
 
-  /// The outputs at w (P x J).
+  /// Returns the outputs at w (P x J).
   Matrix Outputs(const Vector& w) const;
 
  private:

@@ -17,14 +17,14 @@ enum class NetcgPrecision { kSingle, kDouble };
 /// "single", "double".
 std::string_view ToString(NetcgPrecision precision);
 
-/// What a run works on: the chosen columns of its patterns.
+/// The data of a run: the chosen columns of its patterns.
 struct NetcgData {
   MatrixXd inputs;     // (P x I)
   MatrixXd targets;    // (P x J) as in the file
   double scale = 1.0;  // the file's scale factor
-  /// Of a testing run: how the training run scaled its targets, if known.
+  /// For a testing run: how the training run scaled its targets, if known.
   std::optional<models::TargetScaling> training_scaling;
-  /// (N) read from a file; (0) where the seed draws them.
+  /// (N) read from a file; (0) if the seed draws them.
   VectorXd initial_weights;
 };
 
@@ -51,12 +51,14 @@ enum class NetcgScaling {
 struct NetcgResult {
   VectorXd weights;               // (N)
   models::TargetScaling scaling;  // of the run's own targets
-  /// As the program works them out, errata included (stats/report_1995.h); in
-  /// a testing run desired and predicted are scaled by the test file's range.
+  /// As the program computes them, including its errors (stats/report_1995.h).
+  /// In a testing run, desired and predicted are scaled by the range of the
+  /// test file.
   NetcgFigures printed;
-  /// Divisors P J and P J - 1, R-SQ = 1 - SSE/SST, the scale factor applied,
-  /// the training run's scaling where it is known, ks_d with the first output's
-  /// own mean and sd and ks_p by Lilliefors (NaN below 4 patterns).
+  /// Corrected figures: divisors P J and P J - 1, R-SQ = 1 - SSE/SST, the scale
+  /// factor applied, the training run's scaling if known. ks_d uses the first
+  /// output's own mean and sd, and ks_p is by Lilliefors (NaN below 4
+  /// patterns).
   NetcgFigures corrected;
   NetcgScaling corrected_scaling = NetcgScaling::kTraining;
 
@@ -67,16 +69,16 @@ struct NetcgResult {
   double error = 0.0;           // E, regularised
   double gradient_ratio = 0.0;  // |g| / |w|
   double weight_change = 0.0;   // rms
-  /// Line k is sqrt(2 E) before iteration k, as its graphics file has it.
+  /// Line k is sqrt(2 E) before iteration k, as in the program's graphics file.
   std::vector<double> error_curve;
   fitting::FitSummary summary;
 };
 
 /// Runs a specification on its data in this precision: weights, scaling,
 /// training (or none), results, in the program's order of operations. Unlike
-/// the program it does not begin where the start already meets a goal.
-/// Throws std::invalid_argument where sizes do not agree, the targets do not
-/// vary, or the error is not finite at the start.
+/// the program, it stops at once if the start already meets a goal. Throws
+/// std::invalid_argument if sizes do not agree, the targets do not vary, or the
+/// error is not finite at the start.
 NetcgResult RunNetcg(const NetcgSpecification& specification,
                      const NetcgData& data,
                      NetcgPrecision precision);

@@ -7,7 +7,7 @@
 
 namespace errmap::netcg {
 
-/// The report's random generator (function UNI of Appendix A, of J. Blue, D.
+/// Random generator of the report (function UNI of Appendix A, of J. Blue, D.
 /// Kahaner and G. Marsaglia): uniform on [0, 1) in single precision, from
 /// integers of 32 bits.
 class Uni {
@@ -22,9 +22,9 @@ class Uni {
   std::size_t j_ = 16;
 };
 
-/// Initial weights (N) of a net in NetcgObjective's order, as subroutine SETWTS
-/// draws them: after one draw that is not used, within +-0.5, row by row (to
-/// outer, from inner).
+/// Initial weights (N) of a net in NetcgObjective's order, drawn as by
+/// subroutine SETWTS. One draw is discarded. The others lie within +-0.5, row
+/// by row (to outer, from inner).
 Eigen::VectorXf RandomWeights(Index inputs,
                               Index hidden,
                               Index outputs,

@@ -8,7 +8,8 @@
 
 namespace errmap::netcg {
 
-/// A training run of NISTIR 5367 as its Tables 3 and 4 have it; errors in mm.
+/// A training run of NISTIR 5367 with its values in Tables 3 and 4; errors in
+/// mm.
 struct ReportRun {
   int number = 0;
   bool down = true;  // the direction of motion, else up
@@ -26,7 +27,8 @@ struct ReportRun {
   double iteration_seconds_sd = 0.0;
   double elapsed_seconds = 0.0;
 
-  /// What the number of weights implies: W = (I+1)H + H+1.
+  /// Number of thermocouples that follows from the number of weights: W =
+  /// (I+1)H + H+1.
   int implied_thermocouples() const {
     return static_cast<int>((weights - hidden - 1) / hidden) - 2;
   }
@@ -51,22 +53,23 @@ struct NetcgStudy {
   std::vector<NetcgStudyRun> runs;
   double seconds = 0.0;            // of all runs together
   std::vector<std::string> notes;  // where it differs from the report
-  /// For options.netcg.out, where that is given: the files of all runs, and run
-  /// file and pattern files that make them again.
+  /// For options.netcg.out, if given: the files of all runs, and the run file
+  /// and pattern files that reproduce them.
   std::vector<NetcgOutputFile> files;
 };
 
-/// The report's nine experiments on a folder of `errmap simulate
-/// turning-centre`: its x_displacement_down.csv and x_displacement_up.csv, of
-/// them day 1 (where there is a column `day`); training rows i % 3 != 2 down
-/// and i % 2 == 0 up, as the report's counts 397 and 298 of 595 imply.
-/// Thermocouples are those of sections 9.1 to 9.8 less what is dead in the
-/// files; all else is that of Appendix B. Results do not depend on
-/// options.jobs. Throws InputError naming file and column.
+/// Runs the report's nine experiments on a folder of `errmap simulate
+/// turning-centre`. They use x_displacement_down.csv and x_displacement_up.csv,
+/// of these only day 1 if there is a column `day`. Training rows are i % 3 != 2
+/// down and i % 2 == 0 up, as the report's counts of 397 and 298 of 595 imply.
+/// Thermocouples are those of sections 9.1 to 9.8 without the ones that are
+/// dead in the files. All other settings are those of Appendix B. Results do
+/// not depend on options.jobs. Throws InputError naming file and column.
 NetcgStudy RunReportStudy(const std::string& folder,
                           const NetcgStudyOptions& options);
 
-/// Table 4 for people: ours beside the report's, in um and seconds.
+/// Returns Table 4 for people: our results beside the report's, in um and
+/// seconds.
 std::string StudyText(const NetcgStudy& study);
 
 }  // namespace errmap::netcg

@@ -24,7 +24,7 @@ enum class NetcgFile {
 };
 inline constexpr std::size_t kNumNetcgFiles = 8;
 
-/// What a file is to people: "pattern file".
+/// Describes a file for people: "pattern file".
 std::string_view NameOf(NetcgFile file);
 
 /// One run of a run specification file ("netcg.in" of NISTIR 5367, Appendix A;
@@ -43,8 +43,8 @@ struct NetcgSpecification {
   double gwgoal = 0.0;
   std::int64_t nfreq = 1;
   double errdel = 1.0;
-  /// idatfl: of each column of the pattern file whether it is an input; columns
-  /// beyond the program's 41 are.
+  /// idatfl: flags of the columns of the pattern file that are inputs. Columns
+  /// beyond the program's 41 are inputs, too.
   std::vector<bool> uses_column;
 
   /// Lines of the run file, for messages.
@@ -65,13 +65,13 @@ struct NetcgSpecification {
   Index num_weights() const { return num_weights1() + num_weights2(); }
 };
 
-/// The runs of a run file; the program closed its file inside the loop over
-/// them and could do but one. Throws InputError naming `name`, line, what was
-/// expected and what was found.
+/// Reads the runs of a run file. The original program closed its file inside
+/// the loop over runs, so it could do only one. Throws InputError naming
+/// `name`, the line, and what was expected and found.
 std::vector<NetcgSpecification> ParseRunFile(std::string_view text,
                                              const std::string& name);
 
-/// The text of a run file that reads back to these runs.
+/// Returns the text of a run file from which the same runs can be read.
 std::string RunFileText(const std::vector<NetcgSpecification>& runs);
 
 }  // namespace errmap::netcg

@@ -206,8 +206,9 @@ std::string NetcgErrata() {
          data::ArgumentName("corrected") +
          ":\n- Sums of n rows and J outputs are divided by (n+1)(J+1) in place "
          "of n J. With one\noutput, means are about half the true ones, and "
-         "standard deviations 0.71 of them.\n- So the K-S test standardises by "
-         "wrong figures. Its p also assumes a given mean\nand standard "
+         "standard deviations 0.71 of them.\n- So the K-S test standardises "
+         "with "
+         "wrong values. Its p also assumes a given mean\nand standard "
          "deviation, where Lilliefors' test applies.\n- R-SQ is SSreg/SStot "
          "about that wrong mean, not 1 - SSE/SST.\n- A testing run scales by "
          "the range of the test file, not of the training file.\n- The scale "

@@ -9,7 +9,7 @@
 namespace errmap::cli {
 
 /// Refuses `output`, which the user named with `flag`, if it is one of the
-/// files `inputs` (links are followed), or "-", which elsewhere means standard
+/// files `inputs` (links are followed), or "-", which usually means standard
 /// output. Throws UsageError naming both.
 void CheckOutputName(const std::string& flag,
                      const std::string& output,

@@ -21,8 +21,8 @@ inline constexpr const char* kReportText = "report.md";
 std::string LearningStem(std::string_view by);
 
 /// Returns all figures of a study in its folder, including those that errmap
-/// learn --out left there. A file of these that cannot be read is named on
-/// stderr and skipped.
+/// learn --out left there. A figure that cannot be read is named on stderr and
+/// skipped.
 report::FigureSet FiguresInFolder(const models::StudyRecord& record,
                                   const std::string& folder);
 
@@ -31,7 +31,8 @@ report::FigureSet FiguresInFolder(const models::StudyRecord& record,
 /// std::system_error naming what could not be written.
 void WriteReport(const models::StudyRecord& record, ClaimedFolder* folder);
 
-/// Removes what a killed run left half-written in a folder and its models/.
+/// Removes files that a killed run left half-written in a folder and its
+/// models/.
 void RemoveAbandoned(const std::string& folder);
 
 /// Returns the names of all files that WriteOutputs may write for a study.

@@ -9,10 +9,10 @@
 
 namespace errmap::python {
 
-/// A recipe whose fits are made in Python: `fit(x, y, columns)` gets the
-/// training rows as Numbers (m x p), the targets as Numbers (m) and the names
-/// of the columns, and returns `predict(x)`, which gives float64 (m). What it
-/// raises is why the fit failed.
+/// A recipe that fits in Python. `fit(x, y, columns)` gets the training rows as
+/// Numbers (m x p), the targets as Numbers (m) and the names of the columns,
+/// and returns `predict(x)`, which gives float64 (m). An exception from it is
+/// the reason why the fit failed.
 std::unique_ptr<models::ModelRecipe> ForeignRecipe(const std::string& name,
                                                    pybind11::object fit);
 

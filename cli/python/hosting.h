@@ -13,17 +13,17 @@
 
 namespace errmap::python {
 
-/// What commands read in place of files: name by name.
+/// What commands read in place of files, by name.
 struct Inputs {
   std::map<std::string, Table> tables;
   std::map<std::string, std::string> texts;
 };
 
-/// Runs `work` in a thread of its own, with `inputs` as files and `host` for
-/// streams, and without Python's lock; meanwhile Python's signals are looked at
-/// and `each_moment` (may be empty) is called with the lock. A signal sets
-/// `host->stop`. Throws what `work` throws. Returns whether a signal came,
-/// whose Python error is then set.
+/// Runs `work` in its own thread, without Python's lock, with `inputs` as files
+/// and `host` for streams. Meanwhile it checks Python's signals and calls
+/// `each_moment` (may be empty) with the lock held. A signal sets `host->stop`.
+/// Throws what `work` throws. Returns true if a signal came; its Python error
+/// is then set.
 bool RunHostedWork(const Inputs& inputs,
                    cli::Host* host,
                    std::atomic<bool>* stop,

@@ -4,7 +4,7 @@
 
 namespace errmap::python {
 
-/// compare, fit and folds, and the study that compare gives.
+/// Adds compare, fit and folds, and the study that compare returns.
 void DefineStudies(pybind11::module_* module);
 
 }  // namespace errmap::python

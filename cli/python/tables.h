@@ -12,17 +12,17 @@ namespace errmap::python {
 
 namespace py = pybind11;
 
-/// A Python object that any thread may let go of.
+/// A Python object that any thread may release.
 std::shared_ptr<py::object> Kept(py::object object);
 
-/// Numbers that Python reads where they lie, by the buffer protocol.
+/// Numbers that Python reads without a copy, by the buffer protocol.
 struct Numbers {
   MatrixXd values;
   bool is_column = true;
 };
 
-/// The numbers of an object that shows its memory (float64, one dimension).
-/// Throws py::value_error where it does not.
+/// Returns the numbers of an object that exposes its memory (float64, one
+/// dimension). Throws py::value_error if it does not.
 VectorXd ToVector(const py::object& object);
 
 /// A table that is filled column by column.
@@ -30,15 +30,16 @@ class Table {
  public:
   Table(const std::string& name, std::size_t num_rows);
 
-  /// A column of numbers: float64 is read where it lies, whatever its strides.
+  /// Adds a column of numbers. float64 is read without a copy, whatever its
+  /// strides.
   void AddNumbers(const std::string& column, const py::buffer& numbers);
-  /// A column of which each cell is a number, a text or None.
+  /// Adds a column whose cells are each a number, a text or None.
   void AddCells(const std::string& column, const py::list& cells);
-  /// Text of a CSV file with all its columns.
+  /// Adds the text of a CSV file with all its columns.
   static Table OfCsv(const std::string& text, const std::string& name);
 
-  /// Each column: Numbers, or a list of texts where a cell is no number (empty
-  /// ones of a column of numbers are NaN).
+  /// Returns each column as numbers, or as a list of texts if a cell is not a
+  /// number. Empty cells of a column of numbers are NaN.
   py::dict Columns() const;
   const std::shared_ptr<data::CsvTable>& table() const { return table_; }
 

@@ -10,14 +10,14 @@ namespace errmap::report {
 /// Latin-1.
 std::string HtmlText(std::string_view text);
 
-/// The same, without line breaks between a number and its % or unit.
+/// Escapes text, and prevents line breaks between a number and its % or unit.
 std::string HtmlSentence(std::string_view text);
 
 /// Escapes a name from somebody's data, and isolates its writing direction from
 /// the text around it (<bdi>).
 std::string HtmlName(std::string_view name);
 
-/// Returns a table that scrolls where the screen is narrower; `rows` are HTML.
+/// Returns a table that scrolls if the screen is narrower; `rows` are HTML.
 std::string ScrolledTable(std::string_view label, const std::string& rows);
 
 /// Escapes backquoted text and names for Markdown; line breaks become

@@ -30,7 +30,7 @@ class ErrorText {
 };
 
 /// Formats a probability in a table: "0.0123", "2.1e-06", "<1e-300"; "n/a" if
-/// there is none. Tables and sentences write p only by PText and PWords.
+/// there is none. Tables and sentences format p only with PText and PWords.
 std::string PText(double p);
 /// Formats it in a sentence: "0.012", "below 0.0001".
 std::string PWords(double p);

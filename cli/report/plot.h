@@ -64,8 +64,8 @@ struct Series {
 
 constexpr double kAutomatic = std::numeric_limits<double>::quiet_NaN();
 
-/// A quantity and its range shown. Given ends hold unless data lie beyond them;
-/// low > high reverses the axis.
+/// A quantity and its range shown. The given ends are used unless data lie
+/// beyond them; low > high reverses the axis.
 struct Axis {
   std::string quantity = {};
   std::string unit = {};  // "": none

@@ -12,8 +12,8 @@ using models::ComponentRecord;
 using models::ModelRecord;
 using models::ResultRecord;
 
-/// What all parts of a report use of one component. It refers to the record,
-/// which must outlive it.
+/// The data of one component that all parts of a report use. It refers to the
+/// record, which must outlive it.
 struct ReportView {
   const ComponentRecord* component = nullptr;
   std::string name;

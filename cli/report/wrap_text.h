@@ -7,8 +7,8 @@
 
 namespace errmap::report {
 
-/// Words longer than a line: broken anywhere, or kept whole, as for paths and
-/// commands to be copied.
+/// Treatment of words longer than a line: broken anywhere, or kept whole (paths
+/// and commands to be copied).
 enum class LongWords { kBroken, kWhole };
 
 /// Breaks `text` at blanks into lines of at most `width` columns.

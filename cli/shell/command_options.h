@@ -17,9 +17,9 @@ class App;
 class Option;
 }  // namespace CLI
 
-// Declares commands and their arguments. Only this room and cli/application.cc
-// include CLI11's headers: these take a compiler three seconds, used or
-// not.
+// Declares commands and their arguments. Only this folder and
+// cli/application.cc include CLI11's headers: these take a compiler three
+// seconds, used or not.
 
 namespace errmap::cli {
 
@@ -28,7 +28,7 @@ CLI::App* AddSubcommand(CLI::App* app,
                         const std::string& about);
 void OnRun(CLI::App* command, std::function<void()> act);
 
-/// A command of `app` that reads Arguments. It stands for its parser where
+/// A command of `app` that reads Arguments. It is used like its parser where
 /// options are added; `command->file` is an argument, which lives as long as
 /// the parser does.
 template <typename Arguments>

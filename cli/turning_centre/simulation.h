@@ -15,9 +15,9 @@ struct SimulationOptions {
   int days = 2;     // 1 to 366; day 1 is ReportDay, the others are drawn
   int cycles = 35;  // warm-up cycles of each day, 1 to 1000
   Workload workload = {};
-  /// From the second day on the machine works this long, unmeasured, and then
-  /// stands for kWarmBreakSeconds before the first cycle: a session that
-  /// starts warm. Hours, 0 to 24.
+  /// From the second day on, the machine works this long without being
+  /// measured. It then rests for kWarmBreakSeconds before the first cycle, so
+  /// that the session starts warm. Hours, 0 to 24.
   double warm_hours = 0.0;
   double air_factor = 1.0;  // on conductances to the air, > 0, <= 100
   /// Standard deviation of a reading of a displacement, um: a laser

@@ -15,9 +15,9 @@ struct FileOptions {
 /// Names of the files of a simulation, in the order in which they are written.
 std::vector<std::string> SimulationFileNames();
 
-/// Content of one of them:
-/// - a component's readings, one CSV file per direction where it matters, with
-///   the columns record, day, cycle, position_mm (where there is a position),
+/// Returns the content of one of these files:
+/// - a component's readings, one CSV file per direction if it matters, with
+///   the columns record, day, cycle, position_mm (if there is a position),
 ///   t00_degC ... t39_degC and error_mm or error_urad. A component of a slide
 ///   has a row per stop (of the forward sweep, where direction does not
 ///   matter); one of temperature alone a row at the end of each sweep;
@@ -28,14 +28,14 @@ std::vector<std::string> SimulationFileNames();
 ///   diagonal_direction;
 /// - temperatures.csv: record, day, time_s and all channels, every kLogSeconds;
 /// - machine.toml: the kinematic chain, naming a map STEM.json per CSV file;
-/// - README.md: what was simulated.
-/// The same simulation gives the same bytes on every machine; numbers have 7
-/// significant digits. Throws std::invalid_argument on another name.
+/// - README.md: what was simulated. The same simulation gives the same bytes on
+///   every machine; numbers have 7 significant digits. Throws
+///   std::invalid_argument for any other name.
 std::string SimulationFile(const Simulation& simulation,
                            const FileOptions& options,
                            const std::string& name);
 
-/// `value` with 7 significant digits, in the shortest form that has them.
+/// Returns the shortest text of `value` with 7 significant digits.
 std::string SevenDigits(double value);
 
 }  // namespace errmap::turning_centre

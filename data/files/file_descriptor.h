@@ -4,7 +4,7 @@
 
 namespace errmap::data {
 
-/// An open file that is closed with its owner; below 0: none.
+/// An open file, closed at the end of its owner's lifetime; below 0: none.
 class FileDescriptor {
  public:
   explicit FileDescriptor(int descriptor) : descriptor_(descriptor) {}
@@ -21,10 +21,11 @@ class FileDescriptor {
   int get() const { return descriptor_; }
   bool is_open() const { return descriptor_ >= 0; }
 
-  /// The descriptor, which is the caller's to close from now on.
+  /// Releases the descriptor, which the caller must close.
   int Release() { return std::exchange(descriptor_, -1); }
 
-  /// Some file systems report a failed write only here. 0 where all is well.
+  /// Closes the file. Some file systems report a failed write only here.
+  /// Returns 0 if all is well.
   int Close();
 
  private:

@@ -4,19 +4,19 @@
 
 namespace errmap::data {
 
-/// Whether a symbolic link stands at the path.
+/// True if there is a symbolic link at the path.
 bool IsLink(const std::string& path);
 
-/// Whether the folder that holds the path's last part belongs to this user, so
-/// that a link there is their own.
+/// True if the folder that holds the path's last part belongs to this user, who
+/// can therefore be trusted with a link there.
 bool IsInOwnFolder(const std::string& path);
 
-/// Throws std::system_error where a link at the path stands in the folder of
-/// another user: it may have been laid there for what is about to be written.
+/// Throws std::system_error if there is a link at the path in another user's
+/// folder: it may be a trap for the file about to be written.
 void RequireOwnLink(const std::string& path);
 
-/// Takes away a link at the path, before a file is opened there (O_NOFOLLOW);
-/// throws as RequireOwnLink, unless `forced`.
+/// Removes a link at the path before a file is opened there (O_NOFOLLOW).
+/// Throws as RequireOwnLink, unless `forced`.
 void RemoveLink(const std::string& path, bool forced = false);
 
 }  // namespace errmap::data

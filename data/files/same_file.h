@@ -4,8 +4,8 @@
 
 namespace errmap::data {
 
-/// Whether both paths lead, links followed, to one regular file that exists: by
-/// device and inode, so hard links and /dev/stdin are seen through.
+/// True if both paths lead to the same existing regular file. Compares device
+/// and inode, so it follows links and recognises hard links and /dev/stdin.
 bool IsSameFile(const std::string& a, const std::string& b);
 
 }  // namespace errmap::data

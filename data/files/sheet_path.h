@@ -4,8 +4,8 @@
 
 namespace errmap::data {
 
-/// "book.xlsx" and "Day 2" of "book.xlsx:Day 2"; of any other path all of it
-/// and "".
+/// Splits "book.xlsx:Day 2" into "book.xlsx" and "Day 2"; any other path into
+/// itself and "".
 struct SheetPath {
   std::string file;
   std::string sheet;

@@ -4,12 +4,12 @@
 
 namespace errmap::data {
 
-/// A path as reports, maps and journals have it: of an absolute one the file's
-/// name only, since its folders tell of users and customers.
+/// Returns a path as reports, maps and journals show it. Of an absolute path it
+/// is the file's name only, since folders may name users and customers.
 std::string ShownPath(const std::string& path);
 
-/// From now on paths are written as they were given: for a program whose user
-/// asked for it, before all else.
+/// Shows paths as given from now on. Call it before anything else, if the user
+/// asked for it.
 void KeepPaths();
 
 }  // namespace errmap::data

@@ -14,14 +14,14 @@ struct sqlite3_stmt;
 
 namespace errmap::data {
 
-/// SQLite says that something cannot be done; what() says what, in its words.
+/// SQLite cannot do something; what() says what, in SQLite's words.
 class SqliteError : public std::runtime_error {
  public:
   SqliteError(const std::string& what, int code, int system_error)
       : std::runtime_error(what), code_(code), system_error_(system_error) {}
 
   int system_error() const { return system_error_; }  // errno, or 0
-  /// Another process has it.
+  /// Another process holds the lock.
   bool is_busy() const;
 
  private:
@@ -29,27 +29,27 @@ class SqliteError : public std::runtime_error {
   int system_error_;
 };
 
-/// Whether the file system of `path` knows locks; not so some that are mounted
-/// over a network. Gives up what locks this process has on the file.
+/// True if the file system of `path` supports locks; some network file systems
+/// do not. Releases this process's locks on the file.
 bool KnowsLocks(const std::string& path);
 
-/// Bytes that are no text, for a parameter.
+/// Bytes that are not text, for a parameter.
 struct Blob {
   std::string_view bytes;
 };
 
-/// The file is damaged, or no database at all: what to do stands in what().
+/// The file is damaged or is not a database; what() says what to do.
 class DamagedDatabase : public InputError {
  public:
   DamagedDatabase(const std::string& file, const std::string& why);
 };
 
-/// A prepared statement, run once or again and again.
+/// A prepared statement, run once or repeatedly.
 class Statement {
  public:
   Statement(sqlite3* database, std::string_view sql);
 
-  /// Values of the parameters, in order; NaN and empty optionals are NULL.
+  /// Sets the parameters, in order; NaN and empty optionals are NULL.
   template <typename... T>
   Statement& With(const T&... values) {
     Reset();
@@ -98,28 +98,28 @@ class Statement {
 class Database {
  public:
   enum class Access {
-    /// A file that nobody writes into any more: no locks are taken, and the
-    /// right to read it is all that is needed.
+    /// For a file that nobody writes any more: takes no locks, and needs only
+    /// the right to read.
     kRead,
-    /// A file that nobody else knows of: what is written is not flushed, and of
-    /// a write that fails the whole file is worth nothing.
+    /// For a file that nobody else knows of: writes are not flushed, and after
+    /// a failed write the file is useless.
     kPrivate,
-    /// A file that other processes may write into at the same time, each change
-    /// by a transaction.
+    /// For a file that other processes may write at the same time, each change
+    /// in a transaction.
     kShared,
   };
-  /// Throws SqliteError where it cannot be opened or is no database.
+  /// Throws SqliteError if the file cannot be opened or is not a database.
   Database(const std::string& path, Access access);
 
   void Execute(const std::string& sql);
   Statement Prepare(std::string_view sql) { return {handle_.get(), sql}; }
-  /// The first value of the first row.
+  /// Returns the first value of the first row.
   std::int64_t WholeOf(std::string_view sql);
 
-  /// Throws DamagedDatabase, of `file`, where a page does not fit the others.
+  /// Throws DamagedDatabase, naming `file`, if its pages are inconsistent.
   void RequireSound(const std::string& file);
 
-  /// Copies all of `from` here (backup API).
+  /// Copies all of `from` into this database (backup API).
   void CopyFrom(Database* from);
 
  private:

@@ -4,9 +4,9 @@
 
 namespace errmap::data {
 
-/// FORTRAN edit descriptors, as compilers of today write them (gfortran 12).
-/// Where a value needs more columns than it is given, it takes them: no field
-/// of stars.
+/// FORTRAN edit descriptors, as written by today's compilers (gfortran 12). A
+/// value that needs more columns than its field takes them; no field is filled
+/// with asterisks.
 
 /// Iw: "   397".
 std::string EditI(long long value, int width);
@@ -16,11 +16,11 @@ std::string EditF(double value, int width, int decimals);
 std::string EditE(double value, int width, int digits);
 /// 1PEw.d: "   1.300E-03".
 std::string Edit1PE(double value, int width, int digits);
-/// Gw.d: Fw.d with `digits` significant digits and four blanks behind where
-/// 0.1 <= |value| < 10^digits or the value is 0, else Ew.d.
+/// Gw.d: Fw.d with `digits` significant digits and four blanks after it if 0.1
+/// <= |value| < 10^digits or the value is 0, else Ew.d.
 std::string EditG(double value, int width, int digits);
-/// A real number as WRITE(*, *) puts it, all digits of its precision:
-/// "  0.331210256    " and "   9.8869840267804862E-002".
+/// A real number as written by WRITE(*, *), with all digits of its precision: "
+/// 0.331210256 " and " 9.8869840267804862E-002".
 std::string ListDirected(float value);
 std::string ListDirected(double value);
 /// An integer likewise, twelve columns.

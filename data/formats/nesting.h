@@ -5,15 +5,15 @@
 
 namespace errmap::data {
 
-/// Brackets within brackets that a JSON file may have: ours have some ten. A
-/// document is copied, written and freed by functions that call themselves
-/// once for each, and the stack ends before a hostile file does.
+/// Greatest depth of brackets in a JSON file; ours have about ten. Documents
+/// are copied, written and freed recursively, so a hostile file could overflow
+/// the stack.
 inline constexpr std::size_t kMostNesting = 64;
 
 bool IsShallowJson(std::string_view text);
 
-/// Throws InputError ("is nested deeper than ...") where a JSON text is
-/// not.
+/// Throws InputError ("is nested deeper than ...") if a JSON text is nested too
+/// deeply.
 void RequireShallowJson(std::string_view text);
 
 }  // namespace errmap::data

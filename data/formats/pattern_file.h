@@ -8,7 +8,7 @@
 
 namespace errmap::data {
 
-/// What a pattern file of the report's 1995 program holds.
+/// The content of a pattern file of the report's 1995 program.
 struct PatternTable {
   /// "Scale factor for unit conversion if necessary": that program reads it and
   /// never applies it.
@@ -20,7 +20,7 @@ struct PatternTable {
   Eigen::MatrixXd target_values;     // (P x J)
 };
 
-/// The forms, told apart by the ending of the file's name.
+/// The forms, recognised by the file's extension.
 enum class PatternForm {
   kStacked,  // any other ending: NISTIR 5367, Table 2
   kPlain,    // ".tab"
@@ -28,7 +28,7 @@ enum class PatternForm {
 };
 PatternForm PatternFormOf(std::string_view path);
 
-/// Reads one of these forms:
+/// Reads a pattern file in one of these forms:
 /// - stacked: patterns, inputs, outputs, scale factor; a line of titles; per
 ///   pattern its index, position, targets and the first three thermocouples;
 ///   then blocks of up to six thermocouples, each below a line of their numbers
@@ -41,13 +41,14 @@ PatternForm PatternFormOf(std::string_view path);
 /// Throws InputError naming file, line, what was expected and found.
 PatternTable ReadPatterns(const std::string& path);
 
-/// The same from text in memory; `name` decides the form.
+/// Reads a pattern file from text in memory; `name` decides the form.
 PatternTable ParsePatterns(std::string_view text, const std::string& name);
 
-/// The table in that form. The stacked one is in the report's columns, and a
-/// number that they would round takes as many digits as it needs: each form
-/// reads back to the same numbers, and text in such a form is kept to the byte.
-/// Throws std::invalid_argument where the table has no inputs or targets.
+/// Returns the text of a table in that form. The stacked form has the report's
+/// columns, but a number that they would round gets as many digits as it needs.
+/// So each form reads back to the same numbers, and text in such a form is
+/// reproduced byte for byte. Throws std::invalid_argument if the table has no
+/// inputs or targets.
 std::string PatternText(const PatternTable& table, PatternForm form);
 
 }  // namespace errmap::data

@@ -7,14 +7,12 @@
 
 namespace errmap::data {
 
-/// Reads text as list-directed READ statements of FORTRAN do: each reading
-/// begins on a new line and goes on over as many as it needs; values are
+/// Reads text as list-directed READ statements of FORTRAN do. Each reading
+/// begins on a new line and takes as many lines as it needs. Values are
 /// separated by blanks, tabs or commas, may be repeated (3*0.5) and have
-/// exponents with E or D. What stands behind the last value of a reading is a
-/// comment - unless it is one more number, which FORTRAN would pass over in
-/// silence and here is an error.
-///
-/// All throw InputError naming file, line, what was expected and what was
+/// exponents with E or D. Text after the last value of a reading is a comment.
+/// If it is one more number, which FORTRAN would ignore, that is an error here.
+/// All functions throw InputError naming file, line, and what was expected and
 /// found.
 class RecordReader {
  public:
@@ -26,12 +24,13 @@ class RecordReader {
   std::vector<long long> Integers(std::size_t count, const std::string& what);
   /// Whole numbers and others in one reading: Numbers checked by WholeNumber.
   long long WholeNumber(double value, const std::string& what) const;
-  /// Words, in single or double quotes or up to the next blank.
+  /// Reads words, in single or double quotes or up to the next blank.
   std::vector<std::string> Words(std::size_t count, const std::string& what);
-  /// One text: in quotes, or the whole line without the blanks at its ends.
+  /// Reads one text: in quotes, or the whole line without the blanks at its
+  /// ends.
   std::string Text(const std::string& what);
 
-  /// True where nothing but blank lines is left.
+  /// True if nothing but blank lines is left.
   bool AtEnd() const;
   /// 1-based line of the last value read.
   std::size_t line() const { return line_; }

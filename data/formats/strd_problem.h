@@ -8,8 +8,8 @@ namespace errmap::data {
 
 enum class StrdKind { kNonlinear, kLinear, kUnivariate };
 
-/// A certified parameter; all numbers as NIST's decimal text, which a double
-/// would round.
+/// A certified parameter. All numbers are NIST's decimal text, since a double
+/// would round them.
 struct StrdParameter {
   std::string name;
   std::string start1;  // "" for linear sets
@@ -44,12 +44,12 @@ struct StrdProblem {
   std::vector<std::vector<std::string>> rows;
 };
 
-/// A problem from the text of its file (data/sets/nist_strd/README.md); `name`
-/// stands in messages. Throws InputError with line and word.
+/// Reads a problem from the text of its file (data/sets/nist_strd/README.md).
+/// `name` is its name in messages. Throws InputError with line and word.
 StrdProblem ParseStrdProblem(std::string_view text, const std::string& name);
 
-/// All problems of data/sets/nist_strd, which are part of the program, by kind
-/// and name.
+/// Returns all problems of data/sets/nist_strd, which are built into the
+/// program, by kind and name.
 const std::vector<StrdProblem>& StrdProblems();
 
 }  // namespace errmap::data

@@ -5,14 +5,14 @@
 
 namespace errmap::data {
 
-/// A file of data/sets/nist_strd as the build found it.
+/// A file of data/sets/nist_strd, as read by the build.
 struct StrdText {
   std::string_view name;
   std::string_view text;
 };
 
-/// All of them by name. Defined in a source that CMake writes from the files,
-/// so that the program needs no data folder where it runs.
+/// Returns all files by name. CMake generates the source from them, so that the
+/// program needs no data folder.
 std::vector<StrdText> StrdTexts();
 
 }  // namespace errmap::data

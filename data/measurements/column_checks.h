@@ -14,8 +14,8 @@
 
 namespace errmap::data {
 
-/// What a column serves as; decides what its cells may be and what a message
-/// about them advises.
+/// The role of a column. It determines which cells are allowed and what a
+/// message about them advises.
 enum class ColumnUse { kTarget, kInput, kWeight, kGroup, kOther };
 
 struct ColumnInUse {
@@ -23,35 +23,35 @@ struct ColumnInUse {
   ColumnUse use;
 };
 
-/// The column of `known` that was probably meant, whether its unit was named or
-/// not ("eror" for "error_mm"), or "".
+/// Returns the column of `known` that was probably meant, with or without its
+/// unit ("eror" for "error_mm"), or "".
 std::string NearestColumn(std::string_view name,
                           const std::vector<std::string>& known);
 
-/// Index of a column that somebody named by an argument (ArgumentName). Throws
-/// InputError, with the known columns, where there is none.
+/// Returns the index of a column that the user named by an argument
+/// (ArgumentName). Throws InputError, with the known columns, if there is none.
 std::size_t RequireColumn(const CsvTable& table,
                           std::string_view name,
                           std::string_view argument);
 
-/// Throws InputError where the column holds no number at all.
+/// Throws InputError if the column holds no numbers at all.
 void RequireNumbers(const CsvTable& table, const ColumnInUse& column);
 
-/// Why the text that might be a column's unit is not read as one.
+/// Says why the text that might be a column's unit is not read as one.
 std::string WhyNoUnit(const Header& header);
 
-/// Throws InputError, with the units known, where the name carries a unit that
-/// is none we know: in brackets or parentheses, of the target bare, too.
+/// Throws InputError, with the known units, if a name has an unknown unit: in
+/// brackets or parentheses, or for the target also bare.
 void RequireKnownUnit(const CsvTable& table, const ColumnInUse& column);
 
-/// Throws InputError where the column holds no number, though it is one of
-/// numbers: positions by its name, or every text in it a number with a unit or
+/// Throws InputError if a column of numbers holds none. It is such a column if
+/// its name means a position, or if every text in it is a number with a unit or
 /// thousands separators ("12.7 mm", "1.234,5").
 void RefuseNumbersAsText(const CsvTable& table, const CsvColumn& column);
 
-/// Throws InputError where some numbers of these columns have a decimal comma
-/// and others a decimal point: "1.234" may then be a thousand. Columns used as
-/// groups are passed over, since they are labels ("03.05.").
+/// Throws InputError if some numbers of these columns have a decimal comma and
+/// others a decimal point: "1.234" may then be a thousand. Columns used as
+/// groups are skipped, since they are labels ("03.05.").
 void RefuseMixedDecimals(const CsvTable& table,
                          const std::vector<ColumnInUse>& columns);
 
@@ -61,42 +61,44 @@ struct KeptRows {
   std::string first_missing;       // where; "" where all that pass are kept
 };
 
-/// Takes from `passes` (one flag per row of the table) the rows that do not
-/// pass `filter`, whose column must be there; false where none is left.
+/// Clears the flags in `passes` (one per row of the table) of rows that do not
+/// pass `filter`, whose column must exist. Returns false if no row is left.
 bool KeepPassing(const CsvTable& table,
                  const ColumnFilter& filter,
                  std::vector<bool>* passes);
 
-/// Whether each row of the table passes all `filters`. Throws InputError where
-/// a column is unknown or no row is left, naming the values that there are.
+/// Returns for each row of the table whether it passes all `filters`. Throws
+/// InputError if a column is unknown or no row is left, listing the existing
+/// values.
 std::vector<bool> RowsThatPass(const CsvTable& table,
                                const std::vector<ColumnFilter>& filters);
 
-/// Those of the rows that pass (one flag per row of the table) whose cells in
-/// these columns are all finite numbers (groups: not missing). Throws
-/// InputError on the first cell that is not, save that rows with an empty, NA,
-/// NaN or infinite cell are dropped where `missing` says so.
+/// Returns those of the rows that pass (one flag per row of the table) whose
+/// cells in these columns are all finite numbers (groups: not missing). Throws
+/// InputError on the first other cell. If `missing` says so, rows with an
+/// empty, NA, NaN or infinite cell are dropped instead.
 KeptRows CheckCells(const CsvTable& table,
                     const std::vector<ColumnInUse>& columns,
                     const std::vector<bool>& passes,
                     MissingPolicy missing);
 
-/// Throws InputError where the cell is missing (IsMissingNumber).
+/// Throws InputError if the cell is missing (IsMissingNumber).
 void RefuseMissingCell(const CsvTable& table,
                        const ColumnInUse& column,
                        std::size_t row);
 
-/// Values of a column in these data rows.
+/// Returns the values of a column in these data rows.
 Eigen::VectorXd ValuesOfRows(const CsvColumn& column,
                              const std::vector<Eigen::Index>& rows);
 
 /// Throws InputError that names the table's file.
 [[noreturn]] void ThrowUnusable(const CsvTable& table, const std::string& what);
 
-/// A column's name for a remark: printable, and never cut short.
+/// Returns a column's name for a remark: printable, and never cut short.
 std::string NameInRemark(const std::string& name);
 
-/// Names for a message, separated by commas; many are cut short.
+/// Returns names for a message, separated by commas, shortened if there are
+/// many.
 std::string ListOfNames(const std::vector<std::string>& names);
 
 }  // namespace errmap::data

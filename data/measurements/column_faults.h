@@ -29,7 +29,7 @@ enum class FaultKind {
 /// "repeated", "zero", "other-unit".
 std::string_view ToString(FaultKind kind);
 
-/// What is wrong with a column; all values in the column's unit.
+/// A fault of a column; all values are in the column's unit.
 struct ColumnFault {
   FaultKind kind = FaultKind::kOutlying;
   Eigen::Index input = -1;  // index of the column among the inputs; -1: target
@@ -42,11 +42,11 @@ struct ColumnFault {
   /// deviation; kDrifting: the change from first to last row; kOtherUnit: how
   /// many times larger the others are.
   double value = 0.0;
-  /// What to compare it with. For kImpossible and kOutlying: the range of all
-  /// other values; kJump: the neighbours (both the same); kStuck: low 0, high
-  /// the median range of the others meanwhile; kNoisy: the same of their noise;
-  /// kDrifting: high the scatter about the drift, low the number of others;
-  /// kZero: low what a linear map predicts for the worst row.
+  /// Reference for comparison. For kImpossible and kOutlying: the range of all
+  /// other values. kJump: the neighbours (both the same). kStuck: low 0, high
+  /// the median range of the others meanwhile. kNoisy: the same for their
+  /// noise. kDrifting: high the scatter about the drift, low the number of
+  /// others. kZero: low what a linear map predicts for the worst row.
   double low = 0.0;
   double high = 0.0;
 };
@@ -70,9 +70,9 @@ struct MeasuredColumns {
 std::string DoubtOfRows(const ColumnFault& fault,
                         const MeasuredColumns& measured);
 
-/// Searches target and inputs for faulty readings. The thresholds are such that
-/// healthy machines give none; the test of this unit has the measurements.
-/// Drift is sought over three sessions or more.
+/// Searches target and inputs for faulty readings. The thresholds are chosen so
+/// that healthy machines give no faults; the unit test has the measurements.
+/// Drift is searched for over three sessions or more.
 std::vector<ColumnFault> FindColumnFaults(const MeasuredColumns& measured);
 
 }  // namespace errmap::data

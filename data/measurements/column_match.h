@@ -9,7 +9,7 @@
 
 namespace errmap::data {
 
-/// A column of a file that stands for one that a map knows.
+/// A column of a file that a map knows by another name or in another unit.
 struct MatchedColumn {
   ColumnInfo of_map;
   ColumnInfo of_file;
@@ -17,43 +17,43 @@ struct MatchedColumn {
   bool is_converted() const {
     return of_map.unit.symbol != of_file.unit.symbol;
   }
-  /// Of a value in the file, in the map's unit.
+  /// Converts a value in the file to the map's unit.
   double InMapUnit(double value) const;
-  /// "t1_degC is read from 't1 [K]' and converted from K to degC", "" where
-  /// name and unit are the same.
+  /// "t1_degC is read from 't1 [K]' and converted from K to degC"; "" if name
+  /// and unit are the same.
   std::string Remark() const;
 };
 
-/// The column of that name, or else the only one that has the name in another
-/// unit ("t1 [K]" for "t1_degC", letters in any case). Throws InputError where
-/// there is none or more than one, or where its unit cannot be converted; it
-/// then ends with `remedy`.
+/// Returns the column of that name, or else the only one with that name in
+/// another unit ("t1 [K]" for "t1_degC", letters in any case). Throws
+/// InputError if there is none or more than one, or its unit cannot be
+/// converted. The message ends with `remedy`.
 MatchedColumn MatchColumn(
     const CsvTable& table,
     const ColumnInfo& of_map,
     const std::string& remedy = "add it or fit a map without it");
 
-/// Gives a column that has `name` in other letters that name, where none has
-/// it.
+/// Renames a column whose name differs from `name` only in case, unless a
+/// column of that name exists.
 void NameLike(const std::string& name, CsvTable* table);
 
-/// A table in the names and units of a map, and what was done for it.
+/// A table in the names and units of a map, with remarks on the changes.
 struct TableForMap {
   CsvTable table;
   std::vector<std::string> remarks;  // one line for each column that differs
   Reading reading = {};              // of its rows
-  /// Rows of the file, where they were put in order of time; else empty.
+  /// Rows of the file, if they were put in order of time; else empty.
   std::vector<Eigen::Index> order = {};
 };
 
-/// The target of a map, and the column that a user names for it, or "": one of
-/// the table, or a derived one (reading/derived_columns.h).
+/// The target of a map, and the column that the user named for it, or "". That
+/// is a column of the table, or a derived one (reading/derived_columns.h).
 struct TargetOfMap {
   ColumnInfo column;
   std::string named = {};
 };
 
-/// Renames and converts the columns that stand for those of the map; throws as
+/// Renames and converts the columns that match those of the map. Throws as
 /// MatchColumn does. `target` may be null.
 TableForMap InMapUnits(CsvTable table,
                        const std::vector<ColumnInfo>& inputs,

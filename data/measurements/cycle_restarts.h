@@ -12,28 +12,28 @@
 
 namespace errmap::data {
 
-/// Where numbers of cycles begin anew.
+/// Rows where the numbers of cycles start again.
 struct CycleRestarts {
   std::string column;
   std::vector<bool> begins;  // (rows) the first row is none
 };
 
-/// Those of the first of `cycles` (indices into the table; -1 is none) whose
-/// cycles, some of these rows each, count up or down and anew now and then.
-/// The rows are in the order of measurement.
+/// Returns the restarts of the first of `cycles` (indices into the table; -1 is
+/// none) whose numbers count up or down and sometimes start again. The rows are
+/// in the order of measurement.
 std::optional<CycleRestarts> FindCycleRestarts(
     const CsvTable& table,
     const std::vector<Eigen::Index>& rows,
     const std::vector<std::ptrdiff_t>& cycles);
 
-/// Whether cycles begin anew less often than a date changes: they go on over
-/// midnight.
+/// True if cycles start again less often than the date changes: they continue
+/// over midnight.
 bool CountOver(const CycleRestarts& restarts,
                const CsvColumn& date,
                const std::vector<Eigen::Index>& rows);
 
-/// Whether cycles begin anew more often than there are sessions, each time in
-/// another one or where what else is called a session changes: days and the
+/// True if cycles start again more often than there are sessions, each time in
+/// another session or where another column of sessions changes: days and the
 /// shifts of each.
 bool PartFurther(const CycleRestarts& restarts,
                  const Grouping& sessions,

@@ -44,8 +44,8 @@ bool IsPosition(const ColumnInfo& column);
 /// True if a column is a sensor's or a switch's.
 bool IsReadBySensor(const ColumnInfo& column);
 
-/// The role of a column by its name alone: for maps written before roles were
-/// kept, and for data made in memory.
+/// Returns the role of a column by its name alone: for maps written before
+/// roles were stored, and for data made in memory.
 Role RoleByName(const ColumnInfo& column);
 
 /// The group of each row (warm-up cycle, day, segment).

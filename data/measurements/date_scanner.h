@@ -9,7 +9,7 @@
 
 namespace errmap::data {
 
-/// Takes what it reads of a date or a time off the front of a text.
+/// Reads parts of a date or a time from the front of a text.
 class DateScanner {
  public:
   explicit DateScanner(std::string_view text) : rest_(text) {}

@@ -7,13 +7,13 @@ namespace errmap::data {
 
 inline constexpr double kSecondsOfDay = 86400.0;
 
-/// What comes first in "03/04/2024"; a year of four digits, and points, leave
-/// no doubt. kYearFirst: "24/03/04" is in March. kNoDate: "08.05.12" is a time
-/// of day.
+/// Which number comes first in "03/04/2024". A year of four digits, or points,
+/// leave no doubt. kYearFirst: "24/03/04" is in March. kNoDate: "08.05.12" is a
+/// time of day.
 enum class DateOrder { kDayFirst, kMonthFirst, kYearFirst, kNoDate };
 
 struct DateTime {
-  /// From 1970-01-01T00:00:00, or from midnight where there is no date.
+  /// Seconds from 1970-01-01T00:00:00, or from midnight if there is no date.
   double seconds = 0.0;
   bool has_date = false;
   bool has_time = false;   // else midnight
@@ -38,7 +38,8 @@ struct DateTime {
 ///   29:00:05, 1 05:00:05     elapsed: hours, or days; 125:03.5 in minutes
 ///   1 day, 5:00:05           as Python writes it; also "1 days 05:00:05.5"
 ///
-/// Nothing where the text is none, or names a day or time that there is not.
+/// Returns nothing if the text is not a date or time, or names one that does
+/// not exist.
 std::optional<DateTime> ParseDateTime(std::string_view text,
                                       DateOrder order = DateOrder::kDayFirst);
 

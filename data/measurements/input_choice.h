@@ -19,10 +19,10 @@ struct ChosenInputs {
   std::vector<std::size_t> records;    // of numbers that only tell rows apart
 };
 
-/// The inputs that `selection` names, else the defaults of MakeDataset, which
-/// are not what `roles` and `found` have taken. Throws InputError: unknown
-/// column, one without numbers, named twice, named and excluded, the target; or
-/// no input left where there were candidates.
+/// Returns the inputs that `selection` names, else the defaults of MakeDataset
+/// without the columns in `roles` and `found`. Throws InputError for a column
+/// that is unknown, without numbers, named twice, named and excluded, or the
+/// target. Also if no input is left although there were candidates.
 ChosenInputs ChooseInputs(const CsvTable& table,
                           const DatasetSelection& selection,
                           const ColumnRoles& roles,

@@ -8,8 +8,8 @@
 
 namespace errmap::data {
 
-/// The column that joined tables get where nothing in them tells the files
-/// apart; a map that knows its sessions by it takes a file for one.
+/// The column that joined tables get if nothing in them tells the files apart.
+/// A map that takes its sessions from it treats each file as a session.
 inline constexpr const char* kFileColumn = "file";
 
 struct JoinedTable {
@@ -17,32 +17,30 @@ struct JoinedTable {
   std::vector<std::string> remarks;  // how the files differ, one line each
 };
 
-/// Tables (at least one) of one component below one another, with the columns
-/// that all have, in the names and units of the first: letters may be in
-/// another case, units in one that can be converted. One table stays as it is.
-///
-/// Sessions are those of the column that FindSessions finds in each file; where
-/// it finds none, a file is one, whatever the leaps of its time. Where two
-/// files give the same name to theirs, the names get the file's label
-/// (FileLabel); where no column has them, a column kFileColumn does, by which
-/// files that are counted in a day are one (SessionsOfFiles). Where it is that
-/// column that `selection` names, nothing else parts a file.
-///
-/// Throws InputError where units contradict, or where a column `error*` or one
-/// that `selection` names is not in all; and as FindSessions does.
+/// Stacks tables (at least one) of one component. Keeps the columns that all
+/// have, in the names and units of the first. Letters may differ in case, and
+/// units are converted. A single table is unchanged. Sessions come from the
+/// column that FindSessions finds in each file. If it finds none, a file is a
+/// session, even with gaps in its time. If two files give a session the same
+/// name, the names get the file's label (FileLabel). If no column has sessions,
+/// kFileColumn does, and files numbered within a day are one session
+/// (SessionsOfFiles). If `selection` names that column, nothing else divides a
+/// file. Throws InputError if units contradict, or if a column `error*` or one
+/// that `selection` names is missing in a file. Otherwise throws as
+/// FindSessions does.
 JoinedTable JoinTables(std::vector<CsvTable> tables,
                        const DatasetSelection& selection);
 
-/// JoinTables of the files that `given` names (FindFiles), and the log of
-/// `selection.with` (MergeLog).
+/// Returns JoinTables of the files that `given` names (FindFiles), with the log
+/// of `selection.with` (MergeLog).
 JoinedTable ReadTables(const std::vector<std::string>& given,
                        const DatasetSelection& selection);
 
-/// Rows of another length are left out where rows with missing cells are.
+/// Leaves out rows of the wrong length if rows with missing cells are left out.
 OddRows OddRowsFor(const DatasetSelection& selection);
 
-/// Gives every row of the table `label` in a column kFileColumn, in place of
-/// one that is there.
+/// Sets kFileColumn to `label` in every row of the table, replacing a column of
+/// that name.
 void AddFileColumn(const std::string& label, CsvTable* table);
 
 }  // namespace errmap::data

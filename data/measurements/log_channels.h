@@ -10,7 +10,7 @@
 
 namespace errmap::data {
 
-/// Readings of a log that were taken together.
+/// Readings of a log that were taken at the same times.
 struct LogPart {
   std::vector<Eigen::Index> rows;
   struct Column {
@@ -20,11 +20,12 @@ struct LogPart {
   std::vector<Column> columns;
 };
 
-/// What a log has besides its times: one part with all rows; of a log with a
-/// row for each channel and moment (time, channel, value) a part for each
-/// channel, named by it and by the unit of the values. Times, dates and running
-/// numbers are no readings. `time` (rows of the log), `known`: false where it
-/// is missing, `clock`: the columns that it was read from.
+/// Returns the columns of a log other than its times, as one part with all
+/// rows. A log with a row for each channel and time (time, channel, value)
+/// gives a part for each channel, with the channel's name and the unit of the
+/// values. Times, dates and running numbers are not readings. `time` (rows of
+/// the log); `known`: false if it is missing; `clock`: the columns from which
+/// it was read.
 std::vector<LogPart> PartsOfLog(const CsvTable& log,
                                 const Eigen::VectorXd& time,
                                 const std::vector<bool>& known,

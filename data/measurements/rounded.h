@@ -4,7 +4,7 @@
 
 namespace errmap::data {
 
-/// To three digits, from 100 to a million to the next whole number.
+/// Rounds to three digits, and from 100 to a million to the next whole number.
 std::string Rounded(double value);
 
 }  // namespace errmap::data

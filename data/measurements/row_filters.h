@@ -7,8 +7,8 @@
 
 namespace errmap::data {
 
-/// The filter that keeps rows of one direction of motion, by its column
-/// ("direction", "approach") or its word; null where there is none.
+/// Returns the filter that keeps rows of one direction of motion, by its column
+/// ("direction", "approach") or its word; null if there is none.
 const ColumnFilter* DirectionFilter(std::span<const ColumnFilter> filters);
 
 /// "direction down and tool 3"; "" for none.

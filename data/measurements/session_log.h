@@ -13,18 +13,18 @@
 
 namespace errmap::data {
 
-/// Gives `parts` a log of `log_rows` (n, ascending rows of the table), of which
-/// its own rows are some, with the sessions (n) that were `found`. Where its
-/// rows are all of them, its input values become the log's. Else cells of
-/// `blanked` are NaN in the log.
+/// Gives `parts` a log of `log_rows` (n, ascending rows of the table), which
+/// include its own rows, with the sessions (n) `found`. If its rows are all of
+/// them, its input values become the log's. Otherwise cells of `blanked` are
+/// NaN in the log.
 void TakeLog(const CsvTable& table,
              const std::vector<Eigen::Index>& log_rows,
              std::span<const ColumnFault> blanked,
              FoundSessions found,
              Dataset::Parts* parts);
 
-/// Takes the first value kept of each session off the target (kFirst); `parts`
-/// has a log. Returns the remark on it.
+/// Subtracts from the target the first value kept of each session (kFirst);
+/// `parts` has a log. Returns the remark on it.
 std::string AlignTarget(Dataset::Parts* parts);
 
 }  // namespace errmap::data

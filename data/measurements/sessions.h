@@ -26,25 +26,26 @@ bool NamesTime(std::string_view name);  // by one of these
 /// A time step of more than this many median steps is a break.
 inline constexpr double kLeapSteps = 20.0;
 
-/// Where runs of equal codes begin.
+/// Returns the starts of runs of equal codes.
 std::vector<Eigen::Index> RunStarts(const std::vector<Eigen::Index>& codes);
 
 /// Returns the median of the steps above 0 (the lower of two), infinite if
 /// there is none.
 double MedianStep(std::vector<double> steps);
-/// The same for the steps of `time`; and the number of times that go back.
+/// Returns the same for the steps of `time`, and the number of times that go
+/// back.
 double MedianStepOf(const Eigen::VectorXd& time);
 Eigen::Index TimesBack(const Eigen::VectorXd& time);
 
 /// A night lasts longer than this, s.
 inline constexpr double kShortestNight = 3.5 * 3600.0;
 
-/// The row at which each session's zero is taken: the first whose inputs (n x
-/// p) are all numbers, measured or not, else its first.
+/// Returns the row at which each session is zeroed: the first whose inputs (n x
+/// p) are all numbers, measured or not, else its first row.
 std::vector<Eigen::Index> FirstRows(const Grouping& sessions,
                                     const Eigen::MatrixXd& input_values);
 
-/// The sessions and times of the rows asked for (n).
+/// The sessions and times of the requested rows (n).
 struct FoundSessions {
   Grouping sessions;  // (n) column "" where cut by time, or one run
   Eigen::VectorXd time;
@@ -84,7 +85,7 @@ FoundSessions FindSessions(const CsvTable& table,
                            const DatasetSelection& selection,
                            const std::vector<Eigen::Index>& rows);
 
-/// What separates sessions besides columns with such names.
+/// How sessions are separated other than by columns with such names.
 struct SessionClues {
   Clock clock;
   Nights nights;

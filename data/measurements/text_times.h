@@ -8,10 +8,10 @@
 
 namespace errmap::data {
 
-/// What the texts of a column say of time.
+/// The times in the texts of a column.
 struct TextTimes {
-  /// Of each of the column's texts, from 1970 or from midnight; nothing where
-  /// it is no time.
+  /// The time of each of the column's texts, from 1970 or from midnight;
+  /// nothing if it is not a time.
   std::vector<std::optional<double>> seconds;
   bool all = true;         // each that is not missing is a date or a time
   bool any = false;        // one of them is
@@ -20,24 +20,24 @@ struct TextTimes {
   bool in_halves = false;  // by AM and PM
   bool by_order = false;   // another order reads some of them otherwise
   bool elapsed = false;    // hours that go on over 24, or days and hours
-  /// "day/month/year", the order taken, where another reads other dates.
+  /// "day/month/year", the order used, if another order would give other dates.
   std::string order;
 };
 
-/// Reads them by ParseDateTime. "03/04/2024" may be in March or in April: the
-/// order is the one that makes all of them dates, else the one that goes back
-/// in time less often down the rows, else the one by which the file lasts less
-/// long, else the month with AM and PM, else the day. "27:35" is 27 min and 35
-/// s where the name says mm:ss, or some are of 24 and more.
+/// Reads texts by ParseDateTime. "03/04/2024" may be in March or in April. The
+/// order is chosen by these rules in turn: all texts are dates; time goes back
+/// less often down the rows; the file spans less time; the month first with AM
+/// and PM, else the day. "27:35" is 27 min and 35 s if the name says mm:ss, or
+/// some values are 24 or more.
 TextTimes ReadTimes(const CsvColumn& column);
 
-/// Throws InputError, with the place and the form that works, where a column
-/// that is called a time or a date looks like times by most of its cells and
-/// one of them is none that ParseDateTime reads.
+/// Throws InputError, with the place and a form that works, if a column named
+/// as a time or a date has times in most cells, but one that ParseDateTime
+/// cannot read.
 void RefuseUnreadTimes(const CsvTable& table);
 
-/// Whether a column holds times or dates in words and figures, and nothing else
-/// but missing cells; dates without hours.
+/// True if a column holds only times or dates in words and figures, and missing
+/// cells. The second function: dates without hours.
 bool HoldsTimes(const CsvColumn& column);
 bool HoldsDates(const CsvColumn& column);
 

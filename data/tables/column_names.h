@@ -8,15 +8,15 @@
 
 namespace errmap::data {
 
-/// The columns of a table, without cells yet.
+/// The columns of a table, still without cells.
 struct NamedColumns {
   std::vector<CsvColumn> columns;
   std::size_t num_named = 0;       // columns up to the last with a name
   std::vector<std::string> again;  // quoted: new names of those named twice
 };
 
-/// Columns of these names. An empty one is "column_3" by its number, a name
-/// that is there already "x_2". Where all are empty, the numbers are the names.
+/// Makes columns of these names. An empty name becomes "column_3" by its
+/// number, a repeated name "x_2". If all are empty, the numbers are the names.
 NamedColumns NameColumns(const std::vector<std::string>& names);
 
 }  // namespace errmap::data

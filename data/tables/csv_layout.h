@@ -9,11 +9,12 @@
 
 namespace errmap::data {
 
-/// Where in a file its table stands, and what its columns are called.
+/// The place of the table in a file, and the names of its columns.
 struct CsvLayout {
-  /// (columns) As written; "" where a column has no name.
+  /// (columns) As written; "" if a column has no name.
   std::vector<std::string> names;
-  /// Cells of a row; less than the columns where no row reaches the last ones.
+  /// Cells of a row; less than the number of columns if no row reaches the last
+  /// ones.
   std::size_t width = 0;
   std::size_t num_names = 0;         // columns that the line of names has
   std::size_t header_line = 0;       // 0: there are no names
@@ -22,14 +23,12 @@ struct CsvLayout {
   std::vector<std::string> remarks;  // one line each, for people
 };
 
-/// The layout of the table from the cursor on, which stands at the first row
-/// that is no comment.
-///
-/// The first row of the table is the first that has numbers where most rows
-/// below have them. Its names are the nearest line above of the same number of
-/// cells, none of them a number there; else such a comment; else there are
-/// none. What stands further up are titles. Units below names stay to be read.
-/// `text_above` is the file's text down to the cursor.
+/// Returns the layout of the table from the cursor, which is at the first row
+/// that is not a comment. The first row of the table is the first with numbers
+/// where most rows below have them. The names are in the nearest line above
+/// with as many cells, none of them a number there, else in such a comment,
+/// else there are none. Lines further up are titles. Units below the names are
+/// read later. `text_above` is the file's text up to the cursor.
 CsvLayout FindLayout(const CsvCells& cells,
                      const CsvDialect& dialect,
                      std::string_view text_above);

@@ -7,9 +7,9 @@
 
 namespace errmap::data {
 
-/// A table of plain text, as ParseCsv reads it, before its shape is looked at.
-/// `delimiter`: what parts the cells, or CsvCells::kNoDelimiter where the rows
-/// have to tell. `name` stands for the file in messages.
+/// Reads a table of plain text, as ParseCsv does before its shape is examined.
+/// `delimiter` separates the cells; CsvCells::kNoDelimiter: found from the
+/// rows. `name` stands for the file in messages.
 CsvTable ParseText(std::string_view text,
                    const std::string& name,
                    char delimiter,

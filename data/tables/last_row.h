@@ -11,23 +11,22 @@ namespace errmap::data {
 // What the row is that a table ends in: its cells stand at the end of the
 // columns, and table.num_rows does not count it yet.
 
-/// Whether its only cell is a remark: words, and no time.
+/// True if its only cell is a remark: words, and not a time.
 bool IsRemark(const CsvTable& table);
-/// Of a row without numbers, of so many cells: whether all are empty.
+/// For a row without numbers, with this many cells: true if all are empty.
 bool IsEmptyRow(const CsvTable& table, std::size_t cells);
-/// Of a row of words of so many cells: whether all but the first are empty, and
-/// numbers stood there so far.
+/// For a row of words with this many cells: true if all but the first are
+/// empty, in columns that held numbers so far.
 bool HoldsRemarkAlone(const CsvTable& table, std::size_t cells);
-/// Whether its cells, fewer than a row has, may be totals below the rows
-/// ("Mean,2.31"): a name where numbers stood so far.
+/// True if its cells, fewer than a row has, may be totals below the rows
+/// ("Mean,2.31"): a name in a column that held numbers so far.
 bool AreTotals(const CsvTable& table);
-/// Of a row of words: whether it repeats these names; never where there are
-/// none.
+/// For a row of words: true if it repeats these names; never if there are none.
 bool RepeatsNames(const CsvTable& table, std::span<const std::string> names);
-/// Of a row of words: whether it has units.
+/// For a row of words: true if it has units.
 bool HasUnits(const CsvTable& table, std::size_t width);
-/// Of a row of words of so many cells: whether they stand where numbers stood
-/// so far, in half of those columns.
+/// For a row of words with this many cells: true if they are in half of the
+/// columns that held numbers so far.
 bool HasWordsForNumbers(const CsvTable& table, std::size_t cells);
 
 }  // namespace errmap::data

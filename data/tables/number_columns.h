@@ -9,19 +9,18 @@
 
 namespace errmap::data {
 
-/// Of some of a row's cells: how many are numbers, and words that stand for
-/// none.
+/// Counts over some cells of a row: numbers, and words for missing ones.
 struct CellCounts {
   std::size_t numbers = 0;
   std::size_t words = 0;
 };
 
-/// Which columns of a file's first records hold numbers, and what a row has
-/// there. A number may stand behind a label that all cells of its column have
+/// The columns of a file's first records that hold numbers, and what a row has
+/// there. A number may follow a label that all cells of its column have
 /// ("T1=21.4").
 class NumberColumns {
  public:
-  /// Of the records of `width` cells, the usual number.
+  /// Uses the records of `width` cells, the usual number.
   NumberColumns(const std::vector<CsvRecord>& records,
                 std::size_t width,
                 const CsvDialect& dialect);
@@ -30,13 +29,13 @@ class NumberColumns {
   std::size_t count() const { return count_; }
   bool Holds(std::size_t column) const { return is_number_[column]; }
 
-  /// In the columns of numbers.
+  /// Counts over the columns of numbers.
   CellCounts CountsOf(const std::vector<std::string>& cells) const;
-  /// Whether a line may be that of names: none is a number where the rows have
-  /// them. A separator at the rows' ends, or columns that no row reaches, make
-  /// it shorter by one, or longer.
+  /// True if a line may be that of names: it has no number where the rows have
+  /// them. A separator at the rows' ends, or columns that no row reaches, may
+  /// make it shorter or longer by one.
   bool MayBeNames(const std::vector<std::string>& cells) const;
-  /// Whether a line has units for most columns of numbers.
+  /// True if a line has units for most columns of numbers.
   bool AreUnits(const std::vector<std::string>& cells) const;
 
  private:

@@ -12,11 +12,11 @@ namespace errmap::data {
 /// "1 field", "3 fields".
 std::string FieldsText(std::size_t count);
 
-/// The lines of a file that are no rows of its table: rows that have another
-/// number of cells than its header, blank lines between rows, names again.
+/// The lines of a file that are not rows of its table: rows with another number
+/// of cells than the header, blank lines between rows, repeated names.
 class OddRowList {
  public:
-  /// A line of so many cells, where the table has `num_rows` rows so far.
+  /// Records a line with this many cells; the table has `num_rows` rows so far.
   void Add(std::size_t line, std::size_t cells, std::size_t num_rows);
   bool empty() const { return runs_.empty(); }
   void AddBlank() { ++blank_; }
@@ -25,13 +25,14 @@ class OddRowList {
   /// A line of words in one cell.
   void AddWords(const std::string& text) { words_.push_back(text); }
 
-  /// What is said of blank lines and of names between the rows.
+  /// Remarks on blank lines and on repeated names between the rows.
   std::vector<std::string> PassedOver() const;
 
   /// "2 rows are left out for another number of cells than the header's 3:
   /// line 8 has 2, line 9 has 4".
   std::string LeftOutText(const CsvLayout& layout) const;
-  /// What they are and what to do; `num_rows` are those that are whole.
+  /// Says what these lines are and what to do. `num_rows` is the number of
+  /// complete rows.
   std::string RefusalText(const CsvLayout& layout,
                           std::size_t num_rows,
                           OddRows odd,

@@ -13,8 +13,8 @@
 
 namespace errmap::data {
 
-/// Adds rows to the columns of a table cell by cell, and takes back what turns
-/// out to be no row. A row becomes one by End.
+/// Adds rows to the columns of a table cell by cell, and removes cells that
+/// turn out not to be a row. End completes a row.
 class RowBuilder {
  public:
   /// `table`, with its columns and without rows, must outlive this.
@@ -23,23 +23,23 @@ class RowBuilder {
         texts_(table->columns.size()),
         shapes_(table->columns.size()) {}
 
-  /// A number as it is written: plain, or with marks between its thousands
-  /// where its column has them (PartThousands).
+  /// Adds a number as written: plain, or with thousands separators if its
+  /// column has them (PartThousands).
   void AddNumber(std::size_t column,
                  std::string_view text,
                  const NumberForm& form);
-  /// A number that was read from a text of another form.
+  /// Adds a number that was read from text of another form.
   void AddValue(std::size_t column, const NumberForm& form);
   void AddText(std::size_t column, std::string_view text);
-  /// The row of these cells is whole and began on this line.
+  /// Completes the row of these cells, which began on this line.
   void End(std::size_t line);
-  /// Takes back the first `cells` of the row that was begun.
+  /// Removes the first `cells` of the row that was begun.
   void Undo(std::size_t cells);
 
-  /// Whether the rows have to be read again, and takes them back: there are
-  /// columns with marks between thousands.
+  /// Returns true, and removes all rows, if they must be read again because
+  /// columns have thousands separators.
   bool PartThousands(const std::function<void(const std::string&)>& say);
-  /// Drops what only rows that were taken back had.
+  /// Drops texts that only removed rows had.
   void DropTextsOfUndone();
 
  private:

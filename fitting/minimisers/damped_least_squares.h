@@ -22,9 +22,9 @@ class DampedLeastSquares {
   /// True if cost and gradient are finite, so that steps may be computed.
   bool is_finite() const;
 
-  /// Called once the run accepts x: D grows by its columns. Until then D
-  /// is that of the starting point of the step, so both are measured
-  /// alike.
+  /// Called once the run accepts x: D grows by its columns. Until then D is
+  /// that of the starting point of the step, so both are measured in the same
+  /// way.
   virtual void Settle() {}
 
   /// Computes the step (n) for a damping; false if rounding leaves none.

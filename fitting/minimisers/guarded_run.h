@@ -39,7 +39,8 @@ class GuardedRun {
   /// Returns false if the limits forbid it; the run has then ended.
   bool Spend();
 
-  /// Those of the last Evaluate that returned true, or of the start.
+  /// Value and gradient of the last Evaluate that returned true, or of the
+  /// start.
   double cost() const { return cost_; }
   const VectorXd& x() const { return x_; }
   const VectorXd& gradient() const { return gradient_; }

@@ -13,9 +13,9 @@ namespace errmap::models {
 /// its best penalty, and a net if requested). Weights are error^-p from inner
 /// hold-outs of the training rows only. Unless an input only grows, these
 /// weights are averaged with those of a blend of straight lines. The power p is
-/// the number of groups held out, at most 8 (their likelihood if each were one
-/// error), or of sessions minus one (3 to 7). To choose one of several
-/// near-equals is a gamble; to average them is not.
+/// the number of groups held out, at most 8 (the likelihood, if each were one
+/// error), or the number of sessions minus one (3 to 7). To choose one of
+/// several near-equals is a gamble; to average them is not.
 struct BlendOptions {
   /// Adds NetInViews in its views, unless an input only grows. Its figures
   /// depend on the processor.

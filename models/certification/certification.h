@@ -155,8 +155,9 @@ void CertifyAgreement(Certification* certification);
 /// Adds a row: the gradient of `f` at x (n) against Ridders extrapolation.
 /// Checks the Jacobian of its residuals, if any, along random combinations.
 /// Components are multiplied by their parameter's size; those below 1e-3 of the
-/// largest are judged by that limit. `gradient_size`: the largest at a typical
-/// point, for a minimum, where the gradient vanishes; 0: the largest at x.
+/// largest are judged by that limit. `gradient_size`: the largest component at
+/// a typical point, for use at a minimum, where the gradient vanishes; 0: the
+/// largest at x.
 void CertifyGradient(const std::string& name,
                      const fitting::Objective& f,
                      const VectorXd& x,

@@ -29,19 +29,18 @@ struct ComparisonOptions {
   std::function<void(const FitProgress&)> progress = {};
 };
 
-/// Runs the whole study of one component, as `errmap compare FILE` does.
-/// Reads the CSV file, holds rows out, fits every model, judges them, and
-/// adds the predicted errors to the maps. The component has the file's
-/// name without its ending. MakeComponentRecord or report::MakeRecord
-/// turns it into results.json. Throws data::InputError if the data cannot
-/// be used, std::invalid_argument if a SPEC is wrong or the data do not
-/// allow it.
+/// Runs the whole study of one component, as `errmap compare FILE` does. Reads
+/// the CSV file, holds rows out, fits every model, judges them, and adds the
+/// predicted errors to the maps. The component has the file's name without its
+/// extension. MakeComponentRecord or report::MakeRecord turns it into
+/// results.json. Throws data::InputError if the data cannot be used,
+/// std::invalid_argument if a SPEC is wrong or the data do not allow it.
 ComponentStudy CompareMaps(const std::string& file,
                            const data::DatasetSelection& selection,
                            const ComparisonOptions& options);
 
-/// The same for measurements in memory; a caller may add recipes.
-/// The data set's source becomes the component's name. A map may be tested on a
+/// Runs the study for measurements in memory; a caller may add recipes. The
+/// data set's source becomes the component's name. A map may be tested on a
 /// file (`file:TEST.csv`) that has the data set's columns.
 ComponentStudy CompareMaps(const data::Dataset& dataset,
                            const ComparisonOptions& options,

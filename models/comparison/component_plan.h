@@ -42,10 +42,10 @@ ComponentPlan PlanModels(ComponentStudy component,
                          OwnRecipes own = {});
 
 /// Fits the planned models, judges them and adds the predicted errors to the
-/// maps. For the recommended map it also finds the sensors it needs, and the
-/// value of another session. Everything goes into plan->comparison, or what was
-/// finished if options.stop ended the run. Keeps the maps fitted to folds
-/// (FoldResult::map) if `keep_fold_maps` is set.
+/// maps. For the recommended map, also finds the sensors that it needs and the
+/// value of another session. The results go into plan->comparison; if
+/// options.stop ended the run, those finished by then. Keeps the maps fitted to
+/// folds (FoldResult::map) if `keep_fold_maps` is set.
 void RunComponent(ComponentPlan* plan,
                   StudyOptions options,
                   bool keep_fold_maps = false);

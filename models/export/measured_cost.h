@@ -15,7 +15,7 @@ struct MeasuredCost {
   // CPU time, which excludes other programs.
   /// Time of one step within many consecutive steps.
   double median_ns = 0.0;
-  /// Quantile 99.9 % and maximum of 100 000 steps timed one by one, less the
+  /// Quantile 99.9 % and maximum of 100 000 steps timed one by one, minus the
   /// time to read the clock. The maximum is mostly due to this system's
   /// interrupts, which count as the program's time.
   double high_ns = 0.0;

@@ -70,9 +70,8 @@ class ModelJsonNode {
   const std::string& source_;
 };
 
-/// Adds the model's form to its file under one key, named by the kind of
-/// form, that ReadForm knows. Throws data::InputError if the model has no
-/// formula.
+/// Adds the model's form to its file under one key that ReadForm knows, named
+/// after the kind of form. Throws data::InputError if the model has no formula.
 void WriteForm(const ErrorModel& model,
                const std::string& equation,
                ModelJson* document);

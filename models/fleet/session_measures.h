@@ -10,18 +10,19 @@
 
 namespace errmap::models {
 
-/// A session and which rows of the data set are its own, in their order.
+/// A session and the rows of the data set that belong to it, in their order.
 struct MeasuredSession {
   WatchedSession session;
   std::vector<Index> rows;
 };
 
-/// Why new sessions cannot be held against what the map promises; "" where they
-/// can: its errors in three sessions or more that it never saw are known.
+/// Says why new sessions cannot be compared with the map's promise; "" if they
+/// can. They can if the map's errors are known in at least three sessions that
+/// it never saw.
 std::string WhyNotWatched(const FittedModel& fitted);
 
-/// Each session of `rows` as the map does in it. `relations` (null: not known)
-/// tell of the sensors where the table has all of them.
+/// Returns the map's results in each session of `rows`. `relations` (null:
+/// unknown) describe the sensors; they are used if the table has all of them.
 std::vector<MeasuredSession> MeasureSessions(const FittedModel& fitted,
                                              const MapRows& rows,
                                              const SensorRelations* relations);

@@ -23,7 +23,7 @@ enum class Filter {
 std::string_view ToString(Filter filter);
 /// Returns true if it runs in time, by a time constant.
 bool RunsInTime(Filter filter);
-/// Returns true if it remembers anything of its session.
+/// Returns true if it depends on earlier rows of its session.
 bool Remembers(Filter filter);
 
 /// Assumed course of an input from one reading to the next.
@@ -94,10 +94,10 @@ struct History {
   /// three times the shortest time constant if that is more. Infinity if
   /// unknown or nothing is filtered.
   double longest_bridged() const;
-  /// Returns the time after which filters have forgotten a start in the middle
-  /// of a session, where they began in a steady state. It is kSettledTaus times
-  /// the longest time constant; those of filters of filters add up. Infinity if
-  /// an input is zeroed, since the zero was taken elsewhere; 0 if nothing is
+  /// Returns the time after which filters that began in a steady state have
+  /// forgotten a start in the middle of a session. It is kSettledTaus times the
+  /// longest time constant; those of filters of filters add up. Infinity if an
+  /// input is zeroed, since the zero was taken elsewhere; 0 if nothing is
   /// remembered.
   double settles_after() const;
   /// Returns true if any filter runs in time.

@@ -14,7 +14,7 @@
 
 namespace errmap::models {
 
-/// What is known of the files that a map is used on.
+/// How to read the files on which a map is used.
 struct MapDataArguments {
   std::string after;       // file of earlier rows
   bool from_rest = false;  // true: sessions begin where the rows do
@@ -31,12 +31,14 @@ data::FoundSessions FindSessionsFor(const History& history,
                                     const data::CsvTable& table,
                                     const MapDataArguments& arguments);
 
-/// The column of the ways, "up" and "down", that ReadForMap adds to a table
-/// whose rows go another way than the map is made for, or call it otherwise.
+/// The column of directions, "up" and "down", that ReadForMap adds to a table.
+/// It does so if the rows move in another direction than the map is made for,
+/// or call it by another name.
 inline constexpr const char* kWayColumn = "direction of motion";
 
-/// Returns the way along the axis that the map is made for: that of its filter,
-/// else that of all its training rows. Nothing if these went both ways.
+/// Returns the direction along the axis that the map is made for: that of its
+/// filter, else that of all its training rows. Nothing if these moved in both
+/// directions.
 std::optional<std::string> WayOf(const FittedModel& fitted);
 
 /// Returns the filters for the rows that the map is made for, as far as the
@@ -44,7 +46,8 @@ std::optional<std::string> WayOf(const FittedModel& fitted);
 std::vector<data::ColumnFilter> FiltersFor(const FittedModel& fitted,
                                            const data::CsvTable& table);
 
-/// Whether the map is made for each row of the table, as far as that can tell.
+/// Returns, for each row of the table, true if the map is made for it, as far
+/// as known.
 std::vector<bool> RowsMadeFor(const FittedModel& fitted,
                               const data::CsvTable& table);
 

@@ -13,7 +13,7 @@
 
 namespace errmap::models {
 
-/// Form of the inputs that a map reads. Positions stay as they are in each.
+/// Form of the inputs that a map reads. Positions are unchanged in all of them.
 enum class View {
   kRaw,             // as measured
   kHistory,         // and passed through first-order filters

@@ -12,7 +12,8 @@ namespace errmap::models {
 /// without `view` reads its inputs as measured; the others are then only
 /// checked.
 const OptionList<std::optional<ViewOptions>>& ViewOptionList();
-/// The option clip of all families that may extrapolate: a member so named.
+/// The option clip of all families that may extrapolate, for their member
+/// `clip`.
 template <typename Options>
 Option<Options> ClipOption() {
   return OptionFor("clip",

@@ -74,10 +74,10 @@ PositioningFigures PositioningFiguresOf(
 /// more than half the travel, a sweep begins, and the step after decides.
 std::vector<bool> ApproachedUpwards(const VectorXd& positions);
 
-/// The test of positions along a diagonal, from runs both ways. The name has
-/// the signs of X, Y and Z along it: "ppp", or "p0n" if Y does not move.
-/// `points` (n x 3) are nominal, `errors` (n x 3) were measured there, and
-/// `upwards` is true for rows that ran in the direction of the signs. Its
+/// The test of positions along a diagonal, from runs in both directions. The
+/// name has the signs of X, Y and Z along it: "ppp", or "p0n" if Y does not
+/// move. `points` (n x 3) are nominal, `errors` (n x 3) were measured there,
+/// and `upwards` is true for rows that ran in the direction of the signs. Its
 /// figures are those of ISO 230-6:2002, clause 5. Throws std::invalid_argument
 /// if the name is not a diagonal, the sizes do not agree or the points have no
 /// length along it.

@@ -85,8 +85,8 @@ class KinematicChain {
 
   /// Returns the derivatives (3 x errors) of ExactError at errors of 0. For a
   /// length this is its unit vector, for an angle its rotation axis times the
-  /// arm; both are negative on the work's branch. Times the errors they give
-  /// ExactError to first order (section 3.1).
+  /// arm; both are negative on the work's branch. Multiplied by the errors,
+  /// they give ExactError to first order (section 3.1).
   Eigen::Matrix3Xd Sensitivities(const VectorXd& coordinates) const;
 
  private:

@@ -69,7 +69,7 @@ struct LearningRecord {
   std::optional<LearningCurvesRecord> curves;
   std::optional<SensorCurve> sensors;
   std::optional<std::vector<NextState>> next;
-  /// Read back only in part: what a reader needs.
+  /// Only the parts that readers need are read back.
   LeftOut<LearningSourceRecord> provenance;
 };
 

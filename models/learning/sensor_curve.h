@@ -26,8 +26,8 @@ struct SensorCurve {
     std::string sensor;
     double stability = stats::kNaN;  // share of outer folds that also choose it
     /// Rise of the held-out error if the best of all others replaces it.
-    /// Sensors that read alike replace each other at no cost. NaN if there is
-    /// no other.
+    /// Sensors with similar readings can replace each other at no cost. NaN if
+    /// there is no other.
     double replaced_cost = stats::kNaN;
     /// Sensors that could replace it for at most kTolerance times the error,
     /// the most similar first.

@@ -37,7 +37,8 @@ VectorXd InitialWeights(const NetShape& shape, std::uint64_t seed);
 MatrixXd FirstLayer(const NetShape& shape, const VectorXd& w);
 MatrixXd SecondLayer(const NetShape& shape, const VectorXd& w);
 
-/// Returns the net with weights w (N), trained on inputs and targets so scaled.
+/// Returns the net with weights w (N), trained on inputs and targets with that
+/// scaling.
 NetForm FormOfWeights(const NetShape& shape,
                       const VectorXd& w,
                       const ColumnScaling& inputs,

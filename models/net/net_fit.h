@@ -171,7 +171,7 @@ struct TunedNet {
   std::vector<TunedValue> chosen;  // hidden, wfactor, iterations
 };
 
-/// Returns the numbers of hidden nodes that hidden=cv tries for a fit of so
+/// Returns the numbers of hidden nodes that hidden=cv tries for a fit of this
 /// many rows: 5, 10, 20, 40 and 60, those above 5 only with at least 4 rows per
 /// node. (P - 1 nodes can reproduce any P targets.)
 std::vector<std::int64_t> HiddenToTry(Index rows);
@@ -188,14 +188,14 @@ std::pair<std::int64_t, double> FewestGoodNodes(
 /// wfactor: goes down WfactorPath until three more values (whole decades: two)
 /// bring no lower error, or a rival is out of reach; of equal errors takes the
 /// larger. Along the path a fit continues the last, so all of them cost little
-/// more than one. Else each starts anew and trains briefly, whole decades
-/// first, then the half decades beside the best. The choice is then also
-/// trained in full, and the iterations with the lower error are taken (early
-/// stopping). Hidden nodes: the fewest of HiddenToTry whose error is at most 5
-/// % above the least, about the effect of another start. Both: wfactor with the
-/// design's nodes (or the most below them that are tried), then the nodes with
-/// that wfactor, then, if their number changed, the wfactor again; the
-/// iterations last. Throws std::invalid_argument if none could be judged.
+/// more than one. Otherwise each fit starts again and trains briefly, whole
+/// decades first, then the half decades beside the best. The choice is then
+/// also trained in full, and the iterations with the lower error are taken
+/// (early stopping). Hidden nodes: the fewest of HiddenToTry whose error is at
+/// most 5 % above the least, about the effect of another start. Both: wfactor
+/// with the design's nodes (or the most below them that are tried), then the
+/// nodes with that wfactor, then, if their number changed, the wfactor again;
+/// the iterations last. Throws std::invalid_argument if none could be judged.
 TunedNet TuneNet(const NetDesign& design,
                  const NetTuning& tuning,
                  const NetTrainers& trainers,

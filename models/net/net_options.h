@@ -31,7 +31,7 @@ class GivenOrByCv {
   constexpr GivenOrByCv(ByCrossValidation /*by_cv*/) {}
 
   constexpr bool by_cv() const { return !value_.has_value(); }
-  /// Makes one that is given.
+  /// Returns the number, which must be given.
   constexpr explicit operator Value() const { return *value_; }
   bool operator==(const GivenOrByCv&) const = default;
 
@@ -93,7 +93,7 @@ using NetMethod = std::variant<ScgTraining,
                                CeresTraining,
                                NloptTraining>;
 
-/// What wfactor shrinks towards 0.
+/// Parameters that wfactor shrinks towards 0.
 enum class Decay {
   kAll,      // every weight and bias, as in the report
   kWeights,  // no bias: an offset of the inputs costs nothing

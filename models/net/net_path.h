@@ -16,8 +16,8 @@ namespace errmap::models {
 /// weights from time to time, before rounding errors accumulate.
 ///
 /// To save cache, hidden outputs have one place, also for trials, and are
-/// recomputed if the point itself is needed after one. S takes a step only when
-/// T is at hand anyway.
+/// recomputed if the point itself is needed after one. S is updated only when T
+/// is available anyway.
 template <typename Scalar>
 class NetPath final : public fitting::Path<Scalar> {
  public:

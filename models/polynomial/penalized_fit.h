@@ -222,7 +222,7 @@ struct BasisCandidate {
 };
 
 /// Returns every penalty over every basis of `options` that these rows allow,
-/// in a fixed order; takes from context.shared what is there. Throws
+/// in a fixed order; takes available ones from context.shared. Throws
 /// std::invalid_argument if no basis is possible.
 std::vector<BasisCandidate> JudgeBases(
     const data::Dataset& training,

@@ -31,7 +31,7 @@ StateMeasures MeasureStates(const Applicability& trained,
 std::optional<Applicability> MakeApplicability(const FittedModel& fitted,
                                                const data::Dataset& training);
 
-/// Why a row is outside of the training data.
+/// The reason why a row is outside the training data.
 enum class Outside {
   kNo,
   kRange,     // a column or derived input leaves its range by
@@ -64,7 +64,7 @@ std::vector<RowFlag> FlagRows(const FittedModel& fitted,
                               const Eigen::MatrixXd& form_inputs);
 
 /// Returns, for each held-out row in the order of the folds, true if it is
-/// inside of its fold's training data.
+/// inside its fold's training data.
 std::vector<bool> InsideOfFolds(const FittedModel& fitted,
                                 const data::Dataset& dataset,
                                 const Holdout& holdout);

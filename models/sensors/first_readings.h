@@ -7,8 +7,8 @@
 
 namespace errmap::models {
 
-/// How likely the first readings of a session are. Near rest sensors differ by
-/// little, but always alike, so they tell more there than later.
+/// How likely the first readings of a session are. Near rest, sensors differ
+/// little and always in the same way, so they tell more there than later.
 ///
 /// There are two hypotheses: a start like those of training or, if a log begins
 /// later or a day begins otherwise, any row of training. Under each the scaled
@@ -20,12 +20,12 @@ class FirstReadings {
   /// `fitted` has applicability->sessions->starts.
   explicit FirstReadings(const FittedModel& fitted);
 
-  /// Returns by how much a column is higher than the others tell at a start;
-  /// its unit, as those of `readings` (s).
+  /// Returns by how much a column exceeds its prediction from the others at a
+  /// start, in its own unit. `readings` (s) are in theirs.
   double Shift(const Eigen::VectorXd& readings, Eigen::Index column) const;
 
-  /// Returns the log of the density, but for a constant. The column `shifted`,
-  /// if any, may stand anywhere.
+  /// Returns the log of the density, up to a constant. The column `shifted`, if
+  /// any, may have any value.
   double LogDensity(const Eigen::VectorXd& readings,
                     Eigen::Index shifted = -1) const;
 

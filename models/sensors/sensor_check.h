@@ -12,7 +12,7 @@
 
 namespace errmap::models {
 
-/// What is wrong with a sensor that a map reads.
+/// The fault of a sensor that a map reads.
 enum class SensorFault {
   kUnit,     // its values suit another unit
   kDead,     // one impossible reading throughout, or none at all

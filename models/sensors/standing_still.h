@@ -9,21 +9,23 @@
 
 namespace errmap::models {
 
-/// From the rows of training, session by session in their order; `columns` (s)
-/// are inputs of it. Thermometers are watched that moved as others did. Such a
-/// column is given three times what the others moved while it held a value
-/// there, what moves it by five steps of its resolution, and 0.05 at least: of
-/// healthy sensors in steps of 0.01 K those move by 0.004.
+/// Learns the limits from the training rows, session by session in their order;
+/// `columns` (s) are inputs. Watches thermometers that moved as the others did.
+/// Such a column may stand still while the others move by the largest of three
+/// limits. One is three times their movement while it held a value in training,
+/// one the movement that changes it by five steps of its resolution, and one is
+/// 0.05. While a healthy sensor with steps of 0.01 K repeats a value, the others
+/// move by at most 0.004.
 ///
-/// A sensor has noise that turns, up or down, in a fifth of the rows or more.
-/// It is quiet for no longer than three times as long as it ever held a value,
-/// ten rows at least. All of them together are silent for no longer than three
-/// times what lay between two turns of any, ten rows at least; without noise
-/// that is as long as a session.
+/// A sensor has noise if it reverses, up or down, in a fifth of the rows or
+/// more. It may be quiet for three times the longest time that it held a value,
+/// at least ten rows. All sensors together may be silent for three times the
+/// longest time without a reversal of any, at least ten rows. Without noise
+/// that is the length of a session.
 ///
-/// In the time of a row it changes by no more than twice what it ever did, and
-/// by 0.05 or five steps at once. What a bench of 20 simulated machines shows:
-/// none hangs or jumps in 288,000 healthy steps, nights among them.
+/// In the time of a row it may change by twice its largest change in training,
+/// plus 0.05 or five steps at once. On 20 simulated machines, no sensor was
+/// flagged in 288,000 healthy steps, including nights.
 StandingStill LearnStandingStill(const data::Dataset& training,
                                  const std::vector<Eigen::Index>& columns);
 

@@ -35,7 +35,7 @@ struct KeptPromise {
   double offset_share = 0.0;   // share of the mean square
   std::optional<ErrorShape> shape;  // empty without a promise
 
-  /// The error without its mean.
+  /// The RMS of the error about its mean.
   double scatter() const {
     return std::sqrt(std::max(0.0, found * found - mean * mean));
   }

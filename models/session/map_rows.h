@@ -15,17 +15,17 @@
 
 namespace errmap::models {
 
-/// "850 of 1700 rows have direction +, for which the map is made"; "" where it
-/// is made for all of them.
+/// "850 of 1700 rows have direction +, for which the map is made"; "" if it is
+/// made for all of them.
 std::string MadeForText(const FittedModel& fitted, const data::CsvTable& table);
 
-/// Which measured rows of a table a map is held against: of those that it is
-/// made for.
+/// Options for the measured rows with which a map is compared, among those that
+/// it is made for.
 struct MapRowsOptions {
   data::MissingPolicy missing = data::MissingPolicy::kError;
   data::FaultPolicy faults = data::FaultPolicy::kKeep;
   MapDataArguments log = {};
-  /// False where the caller knows the rows between: no filters are run.
+  /// False if the caller knows the rows between: no filters are run.
   bool with_memory = true;
 };
 
@@ -33,22 +33,23 @@ struct MapRowsOptions {
 struct MapRows {
   data::CsvTable table;
   data::PreparedDataset prepared;
-  /// The rows with what the map's filters run through.
+  /// The rows with the log through which the map's filters run.
   data::Dataset dataset;
-  /// Before any measured row; the start of a session sooner than readings.
+  /// What is missing before any measured row. The start of a session takes
+  /// precedence over readings.
   Missing missing = Missing::kNothing;
   std::vector<Missing> missing_before;  // (rows of the data set) likewise
   std::vector<std::string> warnings;    // of the map's memory, one line each
 };
 
-/// Of a table that ReadForMap gave. Throws data::InputError as MakeDataset and
-/// MakeMapLog do.
+/// Makes the rows from a table that ReadForMap returned. Throws
+/// data::InputError as MakeDataset and MakeMapLog do.
 MapRows MakeMapRows(const FittedModel& fitted,
                     data::CsvTable table,
                     const MapRowsOptions& options);
 
-/// Session and time of rows of a table, as far as it tells; one session and
-/// time 0 where it does not.
+/// Session and time of rows of a table, as far as known; otherwise one session
+/// and time 0.
 struct MomentsOfRows {
   std::vector<Moment> at;      // a row each
   std::string session_column;  // that names the sessions; "" where none does
@@ -59,15 +60,15 @@ MomentsOfRows MomentsOf(const FittedModel& fitted,
                         const std::vector<Index>& rows,
                         const MapDataArguments& arguments);
 
-/// (rows of the data set) Time since the first row of the session in the
-/// table, or in the rows before it; 0 where there are no times.
+/// (rows of the data set) Time since the first row of the session in the table,
+/// or in earlier rows; 0 if there are no times.
 VectorXd ElapsedSinceStart(const FittedModel& fitted,
                            const MapRows& rows,
                            const MapDataArguments& arguments);
 
-/// (rows of the data set) Positions, as the map's held-out errors have them,
-/// from the table: the map itself need not read them. (0) where the table has
-/// none, or not for every row.
+/// (rows of the data set) Positions from the table, in the unit of the map's
+/// held-out errors, even if the map does not read them. (0) if the table lacks
+/// them, or lacks one in some row.
 VectorXd PositionsOf(const FittedModel& fitted, const MapRows& rows);
 
 }  // namespace errmap::models

@@ -9,22 +9,22 @@
 
 namespace errmap::models {
 
-/// What probes of a session say of the rows that a map predicts.
+/// Corrections from the probes of a session to the rows that a map predicts.
 struct ProbeCorrection {
   Index num_probes = 0;
   OffsetModel model;
   OffsetTrack track;  // of the rows; its offset is to be added, target's unit
 };
 
-/// How the probes' own rows are to be made: without a target they are readings
-/// between probes, and a memory runs through the rows that are predicted, too,
-/// unless `log` has rows before all of them.
+/// Returns the options for the rows of the probes. Rows without a target are
+/// readings between probes. A memory also runs through the predicted rows,
+/// unless `log` has earlier rows.
 MapRowsOptions ProbeRowsOptions(const FittedModel& fitted,
                                 const MapDataArguments& log);
 
-/// For the rows of `today`, each by the probes of its session up to its time;
-/// `probes` are rows made with ProbeRowsOptions. Throws data::InputError where
-/// the tables will not do (MakePointLog).
+/// Returns the corrections of the rows of `today`, each from the probes of its
+/// session up to its time. `probes` are rows made with ProbeRowsOptions. Throws
+/// data::InputError if the tables are unusable (MakePointLog).
 ProbeCorrection CorrectByProbes(const FittedModel& fitted,
                                 const MapRows& probes,
                                 const RowsForMap& today,

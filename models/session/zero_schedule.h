@@ -10,9 +10,9 @@
 
 namespace errmap::models {
 
-/// A map's offset is set anew, by a probe, where
-/// age / time + |change| / temperature reaches 1: of the time since the last
-/// probe and of what a temperature changed since then.
+/// A probe is due, and resets a map's offset, if age / time + |change| /
+/// temperature reaches 1. `age` is the time since the last probe, `change` that
+/// of a temperature since then.
 struct ZeroTrigger {
   double time = std::numeric_limits<double>::infinity();         // s
   double temperature = std::numeric_limits<double>::infinity();  // its unit
@@ -21,10 +21,10 @@ struct ZeroTrigger {
   double Spent(double age, double change) const;
 };
 
-/// What held-out sessions err by where a trigger is kept. A row at which a
-/// probe is due is judged by the old offset, then gives the new one; a
-/// session's first row is a probe. Unlike `compare --rezero` it judges rows
-/// after a gap longer than the interval, too: in use they come before a probe.
+/// Errors in held-out sessions with a given trigger. A row at which a probe is
+/// due is judged by the old offset, then gives the new one. A session's first
+/// row is a probe. Unlike `compare --rezero`, it also judges rows after a gap
+/// longer than the interval, since in use they come before a probe.
 struct ZeroedErrors {
   ZeroTrigger trigger;
   double probes = 0.0;     // a session
@@ -37,12 +37,13 @@ struct ZeroSchedule {
   std::size_t sessions = 0;
   ZeroedErrors none;                 // the map as it is, no probe taken
   std::vector<ZeroedErrors> clocks;  // by rising interval, the last infinite
-  /// The longest of them that serves; nothing where no probe serves as well.
+  /// The longest interval that meets the goal; nothing if no probe is needed.
   std::optional<ZeroedErrors> clock;
   bool no_probe_serves = false;  // 90 % of the errors are within the goal as is
 
-  /// Time and temperature beside that clock. Each session by what the others
-  /// chose, with no more probes on those than the clock takes.
+  /// A trigger by time and temperature beside that clock. Each session is
+  /// judged by the trigger that the others chose, with no more probes on them
+  /// than the clock takes.
   struct Rule {
     ZeroTrigger trigger;      // by all sessions
     double rmse = 0.0;        // of sessions that had no part in it
@@ -52,23 +53,24 @@ struct ZeroSchedule {
   };
   std::optional<Rule> rule;  // nothing without a temperature or a clock
 
-  /// Whether anything keeps 90 % of the errors within the goal.
+  /// True if anything keeps 90 % of the errors within the goal.
   bool serves() const { return no_probe_serves || clock.has_value(); }
-  /// What to keep to: the rule where it is established. Never due where nothing
-  /// is to be kept to.
+  /// Returns the trigger to use: the rule if it is established. Never due if
+  /// none is needed.
   ZeroTrigger advised() const;
 };
 
-/// Whether the map's held-out errors are of whole sessions with times in s.
+/// True if the map's held-out errors are of whole sessions with times in s.
 bool KnowsAges(const FittedModel& fitted);
 
-/// Of such errors. `goal`: target's unit, above 0; NaN: the clocks alone.
-/// Throws std::invalid_argument where fewer than two sessions have two rows.
+/// Makes the schedule from such errors. `goal`: target's unit, above 0; NaN:
+/// the clocks alone. Throws std::invalid_argument where fewer than two sessions
+/// have two rows.
 ZeroSchedule ScheduleZeros(const HeldOutErrors& errors, double goal);
 
-/// The temperature (n x columns) whose changes go best with those of the
-/// residuals (n) of the same session, -1: none. `sessions`: the rows of each in
-/// order of time.
+/// Returns the temperature (n x columns) whose changes correlate best with
+/// those of the residuals (n) of the same session; -1: none. `sessions`: the
+/// rows of each in order of time.
 Index TellingTemperature(const MatrixXd& temperatures,
                          const VectorXd& residuals,
                          const std::vector<std::vector<Index>>& sessions);

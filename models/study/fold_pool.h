@@ -30,7 +30,7 @@ FoldOutcome JudgeFold(const data::Dataset& dataset,
                       std::size_t fold,
                       FitOutcome outcome);
 
-/// Comparisons use mean squares. Those of larger errors overflow when summed
+/// Comparisons use mean squares. Squares of larger errors overflow when summed
 /// over many rows.
 inline constexpr double kLargestRmse = 1e150;
 

@@ -14,7 +14,7 @@ enum class NoiseLearning { kUnknown, kLittle, kSome, kMuch };
 /// "unknown", "little", "some", "much".
 std::string_view ToString(NoiseLearning learning);
 
-/// Tells if a model can memorise its training rows.
+/// Evidence on whether a model memorises its training rows.
 struct Memorisation {
   /// R2 on the training rows, about their mean.
   double train_r2 = stats::kNaN;
@@ -52,7 +52,7 @@ Memorisation AssessMemorisation(const ModelRecipe& recipe,
                                 const FitContext& context);
 
 /// Returns `dataset` with its targets in a seeded random order over all rows.
-/// Inputs, groups and weights stay.
+/// Inputs, groups and weights are unchanged.
 data::Dataset ShuffleTargets(const data::Dataset& dataset, std::uint64_t seed);
 
 }  // namespace errmap::models

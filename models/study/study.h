@@ -29,8 +29,9 @@ struct Holdout {
   std::vector<stats::Fold> folds;  // indices into the data set
   /// Rows of file:TEST.csv, judged instead of the folds' own; or null.
   std::shared_ptr<const data::Dataset> test_data;
-  /// Number of those rows that the data set also contains. They were learnt, so
-  /// their errors say nothing of another day; among_neighbours is then set.
+  /// Number of those rows that the data set also contains. The model has learnt
+  /// from them, so their errors say nothing about another day; among_neighbours
+  /// is then set.
   Index rows_of_training = 0;
   /// The inner hold-out for choices inside the training rows of a fold.
   InnerHoldout inner = InnerHoldout::kDecisive;
@@ -57,7 +58,7 @@ struct FoldResult {
   std::vector<EffectiveOption> choices;  // of the fit, such as wfactor=cv
   std::vector<StartResult> starts;       // empty if there was only one
   VectorXd test_predictions;             // one per test row of the fold
-  /// The fitted map, without what is stored above; null for predictions by
+  /// The fitted map, without the values stored above; null for predictions by
   /// other programs.
   std::shared_ptr<const FittedModel> map;
 };

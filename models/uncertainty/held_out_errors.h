@@ -11,11 +11,11 @@
 
 namespace errmap::models {
 
-/// Of a model's predictions of `holdout`'s held-out rows; nothing where
-/// PromiseOf has nothing. `inputs` are those that the map reads: their
-/// temperatures alone can say in use when the next probe is due. A position is
-/// known from where a probe is taken, so it may be one that the map does not
-/// read.
+/// Returns the errors of a model's predictions of `holdout`'s held-out rows;
+/// nothing if PromiseOf returns nothing. `inputs` are those that the map reads:
+/// only their temperatures can say in use when the next probe is due. The
+/// position of a probe is always known, so it may be a column that the map does
+/// not read.
 std::optional<HeldOutErrors> HeldOutErrorsOf(
     const data::Dataset& dataset,
     const Holdout& holdout,

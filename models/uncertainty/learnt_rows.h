@@ -9,16 +9,16 @@
 
 namespace errmap::models {
 
-/// Of a map as it was fitted to these rows; nothing where neither readings with
-/// their error nor readings alone tell one row from another.
+/// Makes the record of a map fitted to these rows. Returns nothing if rows
+/// cannot be told apart by readings with their error, or by readings alone.
 std::optional<LearntRows> MakeLearntRows(const FittedModel& fitted,
                                          const data::Dataset& training);
 
-/// How many of these rows the map learnt from, as its file knows them: `inputs`
-/// (m x inputs of the map) and `targets` (m; null: readings alone) in its
-/// units. 0 where they are no more than chance and the filter's false hits
-/// (LearntRows) would make, or one or two readings alone; of a long training an
-/// estimate from some of them.
+/// Returns how many of these rows the map learnt from, according to its file.
+/// `inputs` (m x inputs of the map) and `targets` (m; null: readings alone) are
+/// in its units. Returns 0 if chance and false hits of the filter (LearntRows)
+/// explain them, or for one or two readings alone. For a long training file it
+/// is an estimate from some of its rows.
 Index CountLearntRows(const FittedModel& fitted,
                       const MatrixXd& inputs,
                       const VectorXd* targets);

@@ -25,30 +25,30 @@ struct UpdateTrial {
   std::vector<Session> sessions;
   double old_rmse = 0.0;  // over all their rows
   double new_rmse = 0.0;
-  /// Of the old map with the other sign, and shifted by the mean error of the
-  /// other new sessions; NaN where these were not tried.
+  /// Errors of the old map with the other sign, and shifted by the mean error
+  /// of the other new sessions; NaN if these were not tried.
   double negated_rmse = stats::kNaN;
   double shifted_rmse = stats::kNaN;
   double shift = 0.0;      // mean error of the old map in all new sessions
   std::string why_failed;  // of the successor; "": it could be fitted
 
-  /// True if the new errors are those of the old map with the other sign, or by
-  /// a constant: the old map errs less so than the successor, which would
-  /// average both.
+  /// True if the new errors differ from the old map by sign or by a constant.
+  /// The old map corrected for it then errs less than the successor, which
+  /// would average both.
   bool is_negated() const;
   bool is_shifted() const;
-  /// True if neither is, the RMSE is lower by more than `indifference`, and so
-  /// is its geometric mean over the sessions. Thus one long session alone does
-  /// not decide, and a slightly worse session does not outweigh one that was
-  /// far off.
+  /// True if neither is so, the RMSE is lower by more than `indifference`, and
+  /// so is its geometric mean over the sessions. Thus one long session alone
+  /// does not decide, and a slightly worse session does not outweigh one with
+  /// large errors.
   bool better(double indifference) const;
 };
 
-/// Tries the successor. `recipe` is fitted to `known` rows and all but one of
-/// the new sessions, and judged on that one, each in turn. The old map is
-/// judged on the same rows. `known` may be null: the successor then learns from
-/// new sessions alone. Throws std::invalid_argument if there are fewer than
-/// two new sessions.
+/// Tries the successor: fits `recipe` to `known` rows and all but one of the
+/// new sessions, and judges it on that one, each in turn. The old map is judged
+/// on the same rows. `known` may be null: the successor then learns from new
+/// sessions alone. Throws std::invalid_argument if there are fewer than two new
+/// sessions.
 UpdateTrial TryUpdate(const FittedModel& old_map,
                       const data::Dataset* known,
                       const data::Dataset& fresh,

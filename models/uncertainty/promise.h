@@ -20,10 +20,10 @@ void AddPromise(const data::Dataset& dataset,
                 const HoldoutResult& result,
                 FittedModel* fitted);
 
-/// The same for a map fitted alone: its recipe is run under
-/// StrictestDefaultHoldout(dataset). Empty if a fold fails or was interrupted.
-/// Throws std::invalid_argument if the data allow no such hold-out,
-/// std::bad_alloc if a fold lacks memory.
+/// Does the same for a map fitted alone: its recipe is run under
+/// StrictestDefaultHoldout(dataset). The interval stays empty if a fold fails
+/// or was interrupted. Throws std::invalid_argument if the data allow no such
+/// hold-out, std::bad_alloc if a fold lacks memory.
 void AddPromise(const data::Dataset& dataset,
                 std::unique_ptr<ModelRecipe> recipe,
                 StudyOptions options,

@@ -19,8 +19,8 @@ struct Bounds95 {
 
   bool exist() const { return lower <= upper; }
   bool ExcludeZero() const { return lower > 0.0 || upper < 0.0; }
-  /// Of a difference a - b: what a (`is_first`) or b is above the other at
-  /// most, one-sided.
+  /// Upper one-sided bounds of how far a (`is_first`) or b exceeds the other,
+  /// for a difference a - b.
   double ExcessAtMost(bool is_first) const {
     return is_first ? at_most : -at_least;
   }
@@ -31,10 +31,10 @@ struct Bounds95 {
 ///
 /// Each bound is the wider of two. One is Hesterberg's (2015, Section 5.3)
 /// expanded percentile, the other Student's t times the delta-method standard
-/// error. For one RMSE, which is skewed and above 0, that is of its logarithm.
-/// A percentile never exceeds the worst single unit: with 3 units a nominal 95
-/// % covers 75 %. The t interval ignores skewness. The resulting coverage is in
-/// tests/stats/comparison/paired_comparison_null_test.cc.
+/// error. For one RMSE, which is skewed and above 0, the latter applies to its
+/// logarithm. A percentile never exceeds the worst single unit: with 3 units a
+/// nominal 95 % covers 75 %. The t interval ignores skewness. The resulting
+/// coverage is in tests/stats/comparison/paired_comparison_null_test.cc.
 class UnitBootstrap {
  public:
   /// Throws std::invalid_argument if resamples < 99 or `losses` are invalid.

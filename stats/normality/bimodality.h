@@ -7,8 +7,8 @@ namespace errmap::stats {
 /// Returns Hartigan's dip of `ascending` (n >= 1): the largest distance between
 /// its distribution function and that of the nearest unimodal distribution (J.
 /// A. Hartigan & P. M. Hartigan, Annals of Statistics 13, 1985; the steps of AS
-/// 217, but minorant and majorant are computed anew for each interval). At
-/// least 1/(2n); 0 if n = 0.
+/// 217, but minorant and majorant are recomputed for each interval). At least
+/// 1/(2n); 0 if n = 0.
 double DipStatistic(const Eigen::Ref<const VectorXd>& ascending);
 
 /// Returns the probability of a dip of at least `dip` in n uniform values. No

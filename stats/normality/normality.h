@@ -32,13 +32,14 @@ struct Normality {
   /// Rounding step of the readings, in their unit, if not small beside their
   /// scatter (FindStep); else 0. Ties make distances from a continuous
   /// distribution too large. Each p is then that among kGridDraws normal
-  /// samples rounded alike; `ks` and `ks_exact` have no p.
+  /// samples rounded in the same way; `ks` and `ks_exact` have no p.
   double step = 0.0;
 };
 
 inline constexpr Index kGridDraws = 999;
 
-/// Fewest values with a shape: of three, two equal ones reject at any level.
+/// Fewest values for a test of shape: with three, two equal ones reject at any
+/// level.
 inline constexpr Index kFewestForShape = 4;
 
 /// p by simulating the null distribution for one size, mean and sd estimated:

@@ -23,7 +23,8 @@ inline constexpr double kSmallestSimulated = 0.001;
 /// to 5000 (60 000 to 500 000 samples each; kTukeyMaxPpcc 10 000 to 200 000),
 /// interpolated linearly in the normal score of the probability and in log n.
 /// It is clamped to kSmallestSimulated and kLargestSimulated, which then mean
-/// "at most" and "at least". Simulation and interpolation err by up to 0.004.
+/// "at most" and "at least". The error of simulation and interpolation is up to
+/// 0.004.
 ///
 /// Above n = 5000, D and the dip keep their sqrt(n) scale, and the correlations
 /// follow the trend of the last sizes. Measured at n = 20000, a nominal 5 % is

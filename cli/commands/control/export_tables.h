@@ -33,7 +33,7 @@ void ExportLinuxcnc(const std::string& model,
                     const std::string& out,
                     bool quiet);
 
-/// `--table`: returns the grid of a map. `said` gets a description of it.
+/// `--table`: returns the grid of a map. Its description is written to `said`.
 models::ExportedFile ExportTable(const models::FittedModel& fitted,
                                  const models::MapExport& map,
                                  const TableArguments& arguments,

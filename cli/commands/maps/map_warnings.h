@@ -20,8 +20,8 @@ namespace errmap::cli {
 /// Adds MODEL, a model file that a command must be given.
 void AddModelArgument(CLI::App* command, std::string* model);
 
-/// What the JSON of a map that is judged on measurements begins with: schema,
-/// model, file, target and unit.
+/// The first members of the JSON of a map that is judged on measurements:
+/// schema, model, file, target and unit.
 Json MapAnswerJson(const char* schema,
                    const models::FittedModel& fitted,
                    const std::vector<std::string>& files);
@@ -51,15 +51,15 @@ void RequireAges(const models::FittedModel& fitted, const std::string& model);
 /// Returns the provenance that a model file states.
 models::Provenance ProvenanceOf(const std::string& model);
 
-/// How much of the data that a map is judged on it has learnt from.
+/// How many of the rows on which a map is judged it has also learnt from.
 struct RowsLearnt {
   bool file = false;  // the map names each of the files as its own
   Index rows = 0;     // rows recognised by their values
   Index of = 0;       // all rows
 };
 
-/// Compares with the hashes of files in the model file `model`, and of rows in
-/// the map.
+/// Compares the data with the hashes of files in the model file `model`, and
+/// with the hashes of rows in the map.
 RowsLearnt FindRowsLearnt(const models::FittedModel& fitted,
                           const std::string& model,
                           const std::vector<std::string>& files,

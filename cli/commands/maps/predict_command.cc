@@ -21,7 +21,6 @@
 #include "data/files/atomic_file.h"
 #include "data/formula_text.h"
 #include "data/input_error.h"
-#include "data/measurements/column_checks.h"
 #include "data/measurements/column_match.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/dataset.h"
@@ -431,7 +430,7 @@ void AddPredictCommand(CLI::App* app, Run* run) {
             "--probes PROBES.csv",
             command->probes,
             "Readings of the same session: the map is shifted by the offset "
-            "found before each row. The interval narrows, or widens where they "
+            "found before each row. The interval narrows, or widens if they "
             "contradict one offset");
   AddMapDataArguments(command, &command->log);
   AddTargetOfMap(command, &command->log);

@@ -295,7 +295,7 @@ void AddUpdateCommand(CLI::App* app, Run* run) {
       command,
       "--known DATA.csv",
       command->known,
-      "Rows that the map was fitted to, may be repeated (default: the "
+      "Rows that the map was fitted to (may be repeated; default: the "
       "unchanged files that it names, here, beside NEW or beside the map)")
       .OneAtATime();
   AddOption(command,
@@ -315,7 +315,7 @@ void AddUpdateCommand(CLI::App* app, Run* run) {
       command,
       R"(Fits the same type of model, with the same inputs, to old and new sessions.
 The old map, and one that has not seen it, predict each new session. The new
-map is written if it errs clearly less, in RMSE and in the geometric mean
+map is written if its error is clearly lower, in RMSE and in the geometric mean
 over the sessions. Otherwise the old one is.
 Example: errmap update map.json data/sets/turning_centre/later_days.csv --known data/sets/turning_centre/six_days.csv -o new.json)");
   command.Runs(RunUpdate);

@@ -179,8 +179,8 @@ void AddWhenCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "--goal X",
             command->goal,
-            "Limit that 90 % of the errors must keep: 2um (default: no goal, "
-            "the table alone)");
+            "Limit for 90 % of the errors: 2um (default: no goal, only the "
+            "table)");
   AddMapDataArguments(command, &command->log);
   FindOption(command, "--after").About("Readings from the last probe to now");
   AddFormatOption(command, &command->format);

@@ -67,7 +67,7 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
   AddOption(command,
             "--set KEY=VALUE",
             arguments->changes,
-            "Change a key of the study file, may be repeated: seed=2, "
+            "Change a key of the study file (may be repeated): seed=2, "
             "component.0.target=error_mm")
       .OneAtATime();
   AddFlag(command,
@@ -75,14 +75,15 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
           arguments->dry_run,
           "Print what would be fitted and how long it takes\nNothing is fitted "
           "or written");
-  AddOption(command,
-            "--holdout SPEC",
-            arguments->holdouts,
-            "Rows to hold out, may be repeated: every:K, groups:K, sessions:K, "
-            "forward:K\nAll forms: " +
-                stats::HoldoutFormsText() +
-                ". Default: every:3; groups:5 with groups, else blocks:5; "
-                "sessions:5 with sessions; forward:3 from four sessions on")
+  AddOption(
+      command,
+      "--holdout SPEC",
+      arguments->holdouts,
+      "Rows to hold out (may be repeated): every:K, groups:K, sessions:K, "
+      "forward:K\nAll forms: " +
+          stats::HoldoutFormsText() +
+          ". Default: every:3; groups:5 with groups, else blocks:5; "
+          "sessions:5 with sessions; forward:3 from four sessions on")
       .OneAtATime();
   AddOption(command,
             "--models LIST",
@@ -92,7 +93,7 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
   AddOption(command,
             "--model SPEC",
             arguments->models,
-            "One model, may be repeated: net:scg:hidden=60:wfactor=1e-3")
+            "One model (may be repeated): net:scg:hidden=60:wfactor=1e-3")
       .OneAtATime();
   desk::ForStudyOptions(arguments->study, FlagAdder(command));
   AddSeedOption(command, &arguments->study.seed);

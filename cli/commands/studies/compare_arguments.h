@@ -100,8 +100,8 @@ desk::StudyConfig ConfigOf(const CompareArguments& arguments);
 std::vector<std::string> GivenOfFewer(const CompareArguments& arguments,
                                       desk::Reach reach);
 
-/// Returns what to fit, as a slice's mode, the study file or DATA says. `own`
-/// (may be empty) adds recipes of the caller.
+/// Returns what to fit, according to a slice's mode, the study file or DATA.
+/// `own` (may be empty) adds recipes of the caller.
 desk::StudyPlan PlanOf(const CompareArguments& arguments,
                        const desk::MakeOwnRecipes& own = {});
 

@@ -9,10 +9,10 @@
 
 namespace errmap::desk {
 
-/// Each part of a table of several files by the one file that its rows come
-/// from, without the ending: the ways along an axis where each was measured
-/// into a file of its own. Empty where the table is of one file, a part is of
-/// several, or two parts would have one name.
+/// Names each part of a table of several files after the one file that its rows
+/// come from, without its extension. Such parts are directions of motion that
+/// were measured into files of their own. Returns nothing if the table comes
+/// from one file, a part comes from several, or two names would be equal.
 std::vector<std::string> NamesByFile(
     const data::CsvTable& table,
     const std::vector<data::DatasetSelection>& parts);

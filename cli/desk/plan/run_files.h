@@ -12,7 +12,7 @@
 namespace errmap::desk {
 
 /// Returns the names of all files that WriteRunFiles may write for a study:
-/// results.json, residuals.csv and models/*.json. With several components
+/// results.json, residuals.csv and models/*.json. With several components:
 /// residuals/COMPONENT.csv and models/COMPONENT/*.json.
 std::vector<std::string> RunFileNames(const StudyPlan& plan);
 

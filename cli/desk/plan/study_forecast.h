@@ -14,15 +14,14 @@ namespace errmap::desk {
 
 /// Estimates how long a study will still take, and keeps the best map so far.
 /// RoughFitSeconds gives the work of each fit. The real time for that work is
-/// learnt from the model's own finished fits. Before there are any, it is
-/// learnt from models of the same kind, as far as their work was as large. Fits
-/// kept from an earlier run count like those of this one. Safe to use from any
-/// thread.
+/// learnt from the model's own finished fits. Until the first of them, it is
+/// learnt from fits of similar work by models of the same kind. Fits kept from
+/// an earlier run count like those of this one. Safe to use from any thread.
 class StudyForecast {
  public:
   StudyForecast(const StudyPlan& plan, int jobs);
 
-  /// Takes in a finished fit. `component`: its index in the plan.
+  /// Records a finished fit. `component`: its index in the plan.
   void Note(std::size_t component, const models::FitProgress& fit);
   double SecondsLeft() const;
   struct Best {
@@ -74,14 +73,14 @@ double RoughSeconds(const models::ComponentPlan& component, int jobs);
 std::vector<std::pair<std::string, double>> RoughSecondsOfModels(
     const models::ComponentPlan& component);
 
-/// Estimates the seconds of one fit to so many rows.
+/// Estimates the seconds of one fit to this many rows.
 double RoughFitSeconds(const models::ModelRecipe& recipe,
                        const data::Dataset& dataset,
                        double rows);
 
-/// The fastest models of a study, which together take at most a quarter of its
-/// time; in the study's order. `seconds`: of all their fits, one after the
-/// other.
+/// The fastest models of a study, in the study's order. Together they take at
+/// most a quarter of its time. `seconds` is the total time of their fits, run
+/// one after the other.
 struct FasterModels {
   std::vector<std::string> names;
   double seconds = 0.0;

@@ -32,9 +32,9 @@ using Remark = std::function<void(const std::string&)>;
 using MakeOwnRecipes = std::function<models::OwnRecipes()>;
 
 /// Reads the data, makes the hold-outs, and chooses models if the user named
-/// none. `own` (may be empty) adds recipes. `remark` receives what was found in
-/// the data, what is left out and why; if it is empty, the data are not
-/// examined for this. Throws data::InputError if data cannot be used or two
+/// none. `own` (may be empty) adds recipes. `remark` receives findings about
+/// the data, and what is left out and why. If it is empty, the data are not
+/// examined for remarks. Throws data::InputError if data cannot be used or two
 /// components have the same name, and std::invalid_argument for a SPEC that the
 /// catalogue does not know.
 StudyPlan PlanStudy(const StudyConfig& config,

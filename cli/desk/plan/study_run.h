@@ -53,7 +53,7 @@ StudyRun RunPlan(StudyPlan plan,
                  const std::string& command_line = "",
                  const RunOptions& options = {});
 
-/// Returns what a run found, judged and put into words. results.json, every
+/// Returns the results of a run, judged and put into words. results.json, every
 /// table and every page are made from it. `jobs`: number of threads that assess
 /// residuals.
 models::StudyRecord RecordOf(const StudyRun& run, int jobs = 1);

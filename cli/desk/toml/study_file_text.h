@@ -14,7 +14,7 @@ StudyConfig ProposeStudy(const data::CsvTable& table);
 
 /// Returns a study file for the plan, with comments on what was found and what
 /// every key does. `data` is the data file as seen from the study file's
-/// folder. `usage` is the command for such a study; it stands in the first
+/// folder. `usage` is the command for such a study; it is shown in the first
 /// line. The file, read again, gives the same study as the plan.
 std::string StudyFileText(const StudyPlan& plan,
                           const std::string& data,

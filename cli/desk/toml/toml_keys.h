@@ -15,7 +15,7 @@
 
 namespace errmap::desk {
 
-/// How the name of a source begins that is not a file but a change, KEY=VALUE.
+/// Prefix of the name of a source that is a change KEY=VALUE, not a file.
 inline constexpr std::string_view kOverride = "KEY=VALUE ";
 /// Returns the name of such a change in messages.
 std::string NameOfOverride(std::string_view change);
@@ -35,8 +35,8 @@ double NumberOf(const toml::node& node);
 /// Parses a TOML document. Throws data::InputError with the place of an error.
 toml::table ParseToml(const std::string& text, const std::string& path);
 
-/// Reads a table of a file key by key. Calls Refuse with the place of what is
-/// wrong. Keeps references to `table` and `file`.
+/// Reads a table of a file key by key. Calls Refuse with the place of an error.
+/// Keeps references to `table` and `file`.
 class Keys {
  public:
   Keys(const toml::table& table, std::string where, const std::string& file);

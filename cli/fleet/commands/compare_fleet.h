@@ -7,12 +7,13 @@
 
 namespace errmap::cli {
 
-/// compare of a study of many components, each by itself: components from
-/// patterns, a share of a study (--shard), or what goes on with one.
+/// `compare` for a study of many components, each studied by itself. It expands
+/// patterns, runs a share of a study (--shard), or continues with one
+/// component.
 std::unique_ptr<CompareMode> CompareFleet();
 
-/// Makes the folder a store, or finds that it is one. Throws UsageError where
-/// it holds other files, unless `force`.
+/// Makes the folder a store, or checks that it already is one. Throws
+/// UsageError if it holds other files, unless `force`.
 void ClaimStore(const fleet::StorePaths& paths, bool force);
 
 }  // namespace errmap::cli

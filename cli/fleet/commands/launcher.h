@@ -7,19 +7,19 @@
 
 namespace errmap::cli {
 
-/// Value of an environment variable, or null.
+/// Gives the value of an environment variable, or null.
 using Environment = std::function<const char*(const char*)>;
 
-/// "I/N", I from 0 to N - 1; or "env": the task's place among those that a
-/// launcher started, by the first of
+/// Returns the share for "I/N", I from 0 to N - 1, or for "env". The latter is
+/// the task's rank among those that a launcher started, from the first of
 ///
 ///   OMPI_COMM_WORLD_RANK of OMPI_COMM_WORLD_SIZE
 ///   PMI_RANK of PMI_SIZE
 ///   SLURM_PROCID of SLURM_NTASKS, if these are more than one
 ///   SLURM_ARRAY_TASK_ID in a whole array of SLURM_ARRAY_TASK_COUNT tasks
 ///
-/// Throws UsageError where the text is neither, none of them is set, what is
-/// set is no share, or the array has gaps.
+/// Throws UsageError if the text is neither, no variable is set, the values are
+/// not a share, or the array has gaps.
 fleet::Share ShareOf(const std::string& text, const Environment& environment);
 
 }  // namespace errmap::cli

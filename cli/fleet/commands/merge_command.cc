@@ -49,7 +49,7 @@ void AddMergeCommand(CLI::App* app, Run* run) {
   SetFooter(
       command,
       R"(Reads the summaries of the components and writes errmap.sqlite and
-report.html there, whole or not at all. Others may read the database
+report.html there, completely or not at all. Others may read the database
 meanwhile.
 Exit status: 0 done, 3 no usable store, 4 components are missing.
 Example: errmap merge fleet)");

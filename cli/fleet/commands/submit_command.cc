@@ -74,7 +74,7 @@ std::string ShardsScript(const SlurmJob& job) {
   return fmt::format(
       "#!/bin/sh\n"
       "# Each task does one share of {1} components. A task that is begun "
-      "again, by\n# Slurm or by hand, goes on where it was.\n"
+      "again, by\n# Slurm or by hand, continues where it stopped.\n"
       "#SBATCH --job-name=errmap\n"
       "#SBATCH --array=0-{2}\n"
       "#SBATCH --ntasks=1\n"

@@ -10,20 +10,20 @@
 
 namespace errmap::fleet {
 
-/// Fields of a file's path and what stands there, in order.
+/// Fields of a file's path and their values, in order.
 using PathFields = std::vector<std::pair<std::string, std::string>>;
 
-/// What a [[component]] says of its data, besides its ComponentConfig.
+/// The keys of a [[component]] about its data, besides its ComponentConfig.
 struct ComponentSource {
-  /// Path below the study file's folder, or a PathPattern: the component's
-  /// `data` is then the folder that it starts from.
+  /// Path below the study file's folder, or a PathPattern. For a pattern, the
+  /// component's `data` is the folder where it starts.
   std::string path;
   bool is_pattern = false;
   PathFields fields;  // of a file that a pattern matched
 };
 
-/// A study file some of whose components may come from files by pattern: each
-/// is a study by itself, and one that fails stops no other.
+/// A study file whose components may come from files that match a pattern. Each
+/// component is a study by itself, and a failed one does not stop the others.
 struct FleetStudy {
   desk::StudyConfig config;
   desk::InputFile file;
@@ -34,25 +34,25 @@ struct FleetStudy {
   }
 };
 
-/// A path with fields in it is a pattern, unless a file has that very name.
-/// Throws data::InputError naming the place of one that is none.
+/// A path with fields in it is a pattern, unless a file has exactly that name.
+/// Throws data::InputError, naming the place, if a pattern is malformed.
 FleetStudy WithPatterns(desk::StudyFile study);
 
-/// A path in which fields stand for what differs from file to file:
-/// "{machine}/{component}_{direction:down|up}.csv". A field is a part of one
-/// folder's or file's name, at least a character and never a leading dot; words
-/// after its colon are all that it may be. Where a name can be cut in more than
-/// one way the earlier field is the longer one.
+/// A path with fields in place of the parts that differ between files:
+/// "{machine}/{component}_{direction:down|up}.csv". A field is part of one
+/// folder's or file's name. It has at least one character and no leading dot.
+/// Words after its colon are its only allowed values. If a name can be split in
+/// several ways, earlier fields are as long as possible.
 class PathPattern {
  public:
-  /// Throws std::invalid_argument on braces that do not pair, a field without a
-  /// name, of an odd one, or that is there twice.
+  /// Throws std::invalid_argument if braces do not pair, or a field has no
+  /// name, an invalid one, or one that occurs twice.
   explicit PathPattern(std::string_view text);
 
   const std::vector<std::string>& fields() const { return fields_; }
 
-  /// Files below `folder` that match, with their fields, in order of their
-  /// paths. A folder that cannot be looked into has none.
+  /// Returns the files below `folder` that match, with their fields, sorted by
+  /// path. A folder that cannot be read counts as empty.
   std::vector<std::pair<std::string, PathFields>> FilesBelow(
       const std::string& folder) const;
 
@@ -72,16 +72,16 @@ class PathPattern {
   std::vector<std::string> fields_;
 };
 
-/// `text` with its {fields} filled in. Throws std::invalid_argument naming a
-/// field that is not there.
+/// Returns `text` with its {fields} filled in. Throws std::invalid_argument
+/// naming an unknown field.
 std::string FillIn(std::string_view text, const PathFields& fields);
 
-/// The study with its patterns filled in, every component named: each that is a
-/// pattern becomes those of the files it matches; a
-/// file belongs to the first pattern that matches it for the same rows. Names
-/// that do not tell the files apart get the other fields after a comma. A
-/// pattern that matches nothing stays one component, without a file. Throws
-/// data::InputError where two have one name.
+/// Returns the study with its patterns expanded and every component named. A
+/// pattern becomes one component for each file that it matches. A file that
+/// several patterns match for the same rows belongs to the first of them. If
+/// names do not tell the files apart, the other fields follow after a comma. A
+/// pattern without matches stays one component without a file. Throws
+/// data::InputError if two components have one name.
 FleetStudy Expanded(const FleetStudy& study);
 
 }  // namespace errmap::fleet

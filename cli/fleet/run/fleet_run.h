@@ -15,17 +15,17 @@
 
 namespace errmap::fleet {
 
-/// What fleet.json says of an expanded study, in order of the names.
+/// The content of fleet.json for an expanded study, sorted by name.
 FleetRecord FleetOf(const FleetStudy& study, const std::string& command_line);
 
-/// The share of a fleet's components that one task does: number `index` of
+/// The share of a fleet's components that one task studies: number `index` of
 /// `count`, from 0.
 struct Share {
   std::int64_t index = 0;
   std::int64_t count = 1;
 
-  /// Dealt by a hash of the name (its SHA-256's first 8 bytes, modulo `count`),
-  /// so that a component more or less moves no other.
+  /// Assigned by a hash of the name (the first 8 bytes of its SHA-256, modulo
+  /// `count`), so that adding or removing a component moves no other.
   bool Has(std::string_view name) const;
 };
 
@@ -36,7 +36,8 @@ struct FleetRunOptions {
   std::string command_line;
   desk::Remark remark =
       {};  // told of each component that failed, one at a time
-  /// Told (components done, of the share), one call at a time; may be empty.
+  /// Called with (components done, components in the share), by one thread at a
+  /// time; may be empty.
   std::function<void(int, int)> progress = {};
 };
 
@@ -49,15 +50,15 @@ struct FleetRunResult {
 };
 
 /// Studies the share's components one by one and writes the files of each into
-/// the store; files of others are not touched. A component that cannot be read
-/// or fitted has a summary that says so. What is there from an earlier run of
-/// the same data and words stays. Throws std::system_error where nothing can be
-/// written.
+/// the store. Files of other components are not touched. A component that
+/// cannot be read or fitted gets a summary that says so. Results of an earlier
+/// run with the same data and settings are kept. Throws std::system_error if
+/// nothing can be written.
 FleetRunResult RunFleet(const FleetStudy& study,
                         const StorePaths& store,
                         const FleetRunOptions& options);
 
-/// What a fleet may cost, from a sample of its components.
+/// Estimated cost of a fleet, from a sample of its components.
 struct FleetPlan {
   std::int64_t components = 0;
   std::int64_t looked_at = 0;         // of them, evenly
@@ -67,17 +68,17 @@ struct FleetPlan {
   std::vector<std::string> unusable;  // of those looked at: why, a line each
 };
 
-/// Of an expanded study.
+/// Estimates the cost of an expanded study.
 FleetPlan PlanFleet(const desk::StudyConfig& config);
 
-/// A commented study file whose components are patterns, for the CSV files
-/// below a folder: folders' names that differ become fields, and so do the
-/// files' own; "x_down" with a word for a direction at its end is a component
-/// and a direction. Files of one name are taken to be alike: any of the first
-/// three of each tells that they can be mapped, so that a broken one among good
-/// ones fails in the study, where it is named. `beside` is the folder as seen
-/// from the study file, `usage` how such a study is run. Throws
-/// data::InputError where no file can be mapped.
+/// A commented study file whose components are patterns for the CSV files below
+/// a folder. Folder names that differ become fields, and so do file names.
+/// "x_down", with a word for a direction at its end, is a component and a
+/// direction. Files of one name are taken to be alike. One usable file among
+/// the first three of each name is enough, so that a broken file fails later,
+/// in the study, which names it. `beside` is the folder as seen from the study
+/// file; `usage` is the command that runs such a study. Throws data::InputError
+/// if no file can be mapped.
 struct FleetProposal {
   std::string text;
   long long files = 0;             // that the patterns match

@@ -36,7 +36,7 @@ struct SummaryHoldoutRecord {
   std::int64_t units = 0;
 };
 
-/// A model under one hold-out.
+/// A model's results under one hold-out.
 struct SummaryMetricsRecord {
   std::string holdout;
   std::int64_t n = 0;
@@ -88,7 +88,7 @@ struct SummaryRecommendationRecord {
   std::string sentence;
 };
 
-/// The recommended map as a file.
+/// The model file of the recommended map.
 struct SummaryMapRecord {
   std::string sha256;
   std::int64_t bytes = 0;
@@ -99,8 +99,8 @@ struct ComponentSummary {
   std::string version;
   std::string name;
   ByName<std::string> fields;  // of its path
-  /// Hashes of what was asked for, and of that with all files that were read:
-  /// where they are the same nothing has to be fitted again.
+  /// Hash of the settings, and hash of the settings with all files that were
+  /// read. If both are unchanged, nothing has to be fitted again.
   std::string asked;
   std::string key;
   ModelStatus status = ModelStatus::kFailed;
@@ -122,16 +122,16 @@ struct ComponentSummary {
   LeftOut<SummaryMapRecord> map;
 };
 
-/// Of a component that was studied; names, hashes and map are left to the
-/// caller.
+/// Summarises a component that was studied. The caller adds names, hashes and
+/// the map.
 ComponentSummary Summarise(const ComponentRecord& component);
 
-/// One line of JSON of at most kLongestSummary bytes: where there are too many
-/// models, those that are furthest from the recommendation are left out.
+/// Returns one line of JSON of at most kLongestSummary bytes. If there are too
+/// many models, those furthest from the recommended one are left out.
 std::string ToJsonText(ComponentSummary summary);
 
-/// What ToJsonText wrote. Throws data::InputError where it is no JSON or of
-/// another schema.
+/// Reads what ToJsonText wrote. Throws data::InputError if the text is not JSON
+/// or has another schema.
 ComponentSummary SummaryFromJsonText(std::string_view text);
 
 }  // namespace errmap::fleet

@@ -13,7 +13,7 @@ using data::Database;
 using data::SqliteError;
 using data::Statement;
 
-/// A map on a machine.
+/// A map that is deployed on a machine.
 struct Deployment {
   std::int64_t id = 0;
   std::string component = {};
@@ -29,14 +29,15 @@ struct Deployment {
   double shown_scale = 1.0;
 };
 
-/// Those in use, by component; of one component where it is named.
+/// Returns the deployments in use by component, or only that of a named
+/// component.
 std::vector<Deployment> DeploymentsInUse(Database* store,
                                          const std::string& component = "");
 
-/// Ends what is in use on the component and begins this.
+/// Ends the deployment in use on the component and begins this one.
 void WriteDeployment(Database* store, const Deployment& deployment);
 
-/// A session of a deployment with what was found of it.
+/// A session since a map's deployment, with the result of its check.
 struct Check {
   models::WatchedSession session;
   std::string rows_sha256;
@@ -45,18 +46,19 @@ struct Check {
   double p_map = 0.0;  // NaN: not judged
   models::WatchStatus status = models::WatchStatus::kNotJudged;
 
-  /// Whether this is the session of `part` when more of it was measured.
+  /// True if `part` is the beginning of this session, of which more has been
+  /// measured since.
   bool GoesOnFrom(const Check& part) const {
     return !begins_sha256.empty() && begins_sha256 == part.begins_sha256 &&
            session.rows > part.session.rows;
   }
 };
 
-/// The sessions checked so far, oldest first.
+/// Returns the sessions checked so far, oldest first.
 std::vector<Check> ChecksOf(Database* store, std::int64_t deployment);
 
-/// Adds checks, or puts them in the place of those of the same rows, and of
-/// those that they go on from.
+/// Adds checks. A check replaces an earlier one of the same rows, or of the
+/// beginning of the same session.
 void WriteChecks(Database* store,
                  std::int64_t deployment,
                  const std::vector<Check>& checks,

@@ -10,7 +10,7 @@
 
 namespace errmap::fleet {
 
-/// What the shards of a study have left behind so far.
+/// The results that the shards of a study have left so far.
 struct FleetSummaries {
   FleetRecord fleet;
   std::vector<ComponentSummary> summaries;  // in order of the fleet
@@ -18,14 +18,14 @@ struct FleetSummaries {
   std::string damaged;  // where a damaged errmap.sqlite was set aside, or ""
 };
 
-/// Reads every component's summary. Throws data::InputError where the folder is
-/// no store.
+/// Reads every component's summary. Throws data::InputError if the folder is
+/// not a store.
 FleetSummaries ReadSummaries(const StorePaths& paths);
 
-/// Which are missing, and what to do; "" where none is.
+/// Says which components are missing and what to do; "" if none is.
 std::string MissingWords(const FleetSummaries& found);
 
-/// What is counted over some of the components.
+/// Counts over some of the components.
 struct FleetTally {
   std::int64_t components = 0;
   std::int64_t met = 0;
@@ -36,15 +36,16 @@ struct FleetTally {
   std::int64_t ratios = 0;
 
   void Add(const ComponentSummary& summary);
-  /// Of the error without a map, what is left: geometric mean.
+  /// Remaining error as a fraction of the error without a map: geometric mean.
   double Left() const;
 };
 
-/// report.html: one self-contained page of all components. Those whose own page
-/// is there are linked; errmap report STORE --component NAME draws one.
+/// Returns report.html: one self-contained page of all components. It links to
+/// the pages of components that exist; `errmap report STORE --component NAME`
+/// draws one.
 std::string FleetReportHtml(const StorePaths& paths,
                             const FleetSummaries& found);
-/// A page of a store, with the content of its <main>.
+/// Returns a page of a store, with the content of its <main>.
 std::string StorePage(const std::string& title, const std::string& main);
 /// A figure of such a page; `caption` is HTML.
 std::string FigureHtml(const report::Plot& plot,
@@ -54,12 +55,14 @@ std::string FigureHtml(const report::Plot& plot,
 /// Draws report.html.
 void DrawFleetReport(const StorePaths& paths, const FleetSummaries& found);
 
-/// Puts them into errmap.sqlite and report.html. A damaged errmap.sqlite is set
-/// aside and written anew: what was deployed and watched is not in it then.
+/// Writes the results into errmap.sqlite and report.html. A damaged
+/// errmap.sqlite is renamed and replaced by a new one, without the records of
+/// deploy and watch.
 FleetSummaries MergeStore(const StorePaths& paths);
 
-/// What compare --format prints of a fleet; on a terminal, of a large one, the
-/// numbers and the components that failed or do worst, `columns` wide.
+/// Returns what `compare --format` prints for a fleet. For a large fleet on a
+/// terminal, `columns` wide, it is a summary and the components that failed or
+/// err most.
 std::string FormattedFleet(const std::vector<ComponentSummary>& summaries,
                            const std::string& format,
                            std::size_t columns);

@@ -10,7 +10,7 @@
 
 namespace errmap::fleet {
 
-/// Where the files of a store are:
+/// Paths of the files of a store:
 ///
 ///   fleet.json                          what was asked for
 ///   components/COMPONENT/summary.json   at most 20 kB, written last; of
@@ -30,19 +30,19 @@ struct StorePaths {
   std::string Lock() const { return In("errmap.lock"); }
   std::string Report() const { return In("report.html"); }
   std::string Watch() const { return In("watch.html"); }
-  /// Of maps that were deployed.
+  /// Path of a deployed map.
   std::string Map(const std::string& sha256) const {
     return In("maps/" + sha256 + ".json");
   }
-  /// The component's folder below the store: its name where that is a plain
-  /// file name, else what is safe of it and a hash; of a name with a slash in
-  /// the folder of what stands before, such as a machine, but for stores that
-  /// have it beside the others already.
+  /// Returns the component's folder below the store. It is the name if that is
+  /// a valid file name, else its safe characters and a hash. For
+  /// "machine/component" the folder is within that of the machine, unless an
+  /// older store has it beside the others.
   std::string FolderOf(const std::string& component) const;
   std::string InFolder(const std::string& component, const char* file) const {
     return In(FolderOf(component) + "/" + file);
   }
-  /// Of a name below the store.
+  /// Returns the path of a name below the store.
   std::string In(const std::string& name) const;
 };
 
@@ -58,7 +58,7 @@ struct FleetComponentRecord {
   std::string asked;  // ComponentSummary::asked
 };
 
-/// fleet.json: a study of many components as it was asked for.
+/// The content of fleet.json: the study of many components as requested.
 struct FleetRecord {
   std::string schema = "errmap-fleet-1";
   std::string version;
@@ -69,27 +69,27 @@ struct FleetRecord {
   std::vector<FleetComponentRecord> components;
 };
 
-/// Whether the folder holds a store.
+/// True if the folder holds a store.
 bool IsStore(const std::string& folder);
 
-/// Throws data::InputError where the folder is no store.
+/// Throws data::InputError if the folder is not a store.
 FleetRecord ReadFleet(const StorePaths& paths);
-/// Writes fleet.json unless it says the same already.
+/// Writes fleet.json unless its content is unchanged.
 void WriteFleet(const StorePaths& paths, const FleetRecord& fleet);
 
-/// What was written of a component last; nothing where it was not studied yet,
-/// or what is there cannot be read.
+/// Returns the last summary of a component, or nothing if it has not been
+/// studied yet or its summary cannot be read.
 std::optional<ComponentSummary> FindSummary(const StorePaths& paths,
                                             const std::string& component);
 
-/// Of a component that failed in the study.
+/// Returns the summary of a component that failed in the study.
 std::string WhyNoMap(const std::string& component, const std::string& why);
 
-/// A component's results with the lists of training rows taken out where they
-/// are just those that are not held out: each list of rows stands once.
+/// Returns a component's results without those lists of training rows that are
+/// simply all rows not held out.
 std::string PackResults(models::StudyRecord record);
-/// Its inverse. Throws data::InputError naming the path, or why the component
-/// failed.
+/// Inverse of the above. Throws data::InputError naming the path, or the reason
+/// why the component failed.
 models::StudyRecord ReadResultsOf(const StorePaths& paths,
                                   const std::string& component);
 

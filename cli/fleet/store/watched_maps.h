@@ -12,7 +12,7 @@
 
 namespace errmap::fleet {
 
-/// What watch found of one component.
+/// The result of `watch` for one component.
 struct WatchedComponent {
   Deployment deployment;
   std::string file;                  // the newest measurements
@@ -27,11 +27,12 @@ struct WatchedComponent {
   std::optional<models::MapJudgement> judgement;
   double indifference = 0.0;  // that never matters, its unit
 
-  /// What should be done, "" where nothing.
+  /// Advice on what to do; "" if nothing needs to be done.
   std::string Proposal(const std::string& store) const;
 };
 
-/// A row per component. `brief`: what a line of a terminal has room for.
+/// Returns a row for each component. `brief`: only the columns that fit a
+/// terminal.
 report::Table WatchTable(const std::vector<WatchedComponent>& components,
                          bool brief = false);
 
@@ -39,12 +40,12 @@ report::Table WatchTable(const std::vector<WatchedComponent>& components,
 /// named worse or changed by chance".
 std::string WatchHeadline(const std::vector<WatchedComponent>& components);
 
-/// watch.html: how many are how and what to do for whom, the sessions of those
-/// that are not as promised against what was promised, and the table.
+/// Returns watch.html: the number of components in each state, what to do for
+/// which, the sessions of those not as promised, and the table.
 std::string WatchHtml(const std::string& store,
                       const std::vector<WatchedComponent>& components);
 
-/// A file of new measurements and the deployment that it is of.
+/// A file of new measurements and the deployment to which it belongs.
 struct WatchedFile {
   std::string file;
   const Deployment* deployment = nullptr;
@@ -56,26 +57,26 @@ struct WatchedFiles {
   std::vector<std::string> remarks;  // why a file is of none, a line each
 };
 
-/// Finds whose measurements these are: `paths` are CSV files, folders with such
-/// below them, or COMPONENT=FILE. A file is of the component of the study, be a
-/// map deployed on it or not, whose data have the same name and the most of the
-/// same folders above it; where two do alike it is of none, nor where it lies
-/// in a folder of the study's that has no such component. Throws
-/// data::InputError where a path is not there.
+/// Finds the deployment to which each file of new measurements belongs. `paths`
+/// are CSV files, folders of such files, or COMPONENT=FILE. A file belongs to
+/// the component whose data file has the same name and shares most folders
+/// above it, whether or not a map is deployed on it. In a tie it belongs to
+/// none. It also belongs to none if it lies in a folder of the study without
+/// such a component. Throws data::InputError if a path does not exist.
 WatchedFiles FindWatchedFiles(const FleetRecord& study,
                               const std::vector<Deployment>& deployments,
                               const std::vector<std::string>& paths);
 
-/// What new measurements say of the maps that are deployed.
+/// What new measurements show about the deployed maps.
 struct WatchedMaps {
   std::vector<WatchedComponent> components;  // of which there are files
   std::ptrdiff_t as_studied = 0;  // files that are those of the study still
 };
 
-/// Holds each file, in the order of FindWatchedFiles, against the map that is
-/// deployed on its component, its sessions with those that `store` knows of it,
-/// and judges over all components together. A file that cannot be read or
-/// judged says why in its component. Nothing is written.
+/// Compares each file, in the order of FindWatchedFiles, with the map deployed
+/// on its component. The file's sessions are judged together with those that
+/// `store` has of it, and over all components. If a file cannot be read or
+/// judged, its component says why. Writes nothing.
 WatchedMaps WatchMaps(const StorePaths& paths,
                       Database* store,
                       const std::vector<WatchedFile>& files);

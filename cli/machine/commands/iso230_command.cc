@@ -467,8 +467,8 @@ void AddIso230Command(CLI::App* app, Run* run) {
   AddQuietFlag(command, &command->quiet);
   SetFooter(
       command,
-      R"(Each row is one run to one position. The figures of ISO 230-2:2014 come from
-the means and standard deviations of the runs at each position and
+      R"(Each row is one approach to a position. The figures of ISO 230-2:2014
+come from the means and standard deviations of the runs at each position and
 direction.
 - A: accuracy; R: repeatability; E: systematic error; also of one direction
 alone

@@ -8,9 +8,9 @@
 namespace errmap::machine {
 
 /// The error at the tool over the working plane, before and after compensation
-/// by the recommended maps: mean errors as arrows, on one scale and after
-/// compensation also on a larger one, and the RMS in colours, on one scale.
-/// Nothing where the record has no plane.
+/// by the recommended maps. Arrows show mean errors on one scale, and after
+/// compensation also on a larger one. Colours show the RMS on one scale.
+/// Returns nothing if the record has no plane.
 std::vector<report::Figure> MachineFigures(const MachineRecord& machine);
 
 }  // namespace errmap::machine

@@ -17,13 +17,13 @@ namespace errmap::machine {
 
 using models::kNotKnown;
 
-/// A figure of the stated 90 % intervals along each of X, Y and Z; NaN without
-/// intervals.
+/// A statistic of the stated 90 % intervals along each of X, Y and Z; NaN
+/// without intervals.
 using ByDirectionRecord = std::array<double, 3>;
 inline constexpr ByDirectionRecord kNoFigures = {
     kNotKnown, kNotKnown, kNotKnown};
 
-/// The error at the tool on one day that no fit saw.
+/// The error at the tool on one day that no fit used.
 struct MachineDayRecord {
   std::string session;
   std::int64_t points = 0;
@@ -43,8 +43,9 @@ struct PositioningRecord {
   double accuracy = kNotKnown;
 };
 
-/// The error that a component leaves at the tool: the RMS of its readings minus
-/// its map on those days, times the RMS of its sensitivities.
+/// The contribution of a component to the remaining error at the tool: the RMS
+/// of its readings minus its map on those days, times the RMS of its
+/// sensitivities.
 struct MachinePartRecord {
   std::string error;  // "EXX"
   double rms = kNotKnown;
@@ -55,7 +56,7 @@ struct MachineMapRecord {
   std::string model;
 };
 
-/// The machine with one way of choosing its maps, or without any.
+/// The machine's results with one way of choosing its maps, or without any map.
 struct MachineChoiceRecord {
   std::string name;  // "uncompensated", "polynomial", "neural", "recommended"
   std::optional<std::string> why;  // why there are no figures
@@ -102,7 +103,7 @@ struct MachineRecord {
 
 inline constexpr const char* kMachineKey = "machine";
 
-/// Adds it to the study's record under the key "machine".
+/// Adds the judgement to the study's record under the key "machine".
 void AddMachine(const MachineRecord& machine, models::StudyRecord* record);
 
 }  // namespace errmap::machine

@@ -255,7 +255,7 @@ def compare(frame: Measurements = None, *,
     target : str, optional
         Column of the error (default: the only one named ``error*``).
     inputs, exclude : sequence of str, optional
-        Columns to map from (default: all other numeric), and never.
+        Input columns (default: all other numeric ones), and columns that never are.
     groups, session, time : str, optional
         Columns of warm-up cycles, of sessions (days) and of times; found by
         their names, if left out.

@@ -13,15 +13,14 @@ namespace errmap::report {
 struct FitTextOptions {
   std::string out;  // file of the map
   bool correlations = false;
-  /// Everything: tables are not cut to the terminal, nor long equations left
-  /// out.
+  /// True: tables are not cut to the terminal, and long equations are shown.
   bool details = false;
   Terminal terminal;
 };
 
-/// What `errmap fit` tells of a map fitted to all rows of `dataset`: errors
-/// there (`train`), equation, how the fit ended, starts, correlations and
-/// regression as tables, and the interval.
+/// Returns the report of `errmap fit` on a map fitted to all rows of `dataset`:
+/// errors there (`train`), equation, end of the fit, starts, interval, and
+/// correlations and regression as tables.
 std::string FitText(const models::FittedModel& fitted,
                     const models::Sensitivity& sensitivity,
                     const stats::ErrorMetrics& train,

@@ -19,8 +19,8 @@ std::string ReportHtml(const models::StudyRecord& record,
 /// 1; it runs no script and loads nothing. `title` is text, `body` HTML.
 std::string PageHtml(const std::string& title, const std::string& body);
 
-/// HTML links from a page's first screen to the meaning of its words, and the
-/// section of the page that explains them.
+/// Returns HTML links from a page's first screen to the section that explains
+/// its words.
 std::string GlossaryLinks();
 std::string Glossary();
 

@@ -85,8 +85,8 @@ Axis ResidualAxis(const ReportView& view);
 
 // A picture with a row for each name, the first on top, and marks along x:
 
-/// The axis of errors from `low` to `high`, in the unit shown: from 0, or
-/// logarithmic where they are apart by decades.
+/// The axis of errors from `low` to `high`, in the unit shown. It starts at 0,
+/// or is logarithmic if they differ by decades.
 Axis HeldOutErrorAxis(const ReportView& view, double low, double high);
 
 /// Names the rows; `what` they are.
@@ -94,7 +94,7 @@ void NameRows(const std::vector<std::string>& names,
               const std::string& what,
               Plot* plot);
 
-/// A dashed line across so many rows.
+/// A dashed line across this many rows.
 Series AcrossRows(const std::string& label, double at, std::size_t rows);
 
 Series Points(std::vector<double> x, std::vector<double> y);
@@ -141,7 +141,7 @@ std::vector<Figure> ResidualFigures(const ReportView& view,
                                     bool brief);
 
 /// Held-out error of the recommended map without each of its sensors, and
-/// without alike sensors; none if the record lacks it.
+/// without groups of similar sensors; none if the record lacks it.
 std::vector<Figure> ImportanceFigures(const ReportView& view,
                                       const std::string& prefix);
 

@@ -41,8 +41,8 @@ struct ComponentFigures {
   std::vector<Figure> figures;
 };
 
-/// A part of the report on what a slice added to the record, of all components
-/// together.
+/// A part of the report that shows what a slice added to the record, for all
+/// components together.
 struct RecordPart {
   std::string id;               // of its section of the page
   std::string title;            // of the same
@@ -52,15 +52,16 @@ struct RecordPart {
   std::vector<Figure> figures;  // below the first of these
 };
 
-/// How what a slice keeps under a key of models::StudyRecord::others is shown.
+/// Shows the data that a slice keeps under a key of
+/// models::StudyRecord::others.
 struct RecordPartMaker {
   std::string_view key;
-  /// Throws data::InputError where the text holds something else.
+  /// Throws data::InputError if the text holds something else.
   RecordPart (*make)(const std::string& json);
 };
-/// Those of the slices that are built; written by CMake.
+/// The parts of the slices that are built; written by CMake.
 const std::vector<RecordPartMaker>& RecordPartMakers();
-/// The parts of a record that a slice shows, tables without rows left out.
+/// Returns the parts of a record that slices show, without empty tables.
 std::vector<RecordPart> PartsOf(const models::StudyRecord& record);
 
 /// All figures of a report, by component.

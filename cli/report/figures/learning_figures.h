@@ -7,13 +7,13 @@
 
 namespace errmap::report {
 
-/// Error on unseen units against training units, or against the number of
-/// sensors, as errmap learn was asked; none if there is neither.
+/// Error on unseen units against the number of training units or of sensors, as
+/// requested from `errmap learn`; none if the record has neither.
 std::vector<Figure> LearningFigures(const models::LearningRecord& learnt,
                                     const std::string& prefix);
 
-/// Adds them to the component that they belong to: the only one with the same
-/// data file and target.
+/// Adds the figures to their component: the only one with the same data file
+/// and target.
 void AddLearning(const models::StudyRecord& record,
                  const std::vector<models::LearningRecord>& learnt,
                  FigureSet* figures);

@@ -59,8 +59,8 @@ inline constexpr std::size_t kProvenColumn = 4;
 /// none did.
 std::string DrawnRowsWords(const ReportView& view);
 
-/// Says what poly:temperature reads where the data have no thermometer; "" if
-/// they have one.
+/// Says what poly:temperature reads if the data have no thermometer; "" if they
+/// have one.
 std::string StandInWords(const ReportView& view);
 
 /// One row for each model, with the hold-outs, the decisive one first: errors,

@@ -9,12 +9,13 @@ namespace errmap::data {
 
 struct CellFaults {
   std::vector<ColumnFault> faults;  // rows from 0
-  /// Temperature inputs that can be gone by, what is wrong in them apart.
+  /// Temperature inputs that other columns can be compared with, without their
+  /// faults.
   std::vector<Thermometer> thermometers;
 };
 
-/// Values that stand out by themselves (kImpossible, kOutlying), then, of
-/// thermometers, by their neighbours (kJump).
+/// Finds values that stand out by themselves (kImpossible, kOutlying). Then,
+/// for thermometers, those that stand out from their neighbours (kJump).
 CellFaults FindCellFaults(const MeasuredColumns& measured);
 
 }  // namespace errmap::data

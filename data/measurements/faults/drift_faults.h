@@ -8,15 +8,15 @@
 
 namespace errmap::data {
 
-/// Thermometers that leave the others more from session to session
+/// Finds thermometers that depart further from the others in each session
 /// (kDrifting), the worst first. Those that `known` distrusts as a whole are
 /// left out.
 std::vector<ColumnFault> FindDrift(const MeasuredColumns& measured,
                                    const std::vector<Thermometer>& thermometers,
                                    const std::vector<ColumnFault>& known);
 
-/// The thermometer that, where sessions begin (rows from 0), leaves the mean of
-/// the others by more from session to session: told of those too unlike for
+/// Finds the thermometer that departs further from the mean of the others at
+/// the start (rows from 0) of each session. It reports those too different for
 /// FindDrift, from four sessions on.
 std::optional<ColumnFault> FindColdDrift(
     const MeasuredColumns& measured,

@@ -7,9 +7,9 @@
 
 namespace errmap::data {
 
-/// Thermometers held against the others: those that step where no other moves
-/// (kStep), that stay while the others change (kStuck), and noisy ones. Rows
-/// count from 0.
+/// Compares thermometers with the others. Finds those that step while no other
+/// moves (kStep), those that stay constant while the others change (kStuck),
+/// and noisy ones. Rows count from 0.
 std::vector<ColumnFault> FindThermometerFaults(
     const MeasuredColumns& measured,
     const std::vector<Thermometer>& thermometers);

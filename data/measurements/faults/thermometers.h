@@ -10,16 +10,16 @@ namespace errmap::data {
 
 // What the searches for faults of columns share.
 
-/// Rows below which a column says nothing of itself.
+/// Smallest number of rows that tells anything about a column.
 inline constexpr Eigen::Index kFewestRows = 12;
 
-/// Jumps and steps, in noise of the column.
+/// Thresholds of jumps and steps, in multiples of the column's noise.
 inline constexpr double kJumpNoise = 20.0;
 
-/// Other thermometers that one is held against.
+/// Number of other thermometers with which one is compared.
 inline constexpr std::size_t kFewestOthers = 3;
 
-/// A temperature column less the cells that were found wrong.
+/// A temperature column without the cells found to be wrong.
 struct Thermometer {
   Eigen::Index input = -1;
   double degree = 1.0;              // one degC in the column's unit
@@ -35,8 +35,8 @@ struct Bounds {
 /// A difference of 1 degC in another unit.
 double DegreeIn(const Unit& unit);
 
-/// A fault of `rows` (from 0); of single cells where its kind is of cells and
-/// they are few.
+/// Makes a fault of `rows` (from 0). It is a fault of single cells if its kind
+/// allows that and there are few.
 ColumnFault MakeFault(const MeasuredColumns& measured,
                       FaultKind kind,
                       Eigen::Index input,
@@ -44,7 +44,7 @@ ColumnFault MakeFault(const MeasuredColumns& measured,
                       double value,
                       Bounds held);
 
-/// So many wrong cells are single ones.
+/// Largest number of wrong cells that count as single ones.
 Eigen::Index MostCells(Eigen::Index num_rows);
 
 /// Rows (from 0) whose cell is not wrong.
@@ -56,7 +56,7 @@ std::vector<double> ValuesAt(const MeasuredColumns& measured,
                              const std::vector<Eigen::Index>& rows,
                              Eigen::Index input);
 
-/// The upper one of two in the middle; NaN of none.
+/// The upper median; NaN if there are no values.
 double MedianOf(std::vector<double> values);
 
 }  // namespace errmap::data

@@ -12,8 +12,8 @@ namespace errmap::data {
 /// parts->rows, ascending.
 void KeepRows(const std::vector<Eigen::Index>& kept, Dataset::Parts* parts);
 
-/// Leaves out the inputs (p) that are marked. Returns the new index of each
-/// input, -1 of one that is left out.
+/// Leaves out the marked inputs (p). Returns the new index of each input, -1
+/// for one left out.
 std::vector<Eigen::Index> LeaveOutInputs(const std::vector<bool>& left_out,
                                          Dataset::Parts* parts);
 

@@ -11,7 +11,7 @@
 
 namespace errmap::data {
 
-/// An input of a data set that a map is better without.
+/// An input of a data set without which a map is better.
 struct UselessInput {
   Eigen::Index input;
   std::string why;          // "is dead (stuck at 85 from data row 12 on)"
@@ -19,18 +19,18 @@ struct UselessInput {
   bool even_named = false;  // left out though somebody asked for it
 };
 
-/// Those that together give the target: no control knows it beforehand.
+/// Finds inputs that together give the target: no control knows it beforehand.
 std::vector<UselessInput> LeakingInputs(const Dataset::Parts& parts);
 
-/// What numbers the cycles on through the sessions (a code for each row, of
-/// `num_sessions`), or never falls in any of them (hours, kilometres, energy):
-/// it is a thermal state in none.
+/// Finds inputs that number the cycles through all sessions (a code for each
+/// row, of `num_sessions`), or that never fall within a session (hours,
+/// kilometres, energy). These are not thermal states.
 std::vector<UselessInput> CountingInputs(
     const Dataset::Parts& parts,
     const std::vector<Eigen::Index>& sessions,
     Eigen::Index num_sessions);
 
-/// Thermometers that were alive and end stuck.
+/// Finds thermometers that stop changing for the rest of the data.
 std::vector<UselessInput> StuckInputs(const Dataset::Parts& parts,
                                       std::span<const ColumnFault> faults);
 

@@ -11,30 +11,30 @@
 
 namespace errmap::data {
 
-/// A remark where a target is of a size that no machine errs by: a machine that
-/// errs by millimetres, or by less than most can measure, is one whose numbers
-/// are in another unit, more often than not.
+/// Returns a remark if no machine has errors of the target's size. If a machine
+/// seems to err by millimetres, or by less than can be measured, its unit is
+/// probably another.
 std::optional<std::string> UnlikelySize(const ColumnInfo& target,
                                         const Eigen::VectorXd& values);
 
-/// Throws OpenQuestion where nobody stated the unit of a target and its values
-/// (RMS above 1) or columns in inches and degF speak against the mm assumed, or
-/// where none is assumed ("Abweichung") and nobody `named` the target.
+/// Throws OpenQuestion if nobody stated the target's unit and the values (RMS
+/// above 1), or columns in inches and degF, contradict the assumed mm. Also if
+/// no unit can be assumed ("Abweichung") and the target was not `named`.
 void AskForUnit(const CsvTable& table,
                 const std::string& target,
                 const Eigen::VectorXd& values,
                 bool named);
 
-/// The weights of these rows, of mean 1, since only their ratios mean something
-/// and equal ones are none. Throws InputError where one is not above 0, or less
-/// than 1e-30 of the largest.
+/// Returns the weights of these rows, scaled to mean 1, since only their ratios
+/// matter. Equal weights count as none. Throws InputError if one is not above
+/// 0, or less than 1e-30 of the largest.
 Eigen::VectorXd WeightsOf(const CsvTable& table,
                           const CsvColumn& column,
                           const std::vector<Eigen::Index>& rows);
 
-/// Throws InputError where the squares of `values` cannot be summed, as every
-/// figure of a target or an input is such a sum. `what`: "target", "input" that
-/// is called `column`, of these `rows` of the table.
+/// Throws InputError if the squares of `values` cannot be summed, since every
+/// statistic of a target or an input is such a sum. `role` is "target" or
+/// "input"; the input is `column`, in these `rows` of the table.
 void RequireSquares(const CsvTable& table,
                     const std::vector<Eigen::Index>& rows,
                     const std::string& what,

@@ -12,7 +12,7 @@
 
 namespace errmap::data {
 
-/// The axis of a table: the positions that were commanded.
+/// The axis of a table: the commanded positions.
 struct Axis {
   std::ptrdiff_t column = -1;  // index into the table; -1: none found
   Levels levels;               // of the rows asked for
@@ -25,9 +25,9 @@ struct Axis {
   std::vector<std::size_t> numbers;    // whole numbers that go with it
 };
 
-/// The column that `selection` names, else the one whose values come again as
-/// commanded ones do, which its name or unit confirms; else one that is called
-/// so. `target` is an index into the table.
+/// Returns the column that `selection` names, else the one whose values recur
+/// like commanded ones, confirmed by its name or unit, else one with the name
+/// of a position. `target` is an index into the table.
 Axis FindAxis(const CsvTable& table,
               const DatasetSelection& selection,
               std::size_t target,

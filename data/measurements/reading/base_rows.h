@@ -4,12 +4,12 @@
 
 namespace errmap::data {
 
-/// Finds the rows that the filters by columns leave, without those of totals
-/// and remarks. Throws InputError where such a row is not to be left out.
+/// Chooses the rows that pass the filters, without those of totals and remarks.
+/// Throws InputError if such a row must not be left out.
 void ChooseBaseRows(TableInReading* in);
 
-/// With dates, rows that are alike in all else are one reading that was saved
-/// twice: leaves the later ones out. False where there are none.
+/// If rows with dates are equal in all columns, they are one reading saved
+/// twice: leaves out the later ones. Returns false if there are none.
 bool LeaveOutSavedTwice(TableInReading* in);
 
 }  // namespace errmap::data

@@ -13,7 +13,7 @@
 
 namespace errmap::data {
 
-/// When the rows asked for (n) were measured.
+/// The times at which the requested rows (n) were measured.
 struct Clock {
   std::ptrdiff_t column = -1;       // index into the table; -1: row numbers
   std::ptrdiff_t date_column = -1;  // of dates beside times of day
@@ -29,7 +29,7 @@ struct Clock {
   std::vector<std::string> remarks;  // on its unit, the order of dates, ...
 
   bool is_found() const { return column >= 0; }
-  /// Whether each row has a date, later than that of the row before: no two are
+  /// True if each row has a later date than the row before, so that no two are
   /// the same reading.
   bool DatesRise() const;
 };

@@ -10,14 +10,14 @@
 
 namespace errmap::data {
 
-/// Columns that could tell when these rows were measured, by their names and
-/// values: groups of indices into the table, the likeliest first.
+/// Returns columns that might tell when these rows were measured, by their
+/// names and values: groups of indices into the table, the most likely first.
 std::vector<std::vector<std::size_t>> ColumnsOfTime(
     const CsvTable& table,
     const DatasetSelection& selection,
     const std::vector<Eigen::Index>& rows);
 
-/// The only column of dates without hours, or -1.
+/// Returns the only column of dates without hours, or -1.
 std::ptrdiff_t ColumnOfDates(const CsvTable& table,
                              const DatasetSelection& selection);
 

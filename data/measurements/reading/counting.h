@@ -29,13 +29,13 @@ struct Counter {
   Counted counts;
 };
 
-/// The columns that count, whatever they are called: whole numbers without a
-/// unit that change only where a pass or a way begins, mostly by the same, and
-/// words by the order in which they appear. Blocks go up by one, never back;
-/// numbers of no name that says so begin at 1 (three of them or more at 0).
-/// Without passes, a block has 8 rows or more. Neither positions, nor the
-/// target, nor what `selection` names. `motion` is that of `rows`, which are in
-/// the order of measurement.
+/// Finds the columns that count, whatever their names. They are whole numbers
+/// without a unit that change only where a pass or a direction begins, mostly
+/// by the same step, or words in order of appearance. Blocks increase by one
+/// and never decrease. Numbers without a telling name begin at 1 (three of them
+/// or more at 0). Without passes, a block has at least 8 rows. Excludes
+/// positions, the target and columns that `selection` names. `motion` is that
+/// of `rows`, which are in the order of measurement.
 std::vector<Counter> FindCounters(const CsvTable& table,
                                   const DatasetSelection& selection,
                                   std::size_t target,

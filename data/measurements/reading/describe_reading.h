@@ -4,8 +4,8 @@
 
 namespace errmap::data {
 
-/// Fills `reading` and `position` of in->read from what was found: target,
-/// axis, time, sessions, cycles, rows left out, files.
+/// Fills `reading` and `position` of in->read from the results: target, axis,
+/// time, sessions, cycles, rows left out, files.
 void DescribeReading(TableInReading* in);
 
 }  // namespace errmap::data

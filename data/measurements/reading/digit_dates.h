@@ -6,12 +6,12 @@
 
 namespace errmap::data {
 
-/// Dates that a table holds as numbers, as columns of text in their place:
-/// YYYYMMDD whatever the name (20240304), days as Excel counts them under the
-/// name of a date (45355), hours, minutes and seconds (81446) under the name
-/// of a time. Columns called year, month and day (hour, minute, second) become
-/// one more, named "Year + Month + Day". Indices and texts; the rest of the
-/// table stays as it is.
+/// Converts dates and times stored as numbers to columns of text: YYYYMMDD
+/// whatever the name (20240304), Excel's day numbers if the name is that of a
+/// date (45355), hours, minutes and seconds (81446) if it is that of a time.
+/// Columns called year, month and day (hour, minute, second) become one
+/// additional column, named "Year + Month + Day". Returns indices and texts;
+/// the rest of the table is unchanged.
 struct DigitDates {
   struct Rewritten {
     std::size_t column;  // its index; the number of columns for one more

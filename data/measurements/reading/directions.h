@@ -14,28 +14,30 @@
 
 namespace errmap::data {
 
-/// The column that says which way rows went, where the table has none and the
-/// positions tell; and that of cycles.
+/// The columns of directions and cycles, derived from the positions if the
+/// table has none.
 inline constexpr const char* kDirectionColumn = "direction";
 inline constexpr const char* kCycleColumn = "cycle";
 
-/// A column of two words or numbers that is called a direction; -1: none.
+/// Returns a column of two words or numbers with the name of a direction; -1:
+/// none.
 std::ptrdiff_t NamedDirection(const CsvTable& table,
                               const DatasetSelection& selection,
                               const std::vector<Eigen::Index>& rows);
 
-/// A column of two values, whatever it is called, that goes with the way
-/// through the positions; -1: none. `motion` is that of `rows`.
+/// Returns a column of two values, whatever its name, that follows the
+/// direction of motion through the positions; -1: none. `motion` is that of
+/// `rows`.
 std::ptrdiff_t DirectionByValues(const CsvTable& table,
                                  std::size_t target,
                                  const std::vector<Eigen::Index>& rows,
                                  const Motion& motion);
 
-/// Which of the two values of a column is upwards, by words that say it of the
-/// positions ("up" and "down", "+" and "-"). Others ("forward", "A") say
-/// nothing of them, and the order of the rows tells. Where it contradicts the
-/// words it may be another than that of measurement: the file's words are kept,
-/// unsure. `motion` is that of `rows`, without passes where there is none;
+/// Returns which of the two values of a column is upwards, according to words
+/// for positions ("up" and "down", "+" and "-"). Other words ("forward", "A")
+/// do not say; the order of the rows then decides. If the order contradicts the
+/// words, it may not be that of measurement: the file's words are used, as
+/// uncertain. `motion` is that of `rows`, without passes if there is none.
 /// `ordered`: the rows are in the order of measurement.
 Reading::Direction ReadDirection(const CsvTable& table,
                                  const CsvColumn& column,
@@ -43,17 +45,18 @@ Reading::Direction ReadDirection(const CsvTable& table,
                                  const Motion& motion,
                                  bool ordered);
 
-/// Index of the way that somebody wants: the one that the file calls so, else
-/// the one that goes so; nothing where none does.
+/// Returns the index of the requested direction: the one with that word in the
+/// file, else the one with that motion; nothing if there is none.
 std::optional<std::size_t> PlaceOfWay(const Reading::Direction& found,
                                       const std::string& wanted);
 
-/// The rows of each of the two ways through the positions, as filters; none
-/// where there is one way, or `selection` has taken one.
+/// Returns filters for the rows of each of the two directions; none if there is
+/// one direction, or `selection` has chosen one.
 std::vector<ColumnFilter> DirectionsOf(const Reading& reading,
                                        const DatasetSelection& selection);
 
-/// The column of "up" and "down" that motion tells of `rows`, "" in others.
+/// Returns the column of "up" and "down" that motion gives for `rows`, "" in
+/// other rows.
 CsvColumn DirectionColumn(const CsvTable& table,
                           const std::vector<Eigen::Index>& rows,
                           const Motion& motion);

@@ -11,13 +11,13 @@
 
 namespace errmap::data {
 
-/// What a column of sessions is called that another column's labels tell.
+/// Name of a column of sessions that is derived from another column's labels.
 std::string SessionsNamedIn(std::string_view labels);
 
-/// The sessions that labels of cycles name beside their number, which begins
-/// anew with each: "D1" of "D1C1", "X_20240304" of "X_20240304_01.rtl", "1" of
-/// 1.1 or 101; each of two cycles or more. "" in rows other than these `rows`,
-/// which are in the order of measurement. Nothing where labels tell fewer than
+/// Returns the sessions in labels of cycles beside a number that starts again
+/// in each: "D1" of "D1C1", "X_20240304" of "X_20240304_01.rtl", "1" of 1.1 or
+/// 101. Each session has two cycles or more. It is "" outside `rows`, which are
+/// in the order of measurement. Returns nothing if the labels give fewer than
 /// `least` sessions.
 std::optional<CsvColumn> FindSessionsInLabels(
     const CsvTable& table,

@@ -9,10 +9,10 @@
 
 namespace errmap::data {
 
-/// Lets a clock go on, in rows in the order of measurement, with a remark where
-/// it says another time: times of day that pass midnight; hours from 1 to 12,
-/// behind noon; a dated clock that is set back by up to an hour (to three
-/// steps), as where summer time ends.
+/// Makes a clock continuous, for rows in the order of measurement, with a
+/// remark if it changes a time. It corrects times of day that pass midnight,
+/// hours from 1 to 12 after noon, and a dated clock set back by up to an hour
+/// (to three steps), as at the end of summer time.
 void GoOnOverMidnight(const CsvTable& table,
                       const std::vector<Eigen::Index>& rows,
                       Clock* clock);

@@ -7,8 +7,8 @@
 
 namespace errmap::data {
 
-/// The values to which a column returns, like positions that a program
-/// commands: exactly, or within a width far below their distances.
+/// The values to which a column returns, like commanded positions: exactly, or
+/// within a tolerance far below their spacing.
 struct Levels {
   std::vector<double> centers;      // ascending
   std::vector<Eigen::Index> codes;  // (rows) index into centers; -1: no number

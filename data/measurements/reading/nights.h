@@ -10,7 +10,7 @@
 
 namespace errmap::data {
 
-/// Nights part the rows: pauses of more than `gap`.
+/// Nights divide the rows: pauses of more than `gap`.
 struct Nights {
   double gap = 0.0;  // s; infinite: one session
   bool sure = true;
@@ -26,8 +26,9 @@ Nights FindNights(const Eigen::VectorXd& time,
                   const Motion& motion,
                   bool dated);
 
-/// The same by a clock, or the pause that the selection gives. Without a clock
-/// there is one session. Throws InputError if that is no length of time.
+/// Finds nights by a clock, or by the pause that the selection gives. Without a
+/// clock there is one session. Throws InputError if the pause is not a
+/// duration.
 Nights FindNights(const Clock& clock,
                   const Motion& motion,
                   const DatasetSelection& selection);

@@ -4,18 +4,19 @@
 
 namespace errmap::data {
 
-/// Finds the ways along the axis, by a column or by the positions, and keeps
-/// the rows of the one that the selection asks for. Throws InputError where no
-/// row goes that way.
+/// Finds the directions along the axis, from a column or the positions, and
+/// keeps the rows of the one that the selection requests. Throws InputError if
+/// no row has that direction.
 void FindWays(TableInReading* in);
 
-/// Finds the columns that count passes, ways, rows or days.
+/// Finds the columns that count passes, directions, rows or days.
 void FindColumnsThatCount(TableInReading* in);
 
-/// Finds the cycles: by a column, else by numbering the passes in one more.
+/// Finds the cycles: in a column, else by numbering the passes in a new one.
 void FindCycles(TableInReading* in);
 
-/// Labels of cycles that name their session, too, become one more column.
+/// If labels of cycles also name their session, the sessions become a new
+/// column.
 void FindBlocksInLabels(TableInReading* in);
 
 }  // namespace errmap::data

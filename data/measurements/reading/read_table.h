@@ -14,14 +14,14 @@
 
 namespace errmap::data {
 
-/// A table with what was found in it: rows in order of time, and columns of
-/// what its values say (direction, cycle, an error for a correction).
+/// A table with what was found in it: rows in order of time, and columns
+/// derived from its values (direction, cycle, an error from a correction).
 struct ReadTable {
-  /// Nothing: the table as it was given. Its numbers may be those of the table
-  /// given, which must outlive it.
+  /// Nothing: the table is used as given. It may use the numbers of that table,
+  /// which must outlive it.
   std::optional<CsvTable> table;
   ColumnRoles roles;
-  /// Rows of the table given, where they were put in order of time.
+  /// Rows of the given table, if they were put in order of time.
   std::vector<Eigen::Index> order;
   std::vector<ColumnFilter> where;          // of the selection, direction too
   std::vector<bool> passes;                 // (rows of the table)
@@ -35,15 +35,15 @@ struct ReadTable {
   Reading reading;
 };
 
-/// Reads what each column, row and pause of a table means: see reading.h.
-/// Throws InputError as MakeDataset does, OpenQuestion where no reading is the
-/// cautious one.
+/// Finds what each column, row and pause of a table means: see reading.h.
+/// Throws InputError as MakeDataset does, OpenQuestion if no reading is
+/// cautious enough.
 ReadTable ReadRoles(const CsvTable& table, const DatasetSelection& selection);
 
-/// Of rows for a map in use, whose columns the map knows: their order, axis,
+/// Reads rows for a map in use, which knows the columns: their order, axis,
 /// clock, cycles and sessions. The selection may name target, position (else
-/// there is none), time and session. Throws InputError where a column that it
-/// names will not do.
+/// there is none), time and session. Throws InputError if a named column is
+/// unusable.
 ReadTable ReadRowsForMap(const CsvTable& table,
                          const DatasetSelection& selection);
 

@@ -13,8 +13,9 @@
 
 namespace errmap::data {
 
-/// The columns of a table in some of its rows, as those see them who look for
-/// times and sessions: one that somebody named must do, another is passed over.
+/// The columns of a table, limited to some of its rows, for the search for
+/// times and sessions. An unusable column is an error if the user named it;
+/// otherwise it is skipped.
 class RowColumns {
  public:
   RowColumns(const CsvTable& table,
@@ -27,39 +28,40 @@ class RowColumns {
     return static_cast<std::size_t>(rows_[i]);
   }
 
-  /// The numbers of the rows, for a time.
+  /// The numbers of the rows, in place of times.
   Eigen::VectorXd RowNumbers() const {
     Eigen::VectorXd numbers(std::ssize(rows_));
     std::ranges::copy(rows_, numbers.begin());
     return numbers;
   }
 
-  /// Of a column, in these rows.
+  /// Returns a column in these rows.
   std::vector<double> ValuesOf(const CsvColumn& column) const;
 
-  /// What is measured tells no time: filters would see the error itself.
+  /// Measured columns give no time: filters would see the error itself.
   bool IsMeasured(std::size_t column) const;
-  /// Throws InputError where it is not there, or measured.
+  /// Throws InputError if the column does not exist or is measured.
   std::size_t NamedColumn(const std::string& name,
                           const std::string& argument) const;
 
-  /// Why a column will not do: thrown with the remedy where it was named, else
-  /// a remark.
+  /// Passes over an unusable column. Throws the reason with the remedy if the
+  /// user named the column; otherwise adds a remark.
   static void PassOver(bool named,
                        const std::string& why,
                        const std::string& remedy,
                        std::vector<std::string>* remarks);
 
-  /// Whether a cell of a column may be missing in this row of the table, which
-  /// drops the row; else a remark, or of a named column InputError.
+  /// True if a cell of a column may be missing in this row of the table, which
+  /// drops the row. Otherwise makes a remark, or throws InputError for a named
+  /// column.
   bool MayBeMissing(std::size_t column,
                     std::size_t row,
                     bool named,
                     std::vector<std::string>* remarks) const;
 
-  /// Rows that are not known get the value before them (the first ones that
-  /// after them), so that steps to and from them are those of the others. False
-  /// where none is known.
+  /// Gives unknown rows the value before them (the first rows that after them),
+  /// so that the steps are those of the other rows. Returns false if none is
+  /// known.
   template <typename Values>
   static bool HoldLast(const std::vector<bool>& known, Values* values) {
     const auto first = std::ranges::find(known, true) - known.begin();

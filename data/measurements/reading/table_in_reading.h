@@ -16,7 +16,7 @@
 
 namespace errmap::data {
 
-/// A table while it is read: what the steps of ReadRoles hand on.
+/// A table while it is read; the steps of ReadRoles pass it on.
 struct TableInReading {
   const CsvTable& given;
   const DatasetSelection& selection;
@@ -27,17 +27,18 @@ struct TableInReading {
   bool ordered = true;  // whether the rows stand in the order of time
 
   const CsvTable& table() const { return read.table ? *read.table : given; }
-  /// The same to be changed: a table of its own from then on.
+  /// Gives write access: the table is its own copy from then on.
   CsvTable& Changed();
   void AddColumn(CsvColumn column);
-  /// In the place of another, or behind the last.
+  /// Replaces a column, or appends one.
   void PutColumn(std::size_t place, CsvColumn column);
 
   /// (rows of the table)
   std::vector<bool> IsBaseRow() const;
-  /// How the base rows go through the positions; nothing without an axis.
+  /// How the base rows move through the positions; nothing without an axis.
   const Motion& Passes() const;
-  /// The first column that is called so, or that counts these; -1: none.
+  /// Returns the first column of that name, or the first that counts these; -1:
+  /// none.
   std::ptrdiff_t FirstCalled(Word word) const;
   std::ptrdiff_t FirstThatCounts(Counted counted) const;
 };

@@ -14,49 +14,50 @@ struct TimeUnit {
   std::string_view name;
   double seconds;
 };
-/// Null where there is none of that name.
+/// Returns null if there is none of that name.
 const TimeUnit* FindTimeUnit(std::string_view name);
-/// What a column's name says of the unit of its times; null: nothing.
+/// Returns the unit of time in a column's name; null: none.
 const TimeUnit* StatedUnit(std::string_view column);
 
-/// Steps and span of times as they stand.
+/// Steps and span of times, unconverted.
 struct Pace {
   double least = 0.0;
   double most = 0.0;
   double step = 0.0;  // median of those above 0
 
-  /// Those of a measurement: steps of 0.01 s to a day, under ten years.
+  /// True for those of a measurement: steps of 0.01 s to a day, under ten
+  /// years.
   bool MayBeIn(const TimeUnit& unit) const;
 };
 /// NaN apart.
 Pace PaceOf(std::vector<double> values);
 
-/// Where numbers count from, and in which unit.
+/// The zero from which numbers count, and their unit.
 struct Epoch {
   const TimeUnit* unit;
   double offset;  // seconds from 1970 to 0
 
   bool counts_days() const { return unit->seconds == kSecondsOfDay; }
 };
-/// What the column's name says, which days that Excel counts need.
+/// The unit in the column's name, which Excel's day numbers need.
 enum class Named { kNothing, kTime, kDate };
-/// Numbers that count from 1970 whatever their unit is called: the years 1990
-/// to 2060 in each unit do not meet; nor do Windows' 100 ns from 1601. Excel's
-/// (and MATLAB's) days are numbers as others, too: of a date any, of a time
-/// such as part days.
+/// Recognises numbers that count from 1970, whatever the unit in their name. In
+/// each unit the years 1990 to 2060 give different numbers, also from Windows'
+/// 100 ns since 1601. Day numbers of Excel (and MATLAB) look like other
+/// numbers. For a date any count; for a time, those with parts of days.
 std::optional<Epoch> EpochOf(const Pace& pace, Named called);
-/// Days from 0 to 1970 of what a column counts by its name: "JD", "BJD", "HJD"
-/// (from noon, 4713 BC), "MJD", "days since 1970"; and where its values are of
-/// our time.
+/// Days from 0 to 1970 for a column whose name says what it counts: "JD",
+/// "BJD", "HJD" (from noon, 4713 BC), "MJD", "days since 1970". Its values must
+/// be of our time.
 std::optional<double> NamedDays(std::string_view column);
 std::optional<Epoch> NamedEpoch(std::string_view column, const Pace& pace);
 
-/// Steps from row to row: up, and back.
+/// Steps from row to row: forwards and backwards.
 struct Steps {
   std::size_t on = 0;
   std::size_t back = 0;
 
-  /// Up with most of so many rows, and seldom back.
+  /// True if most of this many rows go forwards, and few go back.
   bool GoForward(std::size_t rows) const {
     constexpr std::size_t kSeldom = 10;
     return 2 * on > rows && kSeldom * back < rows;
@@ -74,10 +75,10 @@ Steps StepsOf(const Values& values) {
 
 /// Excel counts days from 30 December 1899.
 inline constexpr double kExcelDaysTo1970 = 25569.0;
-/// Whether all are Excel's numbers of days, 1990 to 2060, or missing (NaN).
+/// True if all are Excel's day numbers, 1990 to 2060, or missing (NaN).
 bool AreWholeDays(const std::vector<double>& values);
 
-/// Seconds of 20260302080000; NaN where it is no such number.
+/// Seconds of 20260302080000; NaN if the number is not one of these.
 double SecondsOfDigits(double number);
 
 }  // namespace errmap::data

@@ -16,18 +16,18 @@ namespace errmap::data {
 
 inline bool IsLineEnd(char c) { return c == '\n' || c == '\r'; }
 
-/// Past the line end at `p`, if there is one: LF, CRLF and a lone CR (old
+/// Skips the line end at `p`, if there is one: LF, CRLF and a lone CR (old
 /// Macintosh) each end one line.
 inline const char* PastLineEnd(const char* p, const char* end) {
   if (p == end) return p;
   return p + (*p == '\r' && p + 1 != end && p[1] == '\n' ? 2 : 1);
 }
 
-/// The text of a CSV file cell by cell: a cursor, its line, and what ends a
-/// cell. Knows quotes, not what a cell means.
+/// Reads the text of a CSV file cell by cell: a cursor, its line, and the
+/// characters that end a cell. It knows quotes, but not the meaning of a cell.
 class CsvCells {
  public:
-  /// No cell can hold a NUL (the parser refuses them), so none ends at this.
+  /// Since no cell can hold a NUL (the parser refuses them), this ends none.
   static constexpr char kNoDelimiter = '\0';
 
   /// `text` must outlive it; `place` begins a message about a line.
@@ -58,32 +58,33 @@ class CsvCells {
 
   // ---- What parts cells.
 
-  /// ' ' stands for any number of blanks.
+  /// A blank represents any number of blanks.
   char delimiter = kNoDelimiter;
-  /// Cells of a row, or 0 where that is not known yet: a quoted cell with a
-  /// line of so many in it is one that somebody forgot to close.
+  /// Number of cells of a row, or 0 if unknown. A quoted cell that contains a
+  /// line with this many cells lacks its closing quote.
   std::size_t width = 0;
 
   // ---- Lines.
 
   bool AtBlankLine() const;
   void SkipLine();
-  /// A byte order mark, of which no line is made.
+  /// Skips a byte order mark.
   void SkipBytes(std::size_t count) { cursor_ += count; }
-  /// Leaves out the rows at the end that hold delimiters alone, as
-  /// spreadsheets leave them.
+  /// Removes rows at the end that hold only delimiters, as spreadsheets leave
+  /// them.
   void LeaveEmptyEnd();
 
   // ---- Cells.
 
-  /// Text of the cell at the cursor, trimmed and without its quotes; good until
-  /// the next call. The cursor comes to rest on what ends the cell. A quote
-  /// inside a quoted cell that nothing ends after is part of its text. Throws
-  /// InputError for a quote that is never closed, or not within its row.
+  /// Returns the text of the cell at the cursor, trimmed and without its
+  /// quotes; valid until the next call. The cursor stops at the character that
+  /// ends the cell. A quote inside a quoted cell that is not followed by the
+  /// end of a cell is part of its text. Throws InputError for a quote that is
+  /// never closed, or not within its row.
   std::string_view Next();
 
-  /// Most cells are plain numbers, and from_chars finds their end by itself:
-  /// the text of one, taken like Next's, or empty (the cursor stays).
+  /// Returns the text of a plain number, as Next would, or an empty text (the
+  /// cursor stays). Most cells are plain numbers, whose end from_chars finds.
   std::string_view NextNumber(double* value) {
     const char* const start = SkipBlanks(cursor_);
     const auto [stop, error] = std::from_chars(start, end_, *value);
@@ -94,7 +95,7 @@ class CsvCells {
     return {start, static_cast<std::size_t>(stop - start)};
   }
 
-  /// Past the delimiter (true) or line end (false) that ended a cell.
+  /// Skips the delimiter (true) or line end (false) that ended a cell.
   bool PassEnd() {
     if (by_blanks()) cursor_ = SkipBlanks(cursor_);
     if (cursor_ == end_) return false;
@@ -113,7 +114,7 @@ class CsvCells {
     throw InputError(place_(line) + ": " + what);
   }
 
-  /// Leaves out the line at the end, which starts at `start`.
+  /// Removes the line at the end that starts at `start`.
   void LeaveOutEnd(const char* start) { end_ = start; }
 
  private:
@@ -143,21 +144,22 @@ class CsvCells {
   std::string unquoted_;  // scratch: cell with doubled quotes undone
 };
 
-/// How many lines end within a text.
+/// Returns how many lines end within a text.
 std::size_t CountLineEnds(std::string_view text);
 
-/// A cell that is a number, and how it was written.
+/// A cell that is a number, and its notation.
 struct NumberForm {
   double value = 0.0;
   bool decimal_comma = false;
   bool decimal_point = false;
 };
 
-/// Whether a cell is one finite number, with a decimal comma where that may be.
-/// A second comma makes it a text.
+/// Reads a cell that is one finite number, with a decimal comma if that is
+/// allowed. A second comma makes it a text.
 bool ReadNumberForm(std::string_view cell, bool may_be_comma, NumberForm* form);
 
-/// Cell text without blanks at its ends, no-break and thin ones included.
+/// Returns cell text without blanks at its ends, including no-break and thin
+/// ones.
 std::string_view TrimmedCell(std::string_view text);
 
 }  // namespace errmap::data

@@ -6,14 +6,14 @@
 
 namespace errmap::data {
 
-/// A last line that a copy or a full disk cut off in mid number.
+/// A last line that was cut off in mid number, by a copy or a full disk.
 struct CutLine {
   const char* start;   // where the line begins
   std::string number;  // what is left of its last cell
 };
 
-/// Looks for one at the end of a table's rows: without a line end, where its
-/// last number has fewer decimals than each of the many before it.
+/// Looks for a cut line at the end of a table's rows: it has no line end, and
+/// its last number has fewer decimals than each of the many before it.
 std::optional<CutLine> FindCutLine(std::string_view rows, char delimiter);
 
 }  // namespace errmap::data

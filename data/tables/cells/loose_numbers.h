@@ -11,30 +11,30 @@
 
 namespace errmap::data {
 
-/// What makes a cell no number for programs; the rarest counts.
+/// Why programs do not read a cell as a number; the rarest reason counts.
 enum class Loose { kNone, kDash, kMarks, kRemark, kMinusBehind, kExponent };
 
-/// A number as people write it, which no program reads: thousands parted by
-/// blanks, apostrophes or the other decimal mark ("25 000.5", "25'000",
-/// "1.234.567,8"), a minus that is a dash or stands behind, a remark ("1.5 #
-/// door"), Fortran's exponent ("1.5D-03"). `other_mark`: one group of thousands
-/// is enough ("25,000" where points are decimal). Where a mark could be decimal
-/// it is none of these (kNone), and no value is given.
+/// Reads a number as people write it, which programs do not read. It may have
+/// thousands separated by blanks, apostrophes or the other decimal mark ("25
+/// 000.5", "25'000", "1.234.567,8"), a minus that is a dash or comes last, a
+/// remark ("1.5 # door"), or Fortran's exponent ("1.5D-03"). `other_mark`: one
+/// group of thousands is enough ("25,000" with decimal points). If a mark could
+/// be decimal, returns kNone and no value.
 Loose ReadLooseNumber(std::string_view cell,
                       bool decimal_comma,
                       bool other_mark,
                       NumberForm* form);
 
-/// What a cell says before its number: the axis "X" of a program's "X-215.9" or
-/// "N10 G1 X-215.9", "T1" of "T1=21.42"; no text where there is nothing.
+/// The text before the number in a cell: the axis "X" of "X-215.9" or "N10 G1
+/// X-215.9" in a program, "T1" of "T1=21.42"; empty if there is none.
 struct CellLabel {
   std::string text = {};
   bool is_axis = false;
 };
-/// Takes it off the cell.
+/// Removes that text from the cell and returns it.
 CellLabel TakeLabel(std::string_view* cell);
 
-/// Those of a file, counted for its remarks.
+/// Such numbers in a file, counted for its remarks.
 class LooseNumbers {
  public:
   void Add(Loose kind, std::size_t line);
@@ -50,9 +50,9 @@ class LooseNumbers {
   std::array<Seen, 6> seen_;  // of each Loose
 };
 
-/// Columns whose cells all are a number with one unit ("1.877 µm") or behind
-/// one label ("T1=21.4") become numbers, the unit a part of the name, and the
-/// label the name where there was none.
+/// Converts columns whose cells are all numbers with one unit ("1.877 µm") or
+/// after one label ("T1=21.4"). The unit becomes part of the name. The label
+/// becomes the name if there was none.
 void TakeUnitsOfCells(bool decimal_comma, CsvTable* table);
 
 }  // namespace errmap::data

@@ -8,7 +8,7 @@ namespace errmap::data {
 /// nothing.
 bool IsMissingText(std::string_view text);
 
-/// And for what else stands where a number is missing: "-", "?", "none",
+/// True also for other entries in place of a missing number: "-", "?", "none",
 /// "#DIV/0!", and what loggers write for no reading: OPEN, OL, OVER, ERR,
 /// FAULT, NC, "---".
 bool IsMissingNumber(std::string_view text);

@@ -11,7 +11,8 @@
 
 namespace errmap::data {
 
-/// What a column of numbers looks like, to tell a point that parts thousands.
+/// Features of a column of numbers from which a thousands separator is
+/// recognised.
 struct ColumnShape {
   bool all_threes = true;  // each point or comma has three digits behind it
   bool any_parted = false;
@@ -21,12 +22,12 @@ struct ColumnShape {
   bool by_thousands = false;
 };
 
-/// "1.050", "-215.900": one to three digits, none of them a 0 in front, a point
-/// or comma (at `point`), three digits.
+/// "1.050", "-215.900": one to three digits, the first not 0, a point or comma
+/// (at `point`), three digits.
 bool MayPartThousands(std::string_view number, std::size_t point);
 
-/// Finds the columns of numbers in which points or commas part thousands, and
-/// says so; true where there is one: the rows have to be read again.
+/// Finds the columns of numbers in which points or commas separate thousands,
+/// and says so. Returns true if there is one: the rows must be read again.
 bool PartThousands(const CsvTable& table,
                    std::vector<ColumnShape>* shapes,
                    const std::function<void(const std::string&)>& say);

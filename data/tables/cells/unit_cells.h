@@ -7,29 +7,30 @@
 
 namespace errmap::data {
 
-/// Whether a cell below a name is a unit or nothing: "mm", "[um]", "-"; a unit
-/// comes back without its brackets, nothing as "".
+/// Reads a cell below a name that is a unit or nothing: "mm", "[um]", "-". The
+/// unit is returned without its brackets, nothing as "".
 bool ReadUnitCell(std::string* cell);
 
-/// Whether all cells are units or nothing, one of them a unit.
+/// True if all cells are units or nothing, and at least one is a unit.
 bool AreUnitCells(std::vector<std::string> cells);
 
-/// Whether the cells are units or nothing, one of them a unit, each over a cell
-/// of the row below that is a number; reads them as ReadUnitCell does.
+/// Reads cells as ReadUnitCell does. True if all are units or nothing, at least
+/// one is a unit, and each is above a number in the next row.
 bool ReadUnitsOverNumbers(const std::vector<std::string>& below,
                           bool decimal_comma,
                           std::vector<std::string>* cells);
 
-/// Whether they rule the names off from the rows, as "|---|:--|" in Markdown.
+/// True if the cells separate the names from the rows, as "|---|:--|" in
+/// Markdown.
 bool AreRules(const std::vector<std::string>& cells);
 
-/// "error [um]" of a name and the unit below it; the name alone where that
-/// states the same unit, nothing where it states another.
+/// Returns "error [um]" for a name and the unit below it. Returns the name
+/// alone if it states the same unit, and nothing if it states another.
 std::optional<std::string> NameWithUnit(const std::string& name,
                                         std::string_view unit);
 
-/// Adds the unit in a cell to a name that states none; another cell, or another
-/// unit than the name states, changes nothing.
+/// Adds the unit in a cell to a name that states none. Any other cell, or a
+/// name with another unit, changes nothing.
 void AddUnitOfCell(const std::string& cell, std::string* name);
 
 }  // namespace errmap::data

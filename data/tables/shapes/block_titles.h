@@ -8,40 +8,41 @@
 
 namespace errmap::data {
 
-/// A line of words or a comment, and the row that comes next.
+/// A line of words or a comment, and the row that follows it.
 struct TitleLine {
   std::size_t row = 0;
   std::string text;
 };
 
-/// Whether a line of words has a date in it.
+/// True if a line of words contains a date.
 bool HoldsDate(const std::string& text);
 
-/// Whether a line says which day, session, run or cycle follows.
+/// True if a line says which day, session, run or cycle follows.
 bool NamesSession(const std::string& text);
 
-/// Makes of lines that part a table's rows into blocks a column: "date" where
-/// each has another date, else "session", "day", "cycle" or "run" by what they
-/// say. Each block has one, the first one too; they name days, sessions, runs
-/// or cycles and differ in their numbers alone, or the names of the columns
-/// stand below each. Of "day 1 run 1", "day 1 run 2", "day 2 run 1" it is the
-/// day. Says so in a remark, and where lines that name sessions make none.
-/// `names_again`: how often the names stand between the rows.
+/// Makes a column from lines that divide a table's rows into blocks: "date" if
+/// each has another date, else "session", "day", "cycle" or "run" by their
+/// words. Every block has such a line, including the first. The lines name
+/// days, sessions, runs or cycles and differ only in their numbers, or the
+/// names of the columns are repeated below each. For "day 1 run 1", "day 1 run
+/// 2", "day 2 run 1" it is the day. Remarks on this, also if lines that name
+/// sessions give no column. `names_again`: how often the names are repeated
+/// between the rows.
 void PartByTitles(const std::vector<TitleLine>& lines,
                   std::size_t names_again,
                   CsvTable* table);
 
-/// Blank lines, or rows of empty cells, in one place.
+/// Consecutive blank lines, or rows of empty cells.
 struct BlankLines {
   std::size_t row = 0;   // of the table, below them
   std::size_t line = 0;  // of the first in the file
   std::size_t count = 0;
 };
 
-/// Numbers the rows between blank lines in a column "block"; where some places
-/// have more of them, as gnuplot parts its data sets, between those. None where
-/// a column has that name, one place alone is blank, or a block has fewer than
-/// four rows.
+/// Numbers the rows between blank lines in a column "block". If some places
+/// have more blank lines, only those divide, as between gnuplot's data sets.
+/// Makes none if a column has that name, only one place is blank, or a block
+/// has fewer than four rows.
 void PartByBlankLines(const std::vector<BlankLines>& blanks, CsvTable* table);
 
 }  // namespace errmap::data

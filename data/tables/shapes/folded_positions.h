@@ -6,17 +6,18 @@
 
 namespace errmap::data {
 
-/// Makes of a row with a column for each position, as "e@-215.9mm_um",
-/// "Error at -203.2 mm (um)", "err_50" or "50" (three or more), a row for each:
-/// a column position_mm (or in their unit), one of what they hold (error_um),
-/// the other columns repeated; with a remark. Likewise of a row with a column
-/// for each run, as "Run 3 up [um]", or for each way, as "Error up [um]": block
-/// by block where the positions begin anew. Columns that sheets make of these
-/// (means, ranges) are left out. Other tables stay as they are.
+/// Converts a table with a column for each position into one with a row for
+/// each, with a remark. Such columns are "e@-215.9mm_um", "Error at -203.2 mm
+/// (um)", "err_50" or "50" (three or more). The new columns are position_mm (or
+/// in their unit) and the values (error_um); the others are repeated. Does the
+/// same for a column for each run, such as "Run 3 up [um]", or for each
+/// direction, such as "Error up [um]": block by block where the positions start
+/// again. Columns calculated from these (means, ranges) are left out. Other
+/// tables are unchanged.
 void FoldPositions(CsvTable* table);
 
-/// Whether bare numbers in names are positions (mm): three or more that go one
-/// way, and not by ones as what numbers runs does.
+/// True if bare numbers in names are positions (mm): three or more that rise or
+/// fall steadily, and not by ones, as numbers of runs do.
 bool AreSpacedPositions(const std::vector<double>& numbers);
 
 }  // namespace errmap::data

@@ -4,10 +4,11 @@
 
 namespace errmap::data {
 
-/// Makes of a row for each reading (time, position, variable, value) a row for
-/// all readings that share their other cells, with a column for each variable
-/// in its unit ("T1 [degC]"); with a remark. Only where a column of words names
-/// an error among other variables and another is called a value.
+/// Converts a table with a row for each value (time, position, variable, value)
+/// into one with a row for all values that share their other cells. Each
+/// variable gets a column in its unit ("T1 [degC]"), with a remark. Does so
+/// only if a column of words names an error among other variables and another
+/// column is called a value.
 void SpreadReadings(CsvTable* table);
 
 }  // namespace errmap::data

@@ -6,7 +6,7 @@
 
 namespace errmap::data {
 
-/// What the name of a column of readings at one position says, such as
+/// The parts of the name of a column of readings at one position, such as
 /// "e@-215.9mm_um", "X=25 mm", "Error at 50 mm (um)", "e_50mm_um",
 /// "err_um(50)", "X50 [um]".
 struct PlacedName {
@@ -17,9 +17,9 @@ struct PlacedName {
 };
 std::optional<PlacedName> ReadPlacedName(std::string_view name);
 
-/// What the name of a column of one run says, such as "Run 3 up [um]",
-/// "Lauf 1 rückwärts", "x2↓ (µm)", "Day 2 Run 1", "2026-03-02"; what is not
-/// said is 0 or "", as the run of "Error up [um]".
+/// The parts of the name of a column of one run, such as "Run 3 up [um]", "Lauf
+/// 1 rückwärts", "x2↓ (µm)", "Day 2 Run 1", "2026-03-02". Missing parts are 0
+/// or "", as the run of "Error up [um]".
 struct RunName {
   std::string quantity = {};  // "error [um]"
   int session = 0;

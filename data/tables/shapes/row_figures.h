@@ -7,9 +7,9 @@
 
 namespace errmap::data {
 
-/// Whether a column has in each row a figure that sheets make of the cells of
-/// others (two or more): their mean, least, most, range or standard deviation.
-/// To rounding: it may miss by 5 % of how much the column varies.
+/// True if each cell of a column is a statistic of other cells in its row (two
+/// or more): their mean, minimum, maximum, range or standard deviation. Because
+/// of rounding, it may differ by 5 % of the column's variation.
 bool IsRowFigure(const CsvTable& table,
                  std::size_t column,
                  const std::vector<std::size_t>& others);

@@ -6,8 +6,8 @@
 
 namespace errmap::data {
 
-/// The line above or below a table that tells how an error is signed, where
-/// that is not plainly the actual value less the nominal one ("Abweichung =
+/// Returns the line above or below a table that states the sign of an error,
+/// unless it is plainly the actual value minus the nominal one ("Abweichung =
 /// Soll - Ist", "positive error: the axis stops short"); null without one.
 const std::string* NoteOfOtherSign(const CsvTable& table);
 

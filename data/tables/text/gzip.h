@@ -6,20 +6,20 @@
 
 namespace errmap::data {
 
-/// Whether the bytes begin as those of gzip do.
+/// True if the bytes begin like a gzip file.
 bool IsGzip(std::string_view bytes);
 
-/// As `gzip` writes it, without a name or a time: the same text gives the same
-/// bytes.
+/// Compresses as `gzip` does, without a name or a time: the same text gives the
+/// same bytes.
 std::string Gzip(std::string_view text);
 
-/// Its inverse. Throws InputError where it is no gzip, is cut off, or
-/// holds more than `most` bytes.
+/// Inverse of the above. Throws InputError if the bytes are not gzip, are cut
+/// off, or hold more than `most` bytes.
 std::string Gunzip(std::string_view compressed, std::size_t most);
 
-/// What so many packed bytes of a table hold at most: a hundred times as many
-/// beside 64 MiB. Measurements pack to a tenth or so; what holds more was made
-/// to fill the memory.
+/// Returns the largest content accepted for this many packed bytes of a table:
+/// a hundred times as many plus 64 MiB. Measurements pack to about a tenth; a
+/// file that holds more was made to fill the memory.
 std::size_t MostUnpacked(std::size_t packed);
 
 }  // namespace errmap::data

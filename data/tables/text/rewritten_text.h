@@ -6,10 +6,10 @@
 
 namespace errmap::data {
 
-/// Text whose cells are parted in a way that no delimiter tells, in another
-/// way: cells in single quotes get double ones; columns that are set apart by
-/// two blanks or more, so that names may have one, get tabs. Nothing where the
-/// text is of neither kind.
+/// Rewrites text whose cells are separated in a way that no delimiter
+/// describes. Cells in single quotes get double ones. Columns aligned by two
+/// blanks or more, so that names may contain one, get tabs. Returns nothing for
+/// any other text.
 std::optional<std::string> RewrittenText(std::string_view text);
 
 }  // namespace errmap::data

@@ -6,15 +6,14 @@
 
 namespace errmap::data {
 
-/// The cells of a sheet of an xlsx file (Office Open XML, ECMA-376), as a text
-/// of a line per row and tabs between cells, for the parser of CSV: row 7 is
-/// line 7. Numbers as they are stored; dates, which are stored as days, as
-/// 2024-03-01 12:00:05 by the format that shows them; formulas by the value
-/// kept beside them. Empty `sheet`: the only one that is not hidden and has
-/// cells. Nothing where `bytes` is no xlsx file.
-///
-/// Throws InputError, without the file's name, where the file is damaged, has
-/// no such sheet or several, or a formula has no value.
+/// Returns the cells of a sheet of an xlsx file (Office Open XML, ECMA-376) as
+/// text for the CSV parser: a line per row, tabs between cells, row 7 on line
+/// 7. Numbers are as stored. Dates, which are stored as days, become 2024-03-01
+/// 12:00:05 if their format shows a date. Formulas give the value stored beside
+/// them. Empty `sheet`: the only visible one with cells. Returns nothing if
+/// `bytes` is not an xlsx file. Throws InputError, without the file's name, if
+/// the file is damaged, has no such sheet or several, or a formula has no
+/// value.
 std::optional<std::string> SheetText(std::string_view bytes,
                                      const std::string& sheet);
 

@@ -7,18 +7,18 @@
 
 namespace errmap::data {
 
-/// Whether the bytes begin as those of a zip archive do.
+/// True if the bytes begin like a zip archive.
 bool IsZip(std::string_view bytes);
 
 /// The files of a zip archive in memory, read by minizip.
 class ZipArchive {
  public:
-  /// `bytes` must outlive it. Throws InputError where they are no archive or
+  /// `bytes` must outlive it. Throws InputError if they are not an archive or
   /// are cut off.
   explicit ZipArchive(std::string_view bytes);
 
   bool Has(const std::string& name) const;
-  /// Throws InputError where there is no such file, it is damaged, needs a
+  /// Throws InputError if there is no such file, or it is damaged, needs a
   /// password, or has more than `most` bytes.
   std::string Read(const std::string& name, std::size_t most) const;
 

@@ -40,7 +40,7 @@ enum MapStatus : int {
 inline constexpr int kMapNotTaken = kMapFar | kMapInvalid | kMapDead |
                                     kMapFrozen | kMapContradicts | kMapJumped;
 /// Each of these sets kMapUnhealthy. So does kMapRelation together with one of
-/// kMapBesideRelation: a wrong sensor is then likelier than a new state.
+/// kMapBesideRelation: a wrong sensor is then more likely than a new state.
 inline constexpr int kMapAlarms =
     kMapNotTaken | kMapFaded | kMapSettling | kMapGap | kMapParameter;
 inline constexpr int kMapBesideRelation = kMapOutside | kMapClipped;
@@ -100,7 +100,7 @@ double DefaultMaxRate(const data::Unit& unit, double max_error);
 Routine ReadRoutine(const MapProgram& program);
 Routine MoveRoutine(const ControllerLimits& limits);
 
-/// Largest effect of a failed sensor on the error given, once every filter has
+/// Largest effect of a failed sensor on the output error, once every filter has
 /// settled; target's unit. Before it, positions and sensors are at the ends or
 /// in the middle of their trained range: what MeasureSensitivity
 /// (models/sensors/sensitivity.h) finds over the rows of training.

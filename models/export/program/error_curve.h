@@ -32,7 +32,7 @@ class ErrorCurve {
   /// if it is not finite.
   double operator()(double position) const;
   /// As above, with the reading `input` changed and held until every filter has
-  /// settled. The zero stays as taken.
+  /// settled. The zero is unchanged.
   double operator()(double position, int input, double value) const;
 
   /// True if this error of the map is the largest that it may give.

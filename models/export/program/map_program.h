@@ -63,8 +63,8 @@ struct ProgramReading {
   /// A position comes from the control, not from a sensor that can fail. Beyond
   /// its trained range the end of the range is used, as in tables.
   bool is_position = false;
-  /// Beyond these limits the value is likelier from a failed sensor than from
-  /// the machine; a position is refused.
+  /// Beyond these limits, a failed sensor is more likely than a state of the
+  /// machine; a position is refused.
   double far_low = 0.0;
   double far_high = 0.0;
   /// The readings of a disconnected sensor, unless they are beyond far_low,
@@ -101,7 +101,7 @@ inline constexpr Cell kTables[] = {Cell::kFarLow,
                                    Cell::kBelieved};
 double TableValue(const ProgramReading& reading, Cell cell);
 
-/// The limits of the error given, whatever the readings are.
+/// The limits of the output error, for any readings.
 struct ControllerLimits {
   /// Largest size, target's unit; infinite until a controller is added.
   double max_error = std::numeric_limits<double>::infinity();
@@ -139,7 +139,7 @@ struct MapForm {
   double reach = 0.0;
   double most_spread = 0.0;
   bool has_relations = false;  // `judge` writes kDoubt
-  /// Of the readings, then of the values derived from them.
+  /// Ranges of the readings, then of the values derived from them.
   std::vector<TrainedRange> ranges = {};
   /// For each of its inputs: the index of the program's reading.
   std::vector<int> readings = {};
@@ -174,7 +174,7 @@ struct MapProgram {
   /// Runs when readings arrive: decides whether to trust them, and so sets the
   /// wanted error.
   Routine read;
-  /// Runs in every period: moves the error given towards the wanted one.
+  /// Runs in every period: moves the output error towards the wanted one.
   Routine move;
   std::array<int, kNumSpaces> sizes = {};  // number of values in each space
 

@@ -54,7 +54,7 @@ class ControllerRun {
   /// `program` must outlive the run.
   ControllerRun(const MapProgram& program, Precision precision);
 
-  /// The next step taken starts a session; the error given continues from its
+  /// The next step taken starts a session; the output error continues from its
   /// value.
   void Begin() {
     for (const Cell cell : kOfSession) Value(cell) = 0.0;
@@ -66,8 +66,8 @@ class ControllerRun {
     Value(Cell::kMostError) = max_error;
     Value(Cell::kMostRate) = max_rate;
   }
-  /// Reads and moves, `dt` seconds after the previous call. Sets the error
-  /// given and returns the status.
+  /// Reads and moves, `dt` seconds after the previous call. Sets the output
+  /// error and returns the status.
   int Step(double dt, const VectorXd& readings, double* error);
 
  private:

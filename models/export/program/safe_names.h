@@ -14,8 +14,8 @@ namespace errmap::models {
 /// least 8).
 std::string SafeIdentifier(std::string_view text, std::size_t longest);
 
-/// SafeIdentifier of each text, with a number at the end where two would be
-/// equal regardless of case.
+/// SafeIdentifier of each text, with a number at the end if two would be equal
+/// regardless of case.
 std::vector<std::string> SafeIdentifiers(const std::vector<std::string>& texts,
                                          std::size_t longest);
 

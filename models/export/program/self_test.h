@@ -31,8 +31,8 @@ std::vector<SelfTestRow> ControllerSession(const FittedModel& first,
                                            Precision precision);
 
 /// Returns the range, max - min, of a map's errors: in training if its guards
-/// know it, else over the rows within the trained range. A constant map's own
-/// size serves instead. At least the smallest normal number.
+/// know it, else over the rows within the trained range. For a constant map, it
+/// is the size of the constant. At least the smallest normal number.
 double ErrorRange(const FittedModel& fitted,
                   const std::vector<SelfTestRow>& rows);
 

@@ -10,7 +10,7 @@
 namespace errmap::models {
 
 /// The version of errmap and, if available, the start of the SHA-256 of the
-/// running program: another build may compute other bits.
+/// running program. Another build may compute other bits.
 const std::string& ProgramIdentity();
 
 /// Keys of the fits of one component's study: the SHA-256 of everything that an

@@ -8,7 +8,7 @@
 
 namespace errmap::models {
 
-/// The average of maps, or a simpler map.
+/// Chooses between the average of maps and a simpler map.
 struct BlendOrSimpler {
   std::size_t model = 0;  // index into StudyResult::models
   const HoldoutComparison* vetoed_by = nullptr;  // null: no veto

@@ -44,9 +44,9 @@ std::optional<std::size_t> BestOf(const HoldoutComparison& comparison,
 /// The difference that does not matter, from the lowest error; target's unit.
 double MarginOf(const HoldoutComparison& comparison, double indifference);
 
-/// Tells if no model is better than `baseline` by more than the margin. Even a
-/// baseline of lowest error may owe that to chance, so the bound is checked
-/// too. Without another model nothing can be established.
+/// Tells whether no model is better than `baseline` by more than the margin.
+/// Even a baseline of lowest error may owe that to chance, so the bound is
+/// checked too. Without another model nothing can be established.
 Confidence ThatNothingIsBetter(const HoldoutComparison& comparison,
                                const StudyResult& study,
                                std::size_t baseline,

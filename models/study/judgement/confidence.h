@@ -26,8 +26,8 @@ std::string_view ToString(Confidence confidence);
 /// Fewer units establish nothing: with 5, the two most extreme of the 2^5 sign
 /// patterns already have p = 0.0625.
 inline constexpr Index kFewestUnits = 6;
-/// The same for units that are not known to be separate sessions: fewer are too
-/// few to see whether neighbours resemble each other.
+/// The same for units that are not known to be separate sessions: fewer do not
+/// show whether neighbours resemble each other.
 inline constexpr Index kFewestUnitsOfOneSession = 12;
 
 /// Why not even the clearest difference could be established among the pairs
@@ -53,22 +53,22 @@ struct Obstacle {
 std::string_view ToString(Obstacle::Kind kind);
 
 /// `separate_sessions`: each unit is known to be a session of its own (a day, a
-/// shift), so that neighbours are alike only by chance.
+/// shift), so that neighbours resemble each other only by chance.
 Obstacle FindObstacle(const stats::Comparison& tests, bool separate_sessions);
 
-/// Tells if the models of `pair`, one of tests.pairs, differ. In its turn
+/// Tells whether the models of `pair`, one of tests.pairs, differ. In its turn
 /// (stats::ComparisonOptions::first) p is at most 5 %, also for the t with the
 /// memory that cannot be excluded (memory_bounds.h). The interval of the RMSE
-/// difference excludes 0, or its bound where one direction was tested.
+/// difference excludes 0, or its bound does, if one direction was tested.
 /// Neighbours show no resemblance, and units suffice. If they may be of one
 /// session, the corrected resampled t on runs of neighbouring units must agree.
 Confidence ThatTheyDiffer(const stats::Comparison& tests,
                           const stats::PairComparison& pair,
                           bool separate_sessions);
 
-/// Tells if the RMSE of `model` exceeds that of `than` by at most `margin`.
-/// Both one-sided 95 % upper bounds, resampled and with memory, must be within
-/// it. Neighbours must show no resemblance, and units must suffice.
+/// Tells whether the RMSE of `model` exceeds that of `than` by at most
+/// `margin`. Both one-sided 95 % upper bounds, resampled and with memory, must
+/// be within it. Neighbours must show no resemblance, and units must suffice.
 Confidence ThatItLosesAtMost(double margin,
                              const stats::Comparison& tests,
                              Index model,

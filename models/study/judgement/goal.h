@@ -7,7 +7,7 @@
 
 namespace errmap::models {
 
-/// How a held-out error compares with the user's goal.
+/// Result of comparing a held-out error with the user's goal.
 enum class GoalStanding {
   kNone,       // no goal was set
   kNotJudged,  // too few rows, an interrupted run, or a failed fit

@@ -35,10 +35,10 @@ struct HoldoutComparison {
   std::optional<Index> PlaceOf(std::size_t model) const;
   /// 1-based tier of a study's model, 0 if it failed.
   int TierOf(std::size_t model) const;
-  /// Tells if one model of the study has a lower error than another. Both must
-  /// have been judged.
+  /// Tells whether one model of the study has a lower error than another. Both
+  /// must have been judged.
   Confidence ThatItIsBetter(std::size_t model, std::size_t than) const;
-  /// Tells if the RMSE of one model exceeds that of another by at most
+  /// Tells whether the RMSE of one model exceeds that of another by at most
   /// `margin`. Both must have been judged.
   Confidence ThatItLosesAtMost(double margin,
                                std::size_t model,

@@ -25,8 +25,8 @@ struct Recommendation {
   std::vector<std::size_t> first_tier;
   std::size_t best_baseline = 0;  // by RMSE, under that hold-out
   bool has_baseline = false;
-  /// Tells if the map is better than the best baseline. For a baseline: if it
-  /// loses at most the margin to the best of all others.
+  /// Whether the map is better than the best baseline. For a baseline: whether
+  /// it loses at most the margin to the best of all others.
   Confidence against_baseline = Confidence::kOutOfReach;
   /// If a blend is recommended: the single map of lowest error.
   std::optional<std::size_t> single;

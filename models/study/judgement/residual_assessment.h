@@ -12,8 +12,8 @@
 
 namespace errmap::models {
 
-/// Residuals in measured order with their columns; a column name of "" means
-/// that there is no such column.
+/// Residuals in order of measurement with their columns; a column name of ""
+/// means that there is no such column.
 struct ResidualInputs {
   VectorXd values;  // (n)
   std::string order = "file order";

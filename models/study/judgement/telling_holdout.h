@@ -9,7 +9,7 @@
 namespace errmap::models {
 
 /// Returns the hold-out for predicted errors, as an index into `holdouts`. Two
-/// sessions say more of a third than any number of groups of the same days.
+/// sessions tell more about a third than any number of groups of the same days.
 /// Nothing if all failed.
 std::optional<std::size_t> StrictestHoldout(
     const std::vector<Holdout>& holdouts,
@@ -17,7 +17,7 @@ std::optional<std::size_t> StrictestHoldout(
 
 /// Returns the hold-out that chooses a map. With fewer than
 /// kFewestSessionsToDecide sessions a fold lacks too much of the data, and
-/// groups tell maps apart better.
+/// groups distinguish maps better.
 std::optional<std::size_t> DecisiveHoldout(
     const std::vector<Holdout>& holdouts,
     const std::vector<HoldoutComparison>& comparisons);

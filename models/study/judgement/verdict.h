@@ -16,7 +16,7 @@ struct Verdict {
   std::string holdout;
   Choice choice = Choice::kBaseline;
   std::size_t best = 0;  // lowest RMSE: index into StudyResult::models
-  /// The model that the best one is compared with: the best of another class,
+  /// The model with which the best one is compared: the best of another class,
   /// never a blend, or the best baseline if there is none.
   std::optional<std::size_t> rival;
   std::optional<std::size_t> best_baseline;  // by RMSE

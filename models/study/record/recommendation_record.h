@@ -73,10 +73,10 @@ struct SensorImportance {
   };
   std::int64_t rows = 0;  // held out and judged
   double rmse = 0.0;      // with every sensor, on these rows
-  /// Least correlation at which sensors count as alike.
+  /// Least correlation at which sensors count as similar.
   double alike = kNotKnown;
   std::vector<Without> one_by_one;  // the largest error first
-  /// Groups of at least two alike sensors, then all sensors. Sensors that can
+  /// Groups of at least two similar sensors, then all sensors. Sensors that can
   /// replace each other look unnecessary one by one.
   std::vector<Without> together;
 };

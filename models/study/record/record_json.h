@@ -33,7 +33,7 @@ void Set(std::uint64_t value, RecordJson* json);
 void Set(std::string_view value, RecordJson* json);
 void SetObject(RecordJson* json);
 void SetArray(RecordJson* json);
-/// Sets what a text of JSON holds.
+/// Sets the value from a JSON text.
 void SetText(std::string_view text, RecordJson* json);
 /// Returns the member of that name; creates it if there is none.
 RecordJson* Member(std::string_view key, RecordJson* object);
@@ -51,9 +51,9 @@ const RecordJson* Find(const RecordJson& json, std::string_view key);
 void ForMembers(const RecordJson& object,
                 const std::function<void(std::string name,
                                          const RecordJson& value)>& visit);
-/// Returns the text in one line; bytes that are no UTF-8 are replaced.
+/// Returns the text in one line; bytes that are not UTF-8 are replaced.
 std::string OneLine(const RecordJson& json);
-/// Passes on the same, in pieces, without members not `kept`.
+/// Passes the text on in pieces, without members that are not `kept`.
 void ForText(const RecordJson& json,
              const std::function<bool(std::string_view key)>& kept,
              const std::function<void(std::string_view text)>& take);
@@ -87,7 +87,7 @@ class Tree {
   Tree& operator=(const Tree&) = delete;
   /// Returns false if it is not JSON.
   bool Parse(std::string_view text);
-  /// Returns the text with an indent of so many spaces, or in one line (-1).
+  /// Returns the text with an indent of this many spaces, or in one line (-1).
   /// Replaces bytes that are not UTF-8.
   std::string Text(int indent) const;
   RecordJson* root() { return root_.get(); }

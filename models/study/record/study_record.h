@@ -57,7 +57,7 @@ inline constexpr std::string_view kResultsSchema = "errmap-results-2";
 /// The schema in older stores, with less on the recommended map.
 inline constexpr std::string_view kStoredResultsSchema = "errmap-results-1";
 
-/// Why a file may not be what a run found.
+/// Why a file may not hold the results of a run.
 enum class Doubt {
   kNoHash,   // written by an older program, or the hash was removed
   kChanged,  // its content does not match its hash

@@ -12,15 +12,15 @@ namespace errmap::report {
 
 [[noreturn]] void RefuseIncompleteRecord();
 
-/// What a sentence needs of a record, a pointer or an optional; throws
-/// data::InputError where it is not there.
+/// Returns the value of a pointer or optional of a record. Throws
+/// data::InputError if it is empty.
 template <typename Held>
 const auto& There(const Held& held) {
   if (!held) RefuseIncompleteRecord();
   return *held;
 }
 
-/// Of a list; throws alike where it is shorter.
+/// Returns an item of a list. Throws data::InputError if the list is too short.
 template <typename Held>
 const Held& Part(const std::vector<Held>& list, std::size_t i) {
   if (i >= list.size()) RefuseIncompleteRecord();
@@ -31,7 +31,7 @@ const Held& First(const std::vector<Held>& list) {
   return Part(list, 0);
 }
 
-/// What the sentences about one component take from its record, which has to
+/// The parts of one component's record that its sentences use. The record must
 /// outlive it.
 struct ComponentNumbers {
   explicit ComponentNumbers(const models::ComponentRecord& of)
@@ -66,43 +66,42 @@ struct ComponentNumbers {
   std::string RmseWithUnit(const std::string& model) const {
     return error.WithUnit(Rmse(model, Advice().holdout));
   }
-  /// What keeps the tests between models from an answer there, if anything
-  /// does.
+  /// Why the data give no test between models; "" if they do.
   std::optional<models::Obstacle> ObstacleOfAdvice() const;
-  /// How sure it is that the recommended map and another differ.
+  /// The evidence that the recommended map differs from another one.
   std::string Certainty(const std::string& other) const;
-  /// Days or cycles of the data that a hold-out of whole ones could hold out;
-  /// at least those that it does.
+  /// Number of days or cycles in the data that could be held out whole; at
+  /// least the number that the hold-out does.
   std::int64_t UnitsOfData(const models::HoldoutRecord& holdout) const;
-  /// "6 days"; "4 held-out days" where the data have more of them.
+  /// "6 days"; "4 held-out days" if the data have more of them.
   std::string CountOfHeldOut(std::int64_t count,
                              const models::HoldoutRecord& holdout) const;
 
   /// "0.938 um RMSE (95 % 0.786 to 1.093)"
   std::string RmseWithInterval(const std::string& model,
                                const std::string& holdout) const;
-  /// " (95 % 0.4 to 1.1)", "" where it is not known.
+  /// " (95 % 0.4 to 1.1)"; "" if it is unknown.
   std::string In95(const models::IntervalRecord& interval) const;
 };
 
-/// Of the RMSE of `one`, a model of the pair, minus that of the other; NaN if
-/// unknown.
+/// Interval of the RMSE of `one`, a model of the pair, minus that of the other;
+/// NaN if unknown.
 models::IntervalRecord IntervalOfExcess(const models::PairRecord& pair,
                                         const std::string& one);
 
-/// "4.5"; a ratio beyond a thousand has no decimals that mean anything.
+/// "4.5". A ratio above a thousand is shown without decimals.
 std::string RatioText(double ratio);
 
 /// "cycles", "blocks of rows".
 std::string PluralOf(std::string unit);
-/// Of what the tests count.
+/// Name of the units that the tests count.
 std::string PluralOfUnit(const models::HoldoutRecord& holdout);
 
 /// "1 cycle", "20 blocks of rows".
 std::string CountOfUnits(std::int64_t count,
                          const models::HoldoutRecord& holdout);
 
-/// The names, with commas, without one of them.
+/// Joins the names by commas, leaving out one of them.
 std::string ListBesides(const std::vector<std::string>& names,
                         const std::string& besides);
 

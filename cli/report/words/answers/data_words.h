@@ -12,12 +12,12 @@ namespace errmap::report {
 std::string UnitsWords(const models::DataRecord& data);
 std::string UnitsWords(const data::Dataset& dataset);
 
-/// The target's name, and what was taken off it.
+/// The target's name, and the column that was subtracted from it.
 std::string TargetWords(const models::DataRecord& data);
 std::string TargetWords(const data::Dataset& dataset);
 
-/// Why a results.json that was read is perhaps not what a run found; "" where
-/// there is no doubt.
+/// Says why a results.json may not be what a run wrote; "" if there is no
+/// doubt.
 std::string DoubtText(const models::StudyRecord& record);
 
 }  // namespace errmap::report

@@ -8,9 +8,9 @@
 
 namespace errmap::report {
 
-/// What a reader has to know first: which map, how wrong, how sure, what next.
-/// Pages and Markdown show every line; a terminal shows what AnswerLines has
-/// room for, and the others with --details.
+/// A line of the first answer: which map, how wrong, how sure, what next. Pages
+/// and Markdown show every line. A terminal shows the lines that AnswerLines
+/// has room for, and the others with --details.
 struct FirstAnswer {
   std::string use;  // "Use blend, an average of maps."
   std::vector<Remark> lines;
@@ -20,23 +20,23 @@ struct FirstAnswer {
   std::string Sentence() const;
 };
 
-/// The answer of one component, most important first, in its display unit.
-/// Throws data::InputError where the record lacks a figure.
+/// Returns the answer for one component, most important first, in its display
+/// unit. Throws data::InputError if the record lacks a figure.
 FirstAnswer FirstAnswerOf(const models::ComponentRecord& record);
 
-/// On a terminal of `width` columns, the label first.
+/// Formats a line for a terminal of `width` columns, the label first.
 std::vector<std::string> LabelledLines(const Remark& remark, std::size_t width);
 
-/// What a terminal shows of an answer.
+/// The part of an answer that a terminal shows.
 struct ShownAnswer {
   std::vector<std::string> lines;
   std::vector<Remark> left_out;  // for which there is no room
 };
 
-/// The answer on a terminal of `width` columns, labels in a column. With the
-/// lines `above` it, it has at most 12 lines and 110 words, or those that must
-/// be shown (the error, a given goal, caveats) if they alone need more. What
-/// else no longer fits is left out.
+/// Returns the answer for a terminal of `width` columns, labels in a column.
+/// With the lines `above` it, it has at most 12 lines and 110 words. It has
+/// more only if the required lines (error, given goal, caveats) need more.
+/// Other lines that do not fit are left out.
 ShownAnswer AnswerLines(const FirstAnswer& answer,
                         std::size_t width,
                         const std::vector<std::string>& above = {});

@@ -6,7 +6,7 @@
 
 namespace errmap::report {
 
-/// The remarks of next steps and details, in their order.
+/// The remarks for next steps and details, in their order.
 std::span<const RemarkEntry> FurtherRemarks();
 
 }  // namespace errmap::report

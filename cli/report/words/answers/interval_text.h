@@ -8,15 +8,15 @@
 
 namespace errmap::report {
 
-/// "90 % of the errors on an unseen cycle lie within 1.4 um, 95 % within 2 um",
-/// and for how long that is good, where that is known.
+/// Returns "90 % of the errors on an unseen cycle lie within 1.4 um, 95 %
+/// within 2 um", and how long this holds, if known.
 std::string IntervalText(const models::PromiseRecord& promise,
                          const ErrorText& error);
 /// ... and where from: " (groups:5: 35 cycles held out whole)".
 std::string IntervalLine(const models::PromiseRecord& promise,
                          const ErrorText& error);
-/// The two half-widths of 90 % where rows inside and outside of what was
-/// trained have their own; "" where they have the same.
+/// Returns the 90 % half-widths inside and outside the trained range; "" if
+/// they are equal.
 std::string HalfWidthsLine(const models::PredictionInterval& interval,
                            const data::Unit& unit);
 

@@ -6,13 +6,13 @@
 
 namespace errmap::report {
 
-/// Why this map is recommended, and not the one of the lowest error or a single
-/// one; "" where it is the only one of its tier.
+/// Says why this map is recommended, and not the one of lowest error or a
+/// single one; "" if it is the only one of its tier.
 std::string WhyRecommended(const ComponentNumbers& component);
 
-/// What the marks beside models say: why the recommended one, "*", is taken,
-/// also where others have a lower error, and what "=" has in common; of a
-/// component with a recommendation.
+/// Explains the marks beside models, for a component with a recommendation. "*"
+/// is the recommended one, and "=" marks those as good as the best. Says why
+/// "*" was chosen if others have a lower error.
 std::string MarkWords(const ReportView& view);
 
 }  // namespace errmap::report

@@ -11,7 +11,7 @@ namespace errmap::report {
 void AddOptions(const models::ByName<std::string>& options,
                 std::vector<std::string>* words);
 
-/// What to do with a recommendation.
+/// What to do with a recommended map.
 using Words = std::vector<std::string>;  // of a command
 
 struct NextStep {
@@ -20,20 +20,19 @@ struct NextStep {
   std::string text = {};
 };
 
-/// The file of the map, or the command that makes it; that checks it, runs it,
-/// exports it; what to measure next; which rows it extrapolated; a smaller map;
-/// why not a net.
-/// `data`: the measurements as fit can open
-/// them, empty where it cannot have the same rows; `folder`: where compare
-/// --out has written the maps, "" nowhere.
+/// Returns the next steps: the map's file or the command that makes it;
+/// commands that check, run and export it; what to measure next; which rows it
+/// extrapolated; a smaller map; why not a net. `data`: arguments with which
+/// `fit` opens the measurements; empty if it cannot get the same rows.
+/// `folder`: where compare --out wrote the maps; "" if nowhere.
 std::vector<NextStep> NextSteps(const models::StudyRecord& record,
                                 std::size_t component,
                                 const Words& data,
                                 const std::string& folder);
 
-/// What the recommended map reads, the most needed sensor first where the
-/// record knows, and the command that tells which of them would do; `page`, or
-/// that in `folder`.
+/// Names the inputs of the recommended map, the most needed sensor first if
+/// known, and the command that tells which sensors are enough. `page`: the
+/// report to look at, or the one in `folder`.
 std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
                                    std::size_t component,
                                    const Words& data,

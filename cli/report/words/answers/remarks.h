@@ -11,8 +11,7 @@ namespace errmap::report {
 /// removed".
 struct Remark {
   enum class Tone { kPlain, kGood, kBad };
-  /// Where it stands: in the answer itself, among the next steps, or with
-  /// --details.
+  /// Its place: in the answer itself, among the next steps, or with --details.
   enum class Place { kAnswer, kNextSteps, kDetails };
 
   std::string label;  // at most 15 characters
@@ -24,17 +23,17 @@ struct Remark {
   bool must_show = false;  // in the answer even where there is little room
 };
 
-/// A remark is a function of the record, which returns nothing where it has
-/// nothing to say. A new one: the function and its line in the list of
-/// remarks.cc (the answer) or further_remarks.cc, and its test.
+/// A remark is a function of the record that returns nothing if it does not
+/// apply. To add one, write the function with a test, and list it in remarks.cc
+/// (the answer) or further_remarks.cc.
 struct RemarkEntry {
   std::vector<Remark> (*make)(const ComponentNumbers& of);
   Remark::Place place;
   bool is_caveat;
 };
 
-/// All that is to be said of the recommended map, the most important first.
-/// Throws data::InputError where the record lacks a figure.
+/// Returns all remarks on the recommended map, most important first. Throws
+/// data::InputError if the record lacks a figure.
 std::vector<Remark> RemarksOf(const ComponentNumbers& component);
 
 /// "Without a map: 11.5 um; 94 % removed."

@@ -6,7 +6,7 @@
 
 namespace errmap::report {
 
-/// Of a component whose maps were re-zeroed: "every 2 h", "once a session",
+/// For a component whose maps were re-zeroed: "every 2 h", "once a session",
 /// "every cycle"; "re-zeroed every 2 h".
 std::string RezeroRuleWords(const models::ComponentRecord& component);
 std::string RezeroedWords(const models::ComponentRecord& component);

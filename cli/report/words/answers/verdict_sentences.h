@@ -6,15 +6,17 @@
 
 namespace errmap::report {
 
-/// Which model has the lowest error under a hold-out, and how surely.
+/// Says which model has the lowest error under a hold-out, and how certain that
+/// is.
 std::string VerdictSentence(const ComponentNumbers& component,
                             const models::VerdictRecord& verdict);
 
-/// How much neighbours flatter, of a component with a gap; "" where they do
-/// not.
+/// Says how much smaller the error among neighbours is, for a component with a
+/// gap; "" if it is not smaller.
 std::string GapSentence(const ComponentNumbers& component);
 
-/// How much noise a model learns, of one whose memorisation was looked at.
+/// Says how much noise a model learns, for a model that was tested for
+/// memorisation.
 std::string MemorisationSentence(const ModelRecord& model);
 
 }  // namespace errmap::report

@@ -10,25 +10,25 @@ namespace errmap::report {
 
 // What a record says, in sentences. Nothing is decided here.
 
-/// What a 95 % interval of an RMSE is worth, as measured by
+/// The coverage of a 95 % interval of an RMSE, as measured by
 /// tests/benchmarks/confidence_study.cc.
 extern const char* const kIntervalCoverage;
 
-/// Puts the sentences into `record`, which has all else: of the gap, the
-/// verdicts, the memorisation checks and the recommendation.
-/// Throws data::InputError where it has not.
+/// Adds the sentences to `record`, which must already have the gap, verdicts,
+/// memorisation checks and recommendation. Throws data::InputError if it does
+/// not.
 void AddSentences(models::ComponentRecord* record);
 
-/// The record in the units' symbols and words of pages: "0.5 µm" where a
-/// terminal has "0.5 um".
+/// Returns the record with the unit symbols and words of pages: "0.5 µm" where
+/// a terminal has "0.5 um".
 models::StudyRecord WithPageUnits(models::StudyRecord record);
 
-/// What measurements would make the answer surer: "cycles with t1 below 20 or
-/// above 27"; "" where nothing is known to.
+/// Says which measurements would make the answer more certain: "cycles with t1
+/// below 20 or above 27"; "" if none is known.
 std::string MeasureNext(const models::ComponentRecord& record);
 
-/// The verdict of each hold-out and the remarks that the answer has no room
-/// for, for --details; without those of the next steps, where these are shown.
+/// Returns, for --details, the verdict of each hold-out and the remarks that
+/// the answer leaves out. Omits those of the next steps if `next_steps`.
 std::string VerdictParagraphs(const models::ComponentRecord& record,
                               std::size_t width,
                               bool next_steps);

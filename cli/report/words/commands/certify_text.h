@@ -6,8 +6,8 @@
 
 namespace errmap::report {
 
-/// Tables of the parts that were run, the floors beside them. `details`: every
-/// run of every solver and every gradient too.
+/// Returns tables of the parts that were run, with the required accuracy beside
+/// the results. `details`: also every run of every solver and every gradient.
 std::string CertificationText(const models::Certification& certification,
                               const models::CertificationFloors& floors,
                               bool details);

@@ -13,12 +13,13 @@
 
 namespace errmap::report {
 
-/// The sensor to check before anything else, in a line.
+/// Names the sensor to check before anything else, in one line.
 std::string SensorText(const models::SensorFaultFound& found);
 
-/// What probes tell of a session, to go on behind "2 probes of FILE": when they
-/// were taken (`elapsed`, (n) seconds since it began), what they found, whether
-/// the map holds, the remedy where it does not, and where probes tell most.
+/// Says what probes show about a session, to follow "2 probes of FILE": when
+/// they were taken (`elapsed`, (n) seconds since its start), their errors,
+/// whether the map holds, what to do if not, and where further probes help
+/// most.
 std::string CheckText(const models::SessionCheck& check,
                       const models::HeldOutErrors& errors,
                       const std::vector<models::ProbeSite>& sites,

@@ -9,9 +9,9 @@ namespace errmap::report {
 
 enum class FaultUse { kFit, kJudge };
 
-/// What was found in the columns, one line each, and the option that leaves it
-/// out; where the data are to be fitted also what it does to a fit. `policy`:
-/// what was done with such rows.
+/// Describes the faults of the columns, one line each, with the option that
+/// leaves the column out. If the data are to be fitted, also says how the fault
+/// affects a fit. `policy`: how such rows are treated.
 std::vector<std::string> FaultLines(const data::PreparedDataset& prepared,
                                     data::FaultPolicy policy,
                                     FaultUse use);

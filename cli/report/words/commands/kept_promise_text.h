@@ -16,27 +16,28 @@ namespace errmap::report {
 // What is said of a map on rows that it has not seen, and of readings that go
 // wrong; `unit` is its target's.
 
-/// What it erred by beside what was promised; "" where nothing was.
+/// Compares a map's error with what was promised;
 std::string FoundText(const models::KeptPromise& kept, const data::Unit& unit);
 
-/// The same on so many rows, beside no map at all and an offset, too; of the
-/// last nothing where rows are too few.
+/// Makes the same comparison on this many rows, and with no map and an offset
+/// alone. The offset is left out if there are too few rows.
 std::string KeptPromiseText(const models::KeptPromise& kept,
                             Eigen::Index rows,
                             const data::Unit& unit);
 
-/// RMSE of the old and the new map by session, as a table. `all_unseen`: the
-/// old map has seen none of them.
+/// Returns a table of the RMSE of the old and the new map by session.
+/// `all_unseen`: the old map was fitted to none of them.
 std::string TrialText(const models::UpdateTrial& trial,
                       const data::Unit& unit,
                       bool all_unseen);
 
-/// How far probes move the predictions, and how surely; one line without end.
+/// Says how far probes shift the predictions, and how certain that is; one line
+/// without a line feed.
 std::string OffsetLine(const models::ProbeCorrection& correction,
                        const data::Unit& unit);
 
-/// What noise, a failing thermometer and a new zero do to the predictions; one
-/// line without end, "" where no input is a temperature.
+/// Says how noise, a failing thermometer and a new zero change the predictions;
+/// one line without a line feed. "" if no input is a temperature.
 std::string SensitivityLine(const models::Sensitivity& sensitivity,
                             const ErrorText& error);
 

@@ -10,14 +10,16 @@
 
 namespace errmap::report {
 
-/// Which inputs leave their trained range, in how many rows and how far, a line
-/// each; `values` (m x p) in the map's units. Nothing where none does.
+/// Says which inputs leave their trained range, in how many rows and by how
+/// much, one line each. `values` (m x p) are in the map's units. Returns
+/// nothing if none does.
 std::vector<std::string> OutsideLines(
     const std::vector<models::TrainedInput>& inputs,
     const Eigen::MatrixXd& values);
 
-/// How many rows are unlike training though each input may lie within its
-/// range, and the worst of all; `rows` (m) are the data rows of the file.
+/// Says how many rows are unlike training although each input may lie within
+/// its range, and names the worst. `rows` (m) are the numbers of the data rows
+/// in the file.
 std::vector<std::string> UnlikeLines(const std::vector<models::RowFlag>& flags,
                                      const std::vector<Eigen::Index>& rows);
 

@@ -9,14 +9,14 @@
 
 namespace errmap::report {
 
-/// Location and spread, a few lines.
+/// Location and spread, in a few lines.
 std::string SampleText(const stats::ErrorMetrics& metrics,
                        const Eigen::VectorXd& values,
                        const stats::ShapeMoments& shape,
                        const data::Unit& unit);
 
-/// The tests of shape as a table; each line says what its p assumes. `unit` is
-/// that of the values.
+/// The tests of shape as a table. Each line says what its p assumes. `unit` is
+/// the unit of the values.
 std::string NormalityText(const models::ResidualReport& report,
                           Eigen::Index n,
                           const data::Unit& unit);
@@ -31,8 +31,8 @@ std::string DetailsText(const models::ResidualReport& report,
                         const data::Unit& unit,
                         Eigen::Index bins);
 
-/// What the program of NISTIR 5367 prints for these residuals; `r_squared`
-/// NaN where no fitted values are known.
+/// The statistics that the program of NISTIR 5367 prints for these residuals.
+/// `r_squared` is NaN if no fitted values are known.
 std::string Report1995Text(const stats::Report1995Statistics& printed,
                            double r_squared,
                            const data::Unit& unit);

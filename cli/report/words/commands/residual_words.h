@@ -9,9 +9,9 @@
 
 namespace errmap::report {
 
-/// What the figures say about the residuals, in sentences that follow from
-/// them and from nothing else: their shape, how the 1995 program would have
-/// judged them, whether they are independent, where they are biased.
+/// Describes the residuals in sentences: their shape, how the 1995 program
+/// would have judged them, whether they are independent, where they are biased.
+/// Every sentence follows from the figures alone.
 std::string ResidualSentences(const models::ResidualReport& report,
                               const stats::ErrorMetrics& summary,
                               const stats::Report1995Statistics& printed,

@@ -7,8 +7,9 @@
 
 namespace errmap::report {
 
-/// What a map's errors on unseen sessions say of the time between probes, as a
-/// table and the advice below it. `goal`: target's unit; NaN: no advice.
+/// Says what a map's errors on unseen sessions mean for the time between
+/// probes: a table, and the advice below it. `goal`: target's unit; NaN: no
+/// advice.
 std::string WhenText(const models::ZeroSchedule& schedule,
                      const models::HeldOutErrors& errors,
                      const data::Unit& unit,
@@ -20,8 +21,8 @@ std::string ZeroAdvice(const models::ZeroSchedule& schedule,
                        const data::Unit& unit,
                        double goal);
 
-/// How things stand `age` (s) and `change` (temperature's unit) after a probe,
-/// in a sentence.
+/// Describes in one sentence the state `age` (s) and `change` (temperature's
+/// unit) after a probe.
 std::string ZeroDueText(const models::ZeroTrigger& advised,
                         const models::HeldOutErrors& errors,
                         double age,
