@@ -14,8 +14,8 @@ namespace errmap::models {
 /// Such a column may stand still while the others move by the largest of three
 /// limits. One is three times their movement while it held a value in training,
 /// one the movement that changes it by five steps of its resolution, and one is
-/// 0.05. While a healthy sensor with steps of 0.01 K repeats a value, the others
-/// move by at most 0.004.
+/// 0.05. While a healthy sensor with steps of 0.01 K repeats a value, the
+/// others move by at most 0.004.
 ///
 /// A sensor has noise if it reverses, up or down, in a fifth of the rows or
 /// more. It may be quiet for three times the longest time that it held a value,
