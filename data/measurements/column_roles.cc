@@ -104,8 +104,7 @@ class RoleChooser {
       RefuseWithoutTarget();
     }
     const std::size_t target = candidates.front();
-    if (ErrorSign(Name(target)) <= 0 &&
-        !StartsWithIgnoringCase(Name(target), "error")) {
+    if (ErrorSign(Name(target)) <= 0 && !BeginsAsError(Name(target))) {
       AskForSign(target);
     }
     if (is_opposite(target)) AskForSign(target);
@@ -121,7 +120,7 @@ class RoleChooser {
           const Header header = ReadHeader(name);
           const int sign = ErrorSign(name);
           const bool has_size = IsLengthOrAngle(header.unit);
-          if (StartsWithIgnoringCase(name, "error")) return true;
+          if (BeginsAsError(name)) return true;
           return !table_.At(table_.Find(name)).is_text() && sign != 0 &&
                  (has_size || (sign > 0 && header.unit.symbol.empty()));
         });
@@ -253,6 +252,12 @@ bool HasCounterIn(std::string_view name) {
   });
 }
 
+// Which thing, or how many of them, and no quantity of a machine.
+bool Identifies(std::string_view name) {
+  return UnitOfColumn(name).symbol.empty() && !StatesTemperature(name) &&
+         SaysPhrase(name, Word::kIdentifier);
+}
+
 }  // namespace
 
 bool CountsRows(const CsvColumn& column) {
@@ -284,7 +289,7 @@ bool KeepsRecord(std::string_view name) {
   const bool is_number_of =
       words.size() > 1 && IsOneOf(words.back(), "no nr number nummer num") &&
       !StatesTemperature(name) && !IsCalled(name, Word::kPart);
-  return is_number_of || IsCalled(name, Word::kCounter) ||
+  return is_number_of || Identifies(name) || IsCalled(name, Word::kCounter) ||
          IsCalled(name, Word::kCycle) || IsCalled(name, Word::kSession) ||
          IsCalled(name, Word::kRun) || NamesTime(name) ||
          StartsWithIgnoringCase(name, kTruth);
@@ -293,9 +298,9 @@ bool KeepsRecord(std::string_view name) {
 bool KeepsRecord(const CsvColumn& column) {
   const std::string& name = column.name;
   if (!KeepsRecord(name)) return false;
-  if (column.is_text() || NamesTime(name) || IsCalled(name, Word::kCycle) ||
-      IsCalled(name, Word::kSession) || IsCalled(name, Word::kRun) ||
-      StartsWithIgnoringCase(name, kTruth)) {
+  if (column.is_text() || NamesTime(name) || Identifies(name) ||
+      IsCalled(name, Word::kCycle) || IsCalled(name, Word::kSession) ||
+      IsCalled(name, Word::kRun) || StartsWithIgnoringCase(name, kTruth)) {
     return true;
   }
   // "Pt100-Nr. 1" measures.
