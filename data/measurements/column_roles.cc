@@ -1,6 +1,7 @@
 #include "data/measurements/column_roles.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -241,9 +242,18 @@ class RoleChooser {
   ColumnRoles roles_;
 };
 
+// "Charge [Ah]" counts no batches.
+bool HasUnit(std::string_view name) {
+  const Header header = ReadHeader(name);
+  return header.unit.quantity != Quantity::kTime &&
+         std::ranges::any_of(header.unit_text, [](unsigned char c) {
+           return std::isalpha(c) != 0;
+         });
+}
+
 // Whether a word of a name says that it counts: "cycles" of "elapsed_cycles".
 bool HasCounterIn(std::string_view name) {
-  if (StatesTemperature(name)) return false;
+  if (StatesTemperature(name) || HasUnit(name)) return false;
   return std::ranges::any_of(WordsOf(name), [](const std::string& word) {
     // "no" and "test" are words of other names, too.
     return word.size() > 2 && word != "test" &&
@@ -254,7 +264,7 @@ bool HasCounterIn(std::string_view name) {
 
 // Which thing, or how many of them, and no quantity of a machine.
 bool Identifies(std::string_view name) {
-  return UnitOfColumn(name).symbol.empty() && !StatesTemperature(name) &&
+  return !HasUnit(name) && !StatesTemperature(name) &&
          SaysPhrase(name, Word::kIdentifier);
 }
 
@@ -289,7 +299,8 @@ bool KeepsRecord(std::string_view name) {
   const bool is_number_of =
       words.size() > 1 && IsOneOf(words.back(), "no nr number nummer num") &&
       !StatesTemperature(name) && !IsCalled(name, Word::kPart);
-  return is_number_of || Identifies(name) || IsCalled(name, Word::kCounter) ||
+  return is_number_of || Identifies(name) ||
+         (IsCalled(name, Word::kCounter) && !HasUnit(name)) ||
          IsCalled(name, Word::kCycle) || IsCalled(name, Word::kSession) ||
          IsCalled(name, Word::kRun) || NamesTime(name) ||
          StartsWithIgnoringCase(name, kTruth);
