@@ -239,6 +239,11 @@ Header ReadHeader(std::string_view name) {
   // R writes "error [um]" as "error..um.".
   while (name.size() > 1 && name.ends_with('.')) name.remove_suffix(1);
   Header header;
+  // A serial number, and no newtons.
+  if (name.ends_with("S/N")) {
+    header.base = name;
+    return header;
+  }
   if (const std::size_t open = BracketStart(name);
       open != std::string_view::npos) {
     header.base = WithoutSeparators(name.substr(0, open));

@@ -32,6 +32,8 @@ constexpr auto kWords = std::to_array<std::string_view>({
     "position pos posn coordinate coord posicion posizione posicao quota "
     "weg stellung koordinate positie pozycja polozenie poloha pozice lage "
     "asema konum ichi travel verfahrweg положение позиция координата 位置 위치",
+    // kHeight
+    "height hohe hoehe hauteur altezza altura hoogte wysokosc",
     // kNominal
     "nominal nom commanded command cmd setpoint target ziel soll sollwert "
     "sollposition consigne nominale consigna theorique teorica nominaal "
@@ -72,9 +74,26 @@ constexpr auto kWords = std::to_array<std::string_view>({
     "segment record index row id sample messung versuch durchgang nr no "
     "number nummer zeile test trial repeat rep reps repetition wiederholung "
     "repeticion ripetizione block batch hour hr minute min "
-    "second sec stunde sekunde ms msec night nacht nuit notte noche week "
-    "woche semaine settimana semana visit campaign kampagne sitzung warmup "
+    "second sec stunde sekunde ms msec usec microsec nsec millis millitm "
+    "millisecond microsecond nanosecond night nacht nuit notte noche week "
+    "woche kw semaine settimana semana attempt tentative tentativo essai "
+    "intento charge los lotto lote visit campaign kampagne sitzung warmup "
     "experiment dataset doy hhmm hhmmss",
+    // kIdentifier
+    "serial sn s_n seriennummer seriennr matricola matricule employee staff "
+    "personalnr personalnummer pernr badge firmware fw version revision "
+    "software crc checksum prufsumme pruefsumme statuswort statusword "
+    "status_word parity anzahl number_of nombre_de numero_di numero_de "
+    "num_readings n_readings nr_readings",
+    // kComputed
+    "residual residuum residuen resid residuo residu residuel fit fits fitted "
+    "predicted prediction predict pred prevision prediccion previsione "
+    "forecast vorhersage prognose model modell modele modello modelled modeled "
+    "tol tolerance toleranz tolleranza tolerancia oot nok nio n_i_o",
+    // kSpread
+    "std stdev stddev stdabw stabw sd sigma standardabweichung ecart_type "
+    "deviazione_standard desviacion_estandar uncertainty unsicherheit "
+    "messunsicherheit incertitude incertezza incertidumbre",
     // kPart
     "machine maschine tool werkzeug pallet palette station operator",
     // kComponent
@@ -216,6 +235,20 @@ bool IsCalled(std::string_view column, Word word) {
          std::ranges::count(WordsFor(word), std::string_view(words[0])) > 0;
 }
 
+bool SaysPhrase(std::string_view column, Word word) {
+  std::string said = "_";
+  for (const std::string& one : WordsOf(column)) {
+    said += one;
+    said += '_';
+  }
+  return std::ranges::any_of(WordsFor(word), [&](std::string_view known) {
+    std::string phrase = "_";
+    phrase += known;
+    phrase += '_';
+    return said.find(phrase) != said.npos;
+  });
+}
+
 namespace {
 
 // The first of the words that is such a word; -1: none.
@@ -308,9 +341,16 @@ int ErrorSign(std::string_view column) {
   return opposite ? -1 : 1;
 }
 
+bool BeginsAsError(std::string_view column) {
+  return StartsWithIgnoringCase(column, "error") && !StatesTemperature(column);
+}
+
 bool IsInUnitOfErrors(std::string_view column) {
-  const Header header = ReadHeader(column);
-  return IsUnitOfErrors(header.unit) && !IsAxisLetter(header.base);
+  const Unit unit = UnitOfColumn(column);
+  if (!IsUnitOfErrors(unit)) return false;
+  // A reversal: B is an axis in degrees.
+  const bool turns = HasWordOf(column, "a b c");
+  return !IsAxisLetter(column) || (turns && unit.quantity == Quantity::kLength);
 }
 
 bool IsCalledPosition(std::string_view name) {
@@ -320,21 +360,38 @@ bool IsCalledPosition(std::string_view name) {
       header.source == UnitSource::kAssumed ||
       (IsLengthOrAngle(header.unit) && !IsUnitOfErrors(header.unit));
   const std::vector<std::string> words = WordsOf(name);
-  if (ErrorSign(name) != 0) return false;
+  if (ErrorSign(name) != 0 || words.empty()) return false;
   return NamesPosition(name) ||
-         (fits && (SayAny(words, Word::kPosition) ||
-                   (SayAny(words, Word::kNominal) && words.size() <= 2) ||
-                   IsAxisLetter(name)));
+         (fits &&
+          (SayAny(words, Word::kPosition) ||
+           (words.size() <= 2 && IsWord(words.front(), Word::kHeight)) ||
+           (SayAny(words, Word::kNominal) && words.size() <= 2) ||
+           IsAxisLetter(name)));
 }
 
-bool IsAxisLetter(std::string_view column) {
+namespace {
+
+bool IsLetterOfAxis(std::string_view word) {
   constexpr std::string_view kAxes = "xyzuvwabc";
+  return word.size() == 1 && kAxes.find(word) != kAxes.npos;
+}
+
+}  // namespace
+
+bool IsAxisLetter(std::string_view column) {
   const std::vector<std::string> words = WordsOf(column);
   return !words.empty() && words.size() <= 2 &&
          std::ranges::all_of(words, [&](const std::string& word) {
            return IsOneOf(word, "axis achse axe asse eje") ||
-                  (word.size() == 1 && kAxes.find(word) != kAxes.npos);
+                  IsLetterOfAxis(word);
          });
+}
+
+bool IsReadAxis(std::string_view column) {
+  const std::vector<std::string> words = WordsOf(column);
+  return IsLengthOrAngle(UnitOfColumn(column)) && words.size() == 2 &&
+         std::ranges::any_of(words, IsLetterOfAxis) &&
+         SayAny(words, Word::kMeasured);
 }
 
 }  // namespace errmap::data

@@ -12,20 +12,25 @@ enum class Word {
   kError,       // "error", "Abweichung", "écart", "scostamento"
   kCorrection,  // "correction", "Kompensation": an error with the other sign
   kPosition,    // "position", "Sollposition", "pos"
+  kHeight,      // "height", "Höhe": a position where its unit is of one
   kNominal,     // of positions: "nominal", "Soll", "commanded"
   kMeasured,    // of positions: "actual", "Ist", "measured"
   kTime,        // "time", "Zeit", "timestamp", "heure"
   kDate,        // "date", "Datum", "fecha"
   kTemperature,
-  kDirection,  // "direction", "approach", "Richtung", "sens"
-  kCycle,      // "cycle", "Zyklus", "Takt", "ciclo"
-  kSession,    // "session", "day", "Tag", "shift", "jour"
-  kRun,        // "run", "Lauf": a session, or one traverse
-  kDay,        // of the sessions, those of the calendar
-  kCounter,    // "index", "record", "Nr.": numbers or dates the rows
-  kPart,       // "machine", "tool": which of several
-  kComponent,  // "axis", "slide": what errors are of
-  kPlace,      // "station", "point": numbers places along the axis
+  kDirection,   // "direction", "approach", "Richtung", "sens"
+  kCycle,       // "cycle", "Zyklus", "Takt", "ciclo"
+  kSession,     // "session", "day", "Tag", "shift", "jour"
+  kRun,         // "run", "Lauf": a session, or one traverse
+  kDay,         // of the sessions, those of the calendar
+  kCounter,     // "index", "record", "Nr.": numbers or dates the rows
+  kIdentifier,  // "S/N", "firmware", "Anzahl Messwerte": no quantity of a
+                // machine
+  kComputed,    // "residual", "fit", "tolerance": made of errors
+  kSpread,      // "std", "sigma", "uncertainty"
+  kPart,        // "machine", "tool": which of several
+  kComponent,   // "axis", "slide": what errors are of
+  kPlace,       // "station", "point": numbers places along the axis
 };
 
 /// In small letters without accents: "zuruck" of "Zurück".
@@ -55,10 +60,18 @@ bool StatesTemperature(std::string_view column);
 /// like. "Cycle No." counts cycles, but "elapsed_cycles" is something else.
 bool IsCalled(std::string_view column, Word word);
 
+/// True if a name contains such a word, or a phrase of several ("s_n" of
+/// "Probe S/N").
+bool SaysPhrase(std::string_view column, Word word);
+
 /// Returns the sign of an error by its name. 1: an error ("deviation", "actual
 /// - nominal", "EXX"). -1: its opposite ("correction", "minus error", "nominal
 /// - actual", an unknown difference). 0: not an error.
 int ErrorSign(std::string_view column);
+
+/// True if a name begins as that of an error and is not a temperature ("Error
+/// amp. [degC]").
+bool BeginsAsError(std::string_view column);
 
 /// True if a column has a unit that only errors have, and is not an axis of one
 /// letter, which may be a position.
@@ -71,5 +84,8 @@ bool IsCalledPosition(std::string_view name);
 /// True if a name is that of a linear axis and nothing else: "X", "z [mm]",
 /// "axis".
 bool IsAxisLetter(std::string_view column);
+
+/// True if a name is that of an axis as it was read: "Y act [mm]", "Z_ist_mm".
+bool IsReadAxis(std::string_view column);
 
 }  // namespace errmap::data

@@ -1,6 +1,7 @@
 #include "data/measurements/column_roles.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -104,8 +105,7 @@ class RoleChooser {
       RefuseWithoutTarget();
     }
     const std::size_t target = candidates.front();
-    if (ErrorSign(Name(target)) <= 0 &&
-        !StartsWithIgnoringCase(Name(target), "error")) {
+    if (ErrorSign(Name(target)) <= 0 && !BeginsAsError(Name(target))) {
       AskForSign(target);
     }
     if (is_opposite(target)) AskForSign(target);
@@ -121,7 +121,7 @@ class RoleChooser {
           const Header header = ReadHeader(name);
           const int sign = ErrorSign(name);
           const bool has_size = IsLengthOrAngle(header.unit);
-          if (StartsWithIgnoringCase(name, "error")) return true;
+          if (BeginsAsError(name)) return true;
           return !table_.At(table_.Find(name)).is_text() && sign != 0 &&
                  (has_size || (sign > 0 && header.unit.symbol.empty()));
         });
@@ -242,15 +242,30 @@ class RoleChooser {
   ColumnRoles roles_;
 };
 
+// "Charge [Ah]" counts no batches.
+bool HasUnit(std::string_view name) {
+  const Header header = ReadHeader(name);
+  return header.unit.quantity != Quantity::kTime &&
+         std::ranges::any_of(header.unit_text, [](unsigned char c) {
+           return std::isalpha(c) != 0;
+         });
+}
+
 // Whether a word of a name says that it counts: "cycles" of "elapsed_cycles".
 bool HasCounterIn(std::string_view name) {
-  if (StatesTemperature(name)) return false;
+  if (StatesTemperature(name) || HasUnit(name)) return false;
   return std::ranges::any_of(WordsOf(name), [](const std::string& word) {
     // "no" and "test" are words of other names, too.
     return word.size() > 2 && word != "test" &&
            (IsWord(word, Word::kCounter) || IsWord(word, Word::kCycle) ||
             IsWord(word, Word::kRun) || IsWord(word, Word::kSession));
   });
+}
+
+// Which thing, or how many of them, and no quantity of a machine.
+bool Identifies(std::string_view name) {
+  return !HasUnit(name) && !StatesTemperature(name) &&
+         SaysPhrase(name, Word::kIdentifier);
 }
 
 }  // namespace
@@ -284,7 +299,8 @@ bool KeepsRecord(std::string_view name) {
   const bool is_number_of =
       words.size() > 1 && IsOneOf(words.back(), "no nr number nummer num") &&
       !StatesTemperature(name) && !IsCalled(name, Word::kPart);
-  return is_number_of || IsCalled(name, Word::kCounter) ||
+  return is_number_of || Identifies(name) ||
+         (IsCalled(name, Word::kCounter) && !HasUnit(name)) ||
          IsCalled(name, Word::kCycle) || IsCalled(name, Word::kSession) ||
          IsCalled(name, Word::kRun) || NamesTime(name) ||
          StartsWithIgnoringCase(name, kTruth);
@@ -293,9 +309,9 @@ bool KeepsRecord(std::string_view name) {
 bool KeepsRecord(const CsvColumn& column) {
   const std::string& name = column.name;
   if (!KeepsRecord(name)) return false;
-  if (column.is_text() || NamesTime(name) || IsCalled(name, Word::kCycle) ||
-      IsCalled(name, Word::kSession) || IsCalled(name, Word::kRun) ||
-      StartsWithIgnoringCase(name, kTruth)) {
+  if (column.is_text() || NamesTime(name) || Identifies(name) ||
+      IsCalled(name, Word::kCycle) || IsCalled(name, Word::kSession) ||
+      IsCalled(name, Word::kRun) || StartsWithIgnoringCase(name, kTruth)) {
     return true;
   }
   // "Pt100-Nr. 1" measures.

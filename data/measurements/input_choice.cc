@@ -62,13 +62,13 @@ class MeasuredBeside {
     if (stem == stem_) return "measures the target's quantity";
     const Header header = ReadHeader(name);
     const bool is_called =
-        ErrorSign(name) != 0 &&
+        (ErrorSign(name) != 0 || SaysPhrase(name, Word::kComputed)) &&
         (IsLengthOrAngle(header.unit) || header.unit.symbol.empty() ||
          header.unit.quantity == Quantity::kRatio);
     const bool alike = header.unit == header_.unit &&
                        header.unit_text.empty() == header_.unit_text.empty() &&
                        DifferInAxis(stem, stem_);
-    return alike || is_called || StartsWithIgnoringCase(name, "error") ||
+    return alike || is_called || BeginsAsError(name) ||
                    IsInUnitOfErrors(name) || header.unit.symbol == "um/m"
                ? "measures an error, as the target does"
                : "";
@@ -166,12 +166,17 @@ class InputChooser {
         (one ? " and is" : " and are") + " left out" + behind);
   }
 
-  // In a unit of time, and mostly not back: rows may be many in its step, and
-  // it may begin anew with each pass.
-  bool IsAnotherClock(const CsvColumn& column) const {
-    if (UnitOfColumn(column.name).quantity != Quantity::kTime) return false;
+  // Why a column in a unit of time is no sensor. Another clock goes mostly not
+  // back: rows may be many in its step, and it may begin anew with each pass.
+  static std::string_view WhatItTimes(const CsvColumn& column) {
+    if (UnitOfColumn(column.name).quantity != Quantity::kTime) return "";
     const Steps steps = StepsOf(column.values);
-    return steps.on > 2 * steps.back;
+    return steps.on > 2 * steps.back ? "is another clock" : "is a duration";
+  }
+
+  bool IsOfStatistics(std::string_view name) const {
+    return SaysPhrase(name, Word::kSpread) ||
+           (IsOneOf(name, "n N") && has_spreads_);
   }
 
   bool IsTaken(std::size_t i) const {
@@ -203,8 +208,10 @@ class InputChooser {
     const CsvColumn& column = table_.At(i);
     const bool is_axis = column.name == selection_.position;
     if (!is_axis && CountsRows(column)) return "counts the rows";
-    if (IsAnotherClock(column)) return "is another clock";
+    const std::string_view timed = WhatItTimes(column);
+    if (!timed.empty()) return timed;
     if (is_axis) return "";
+    if (IsOfStatistics(column.name)) return "tells how readings scatter";
     if (IsCalled(column.name, Word::kPart)) {
       chosen_.words.push_back(i);
       return "tells which one, and measures nothing";
@@ -235,6 +242,9 @@ class InputChooser {
   void ChooseDefaultInputs() {
     const std::unordered_set<std::string> excluded = ExcludedNames();
     const MeasuredBeside measured(Name(roles_.target));
+    has_spreads_ = std::ranges::any_of(table_.columns, [](const auto& column) {
+      return SaysPhrase(column.name, Word::kSpread);
+    });
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       const CsvColumn& column = table_.At(i);
       if (IsTaken(i)) continue;
@@ -269,6 +279,7 @@ class InputChooser {
   const ColumnRoles& roles_;
   const FoundSessions& found_;
   bool had_candidates_ = false;  // numeric columns that might have been inputs
+  bool has_spreads_ = false;     // statistics beside means
   std::vector<std::string> texts_;   // names of columns of words
   std::vector<std::string> beside_;  // of errors beside the target
   ChosenInputs chosen_;

@@ -486,9 +486,10 @@ std::vector<Index> FirstRows(const Grouping& sessions,
 }
 
 bool NamesTime(std::string_view name) {
-  return std::ranges::any_of(kTimeWords, [&](const char* word) {
-    return StartsWithIgnoringCase(name, word);
-  });
+  return !StatesTemperature(name) &&
+         std::ranges::any_of(kTimeWords, [&](const char* word) {
+           return StartsWithIgnoringCase(name, word);
+         });
 }
 
 FoundSessions FindSessions(const CsvTable& table,

@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "data/column_words.h"
 #include "data/measurements/column_checks.h"
@@ -31,6 +33,8 @@ constexpr double kMostOfOther = 0.05;
 constexpr double kCancels = 10.0;     // times the target's standard deviation
 constexpr double kUnitSlack = 0.02;   // of coefficients that are alike
 constexpr double kMostOfShare = 0.3;  // of the target's standard deviation
+constexpr double kMostOfSize = 0.1;   // of that of the target's size
+constexpr double kMostOfGap = 0.1;    // of the range of sizes
 // Parts that add up (coefficients of one) may be rounded to their digits, some
 // to fewer decimals than others.
 constexpr double kMostOfParts = 0.005;
@@ -69,6 +73,7 @@ class LeakFinder {
       TakeCandidate(target, j, input_values.col(j)(rows_));
     }
     FindShares(target_values(rows_), input_values(rows_, Eigen::all));
+    FindSizes(target_values(rows_), input_values(rows_, Eigen::all));
   }
 
   std::vector<Leak> Find() {
@@ -82,6 +87,7 @@ class LeakFinder {
     products_ = values.transpose() * values;
     with_target_ = values.transpose() * target_;
     std::vector<Leak> leaks = shares_;
+    leaks.insert(leaks.end(), sizes_.begin(), sizes_.end());
     for (std::size_t members = 1; members <= 3; ++members) {
       if (members == 3 && candidates_.size() > kMostForTriples) break;
       LookAtSets({}, 0, members, &leaks);
@@ -171,6 +177,78 @@ class LeakFinder {
     return Leak{.inputs = {input},
                 .left_out = {input},
                 .formula = Rounded(b) + " " + NameOf(input)};
+  }
+
+  // What is made of the error's size: a share of a tolerance, what is left of
+  // it, or whether it is exceeded.
+  void FindSizes(const VectorXd& target, const Eigen::MatrixXd& values) {
+    if (std::ssize(rows_) < kFewestRowsToTell || !(sd_ > 0.0)) return;
+    const VectorXd size = target.cwiseAbs();
+    const bool has_both_signs =
+        target.minCoeff() < 0.0 && target.maxCoeff() > 0.0;
+    for (Index j = 0; j < values.cols(); ++j) {
+      const ColumnInfo& input = inputs_[static_cast<std::size_t>(j)];
+      if (IsPosition(input) || (!input.unit.symbol.empty() &&
+                                input.unit.quantity != unit_.quantity &&
+                                input.unit.quantity != Quantity::kRatio)) {
+        continue;
+      }
+      std::string formula =
+          has_both_signs ? LineOf(size, j, values.col(j)) : "";
+      if (formula.empty()) formula = LimitOf(size, j, values.col(j));
+      if (formula.empty()) continue;
+      sizes_.push_back({.inputs = {j},
+                        .left_out = {j},
+                        .formula = std::move(formula),
+                        .of_size = true});
+    }
+  }
+
+  // "8 - tolerance_left"; "" where the size is no line of the values.
+  std::string LineOf(const VectorXd& size,
+                     Index input,
+                     const VectorXd& values) const {
+    const VectorXd x = values.array() - values.mean();
+    const VectorXd y = size.array() - size.mean();
+    const double b = x.dot(y) / x.squaredNorm();
+    const double rounding = ResolutionOf(values) * std::abs(b) + resolution_;
+    const double sd =
+        std::sqrt(y.squaredNorm() / static_cast<double>(y.size()));
+    const double worst = (y - b * x).cwiseAbs().maxCoeff();
+    if (!(worst <= rounding && rounding < kMostOfSize * sd)) return "";
+    const double a = size.mean() - b * values.mean();
+    if (std::abs(a) <= rounding) return Rounded(b) + " " + NameOf(input);
+    return Rounded(a) + (b < 0.0 ? " - " : " + ") + Rounded(std::abs(b)) + " " +
+           NameOf(input);
+  }
+
+  // "above 3 where out_of_tol is 1": of flags that go on and off often, as no
+  // switch does just where the error passes a limit.
+  std::string LimitOf(const VectorXd& size,
+                      Index input,
+                      const VectorXd& values) const {
+    constexpr Index kFewestChanges = 8;
+    const double on = values.maxCoeff();
+    const double off = values.minCoeff();
+    if (!((values.array() == on) || (values.array() == off)).all()) return "";
+    const Index m = values.size();
+    const Index changes =
+        (values.tail(m - 1).array() != values.head(m - 1).array()).count();
+    if (changes < kFewestChanges) return "";
+    constexpr double kInf = std::numeric_limits<double>::infinity();
+    const auto range_of = [&](double value) {
+      const auto is = values.array() == value;
+      return std::pair(is.select(size.array(), kInf).minCoeff(),
+                       is.select(size.array(), -kInf).maxCoeff());
+    };
+    std::pair large = range_of(on);
+    std::pair small = range_of(off);
+    const bool when_on = large.first > small.first;
+    if (!when_on) std::swap(large, small);
+    const double gap = large.first - small.second;
+    if (gap < 0.0 || gap > kMostOfGap * (large.second - small.first)) return "";
+    return "above " + Rounded(large.first - 0.5 * gap) + " where " +
+           NameOf(input) + " is " + Rounded(when_on ? on : off);
   }
 
   std::string NameOf(Index input) const {
@@ -322,6 +400,7 @@ class LeakFinder {
   double resolution_ = 0.0;
   std::vector<Candidate> candidates_;
   std::vector<Leak> shares_;
+  std::vector<Leak> sizes_;
   Eigen::MatrixXd products_;  // of candidates
   VectorXd with_target_;
 };

@@ -14,15 +14,17 @@ struct Leak {
   std::vector<Eigen::Index> inputs;    // indices, one to three
   std::vector<Eigen::Index> left_out;  // of these, those that hold the error
   std::string formula;                 // "actual_mm - nominal_mm"
+  bool of_size = false;                // the formula is of |target|
 };
 
 /// Finds components of the error itself among the inputs (m x p) of a target
 /// (m), by least squares on the rows. Examples are the measured position beside
-/// the nominal one, a copy in another unit or in ppm of the position, and two
-/// halves. Encoder counts are recognised by the axis. Temperatures, times, and
-/// positions by themselves are states of a machine, never parts of its error: a
-/// target that is a plain function of them has a good map. If such a set
-/// contains a position or a few settings, these are kept.
+/// the nominal one, a copy in another unit or in ppm of the position, two
+/// halves, the size of the error, or whether it exceeds a limit. Encoder counts
+/// are recognised by the axis. Temperatures, times, and positions by themselves
+/// are states of a machine, never parts of its error: a target that is a plain
+/// function of them has a good map. If such a set contains a position or a few
+/// settings, these are kept.
 std::vector<Leak> FindLeaks(const ColumnInfo& target,
                             const Eigen::VectorXd& target_values,
                             const std::vector<ColumnInfo>& inputs,

@@ -160,6 +160,9 @@ class DatasetBuilder {
                    ? "reads the position, which holds the error"
                    : "reads the position that " + axis + " commands");
     }
+    for (const std::size_t column : read_.axis.held) {
+      LeaveOut(column, "reads an axis that stands");
+    }
     for (const std::size_t column : read_.axis.numbers) {
       LeaveOut(column, "numbers the positions of " + axis);
     }

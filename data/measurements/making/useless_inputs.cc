@@ -12,6 +12,11 @@ namespace errmap::data {
 using Eigen::Index;
 
 std::vector<UselessInput> LeakingInputs(const Dataset::Parts& parts) {
+  const std::string target = NameInRemark(parts.target.name);
+  const auto equation_of = [&](const Leak& leak) {
+    return (leak.of_size ? "|" + target + "|" : target) +
+           (leak.formula.starts_with("above") ? " is " : " = ") + leak.formula;
+  };
   std::vector<UselessInput> useless;
   for (const Leak& leak : FindLeaks(parts.target,
                                     parts.target_values,
@@ -19,9 +24,8 @@ std::vector<UselessInput> LeakingInputs(const Dataset::Parts& parts) {
                                     parts.input_values)) {
     for (const Index input : leak.left_out) {
       useless.push_back({.input = input,
-                         .why = "holds the error itself (" +
-                                NameInRemark(parts.target.name) + " = " +
-                                leak.formula + " in all rows, to rounding)",
+                         .why = "holds the error itself (" + equation_of(leak) +
+                                " in all rows, to rounding)",
                          .behind = ": no control knows it beforehand",
                          .even_named = true});
     }

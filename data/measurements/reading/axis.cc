@@ -63,6 +63,7 @@ class AxisFinder {
       AddNamed();
       FindNumbers();
       FindReadings();
+      FindHeld();
       return std::move(axis_);
     }
     std::vector<Candidate> candidates = Named();
@@ -82,6 +83,7 @@ class AxisFinder {
     if (!candidates.empty()) Choose(&candidates);
     FindNumbers();
     FindReadings();
+    FindHeld();
     return std::move(axis_);
   }
 
@@ -307,6 +309,31 @@ class AxisFinder {
     const double slope = (x * y).sum() / x.square().sum();
     return slope != 0.0 &&
            ((y - slope * x).abs() <= 0.25 * std::abs(slope) * spacing).all();
+  }
+
+  // An axis that is held in place, as its encoder reads it: "Y act [mm]".
+  bool IsHeld(std::size_t column) const {
+    constexpr double kMostMoved = 1e-3;  // of where it stands, or the travel
+    if (!IsReadAxis(Name(column)) || IsUnitOfErrors(UnitOfColumn(Name(column))))
+      return false;
+    double low = INFINITY;
+    double high = -INFINITY;
+    for (const Index row : rows_) {
+      const double at =
+          table_.columns[column].values[static_cast<std::size_t>(row)];
+      low = std::min(low, at);
+      high = std::max(high, at);
+    }
+    const std::vector<double>& places = axis_.levels.centers;
+    const double travel = places.empty() ? 0.0 : places.back() - places.front();
+    return high - low <=
+           kMostMoved * std::max({std::abs(low), std::abs(high), travel});
+  }
+
+  void FindHeld() {
+    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+      if (IsFree(i) && IsHeld(i)) axis_.held.push_back(i);
+    }
   }
 
   // Columns of no name that says it whose lengths go with the axis.

@@ -22,6 +22,7 @@ struct Axis {
   std::optional<std::string> alternative;
   std::vector<std::size_t> positions;  // all columns of positions, it included
   std::vector<std::size_t> measured;   // positions as read beside it
+  std::vector<std::size_t> held;       // other axes, as read where they stand
   std::vector<std::size_t> numbers;    // whole numbers that go with it
 };
 

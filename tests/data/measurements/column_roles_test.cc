@@ -2,6 +2,8 @@
 
 #include "data/measurements/column_roles.h"
 
+#include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -312,6 +314,134 @@ TEST(ColumnRoles, TellCountersFromAges) {
   }
 }
 
+// Days of passes over four places, with one column more, of values by row, that
+// begins as `name` does.
+std::string MeasuredWith(const std::string& name,
+                         const std::function<double(int)>& value) {
+  std::string text = name + ",day,x_mm,T1 [degC],error_um\n";
+  for (int i = 0; i < 48; ++i) {
+    const double warm = 1.0 - std::exp(-0.2 * (i % 24));
+    text += CsvNumber(value(i)) + "," + std::to_string(1 + i / 24) + "," +
+            std::to_string(100 * (i % 4)) + "," +
+            CsvNumber(std::round(2000.0 + i + 500.0 * warm) / 100.0) + "," +
+            CsvNumber(std::round(100.0 * (4.0 * warm - i % 4)) / 100.0) + "\n";
+  }
+  return text;
+}
+
+std::vector<std::string> ReadIn(const std::string& text) {
+  std::vector<std::string> names =
+      InputNames(Make(text, {.target = "error_um"}).dataset);
+  std::erase_if(names, [](const std::string& name) {
+    return name == "x_mm" || name == "T1 [degC]";
+  });
+  return names;
+}
+
+double Unlike(int i) {
+  return 20.0 + std::round(100.0 * std::sin(7.0 * i)) / 8;
+}
+
+TEST(ColumnRoles, TakesNothingThatIsMadeOfErrorsForASensor) {
+  for (const char* name : {"Residual",
+                           "Residuum [um]",
+                           "Fit",
+                           "Predicted",
+                           "Vorhersage",
+                           "Used tol %",
+                           "Out of tol",
+                           "n.i.O.",
+                           "U (k=2) [um]",
+                           "B [um]"}) {
+    EXPECT_THAT(ReadIn(MeasuredWith(name, Unlike)), IsEmpty()) << name;
+  }
+  for (const char* name : {"Fitting [bar]", "Load", "Speed model [degC]"}) {
+    EXPECT_THAT(ReadIn(MeasuredWith(name, Unlike)), ElementsAre(name));
+  }
+}
+
+TEST(ColumnRoles, TakesNoStatisticForASensor) {
+  for (const char* name : {"T1 std [degC]", "Tbed_sd", "Stabw T2 [degC]"}) {
+    EXPECT_THAT(ReadIn(MeasuredWith(name, Unlike)), IsEmpty()) << name;
+  }
+  const std::string of = "n,T2 std [degC]";
+  const auto with_std = [&](const std::string& first) {
+    std::string text = MeasuredWith(first, Unlike);
+    for (std::size_t at = text.find('\n'); at + 1 < text.size();
+         at = text.find('\n', at + 1)) {
+      text.insert(at + 1, "0.1,");
+    }
+    return "T2 std [degC]," + text;
+  };
+  EXPECT_THAT(ReadIn(with_std("n")), IsEmpty());
+  // Else it is a speed.
+  EXPECT_THAT(ReadIn(MeasuredWith("n", Unlike)), ElementsAre("n"));
+}
+
+TEST(ColumnRoles, TakesNothingThatKeepsRecordsForASensor) {
+  const auto whole = [](int i) { return 3300.0 + i * 7 % 11; };
+  for (const char* name : {"KW",
+                           "Attempt",
+                           "Charge",
+                           "Anzahl Messwerte",
+                           "Number of readings",
+                           "Millitm",
+                           "usec",
+                           "CRC",
+                           "Pr\u00fcfsumme",
+                           "Statuswort",
+                           "Probe S/N",
+                           "Taster SN",
+                           "FW-Version",
+                           "Employee ID",
+                           "Personalnr.",
+                           "Numero di letture"}) {
+    EXPECT_THAT(ReadIn(MeasuredWith(name, whole)), IsEmpty()) << name;
+  }
+  EXPECT_THAT(ReadIn(MeasuredWith("Fw", [](int i) { return 2.1 + i / 24; })),
+              IsEmpty());
+  for (const char* name : {"SN1 [degC]", "Charge [Ah]"}) {
+    EXPECT_THAT(Make(MeasuredWith(name, whole)).reading.sensors,
+                Contains(name));
+  }
+}
+
+TEST(ColumnRoles, TakesNoDurationForASensor) {
+  DatasetSelection selection;
+  selection.time = "none";
+  selection.faults = FaultPolicy::kDropRows;
+  const auto lasts = [](int i) {
+    return i % 24 == 0 ? 900.0 : 10.0 + 0.1 * (i * 7 % 11);
+  };
+  for (const char* name :
+       {"dt_s", "\u0394t [s]", "Probe time [s]", "Messdauer [s]"}) {
+    const PreparedDataset prepared = Make(MeasuredWith(name, lasts), selection);
+    EXPECT_THAT(prepared.reading.sensors, ElementsAre("T1 [degC]")) << name;
+    EXPECT_EQ(prepared.dataset.num_rows(), 48) << name;
+  }
+}
+
+TEST(ColumnRoles, TakesNoEncoderOfAnAxisThatStandsForASensor) {
+  const auto stands = [](int i) { return 250.0 + 1e-4 * (i * 7 % 11 - 5); };
+  for (const char* name : {"Y act [mm]", "Z_ist [mm]"}) {
+    EXPECT_THAT(ReadIn(MeasuredWith(name, stands)), IsEmpty()) << name;
+  }
+  const auto at_zero = [&](int i) { return stands(i) - 250.0; };
+  EXPECT_THAT(ReadIn(MeasuredWith("Y act [mm]", at_zero)), IsEmpty());
+  EXPECT_THAT(ReadIn(MeasuredWith("Gap [mm]", stands)),
+              ElementsAre("Gap [mm]"));
+}
+
+TEST(ColumnRoles, TakesAHeightForAPosition) {
+  std::string text = "H\u00f6he Z (mm),T1 [degC],error_um\n";
+  for (int i = 0; i < 24; ++i) {
+    text += std::to_string(-600 * (i % 2)) + "," + CsvNumber(20.05 + 0.1 * i) +
+            "," + CsvNumber(i % 2 + 0.3 * i) + "\n";
+  }
+  EXPECT_THAT(Make(text).reading.sensors, ElementsAre("T1 [degC]"));
+  EXPECT_EQ(Make(text).reading.position.column, "H\u00f6he Z (mm)");
+}
+
 // A unit of temperature, or digits behind the point, beat every other word.
 TEST(ColumnRoles, TakesThermometersWhateverElseTheirNamesSay) {
   for (const char* name : {"No. 1 [degC]",
@@ -323,7 +453,9 @@ TEST(ColumnRoles, TakesThermometersWhateverElseTheirNamesSay) {
                            "Run 1 [degC]",
                            "Cycle temp",
                            "Position 2 [degC]",
-                           "Soll-Temp [degC]"}) {
+                           "Soll-Temp [degC]",
+                           "Zeitrelais-Schrank [degC]",
+                           "Error amp. [degC]"}) {
     std::string text = std::string("x_mm,error_um,") + name + "\n";
     for (int i = 0; i < 40; ++i) {
       text += std::to_string(i % 8) + "," + std::to_string(i % 3) + "," +

@@ -109,6 +109,42 @@ TEST(UselessReadings, InputsThatHoldTheErrorAreLeftOut) {
   EXPECT_THAT(DroppedNames(Make(halves)), Contains("b"));
 }
 
+TEST(UselessReadings, WhatIsMadeOfTheErrorsSizeIsLeftOut) {
+  const auto with = [](const std::string& name, const auto& value) {
+    return Joined(Changed(Measured(), [&](std::size_t i, auto* cells) {
+      if (i > 0) {
+        (*cells)[kError] = Fixed(Number((*cells)[kError]) - 10.0);
+      }
+      cells->insert(
+          cells->end() - 1,
+          i == 0 ? name : CsvNumber(value(std::abs(Number((*cells)[kError])))));
+    }));
+  };
+  const auto tenths = [](double value) { return std::round(10 * value) / 10; };
+  const auto same = [](double size) { return size; };
+  const auto share = [&](double size) { return tenths(size / 0.08); };
+  const auto left = [&](double size) { return 8.0 - size; };
+  const auto flag = [](double size) { return size > 3.0 ? 1.0 : 0.0; };
+  for (const auto& [text, equation] :
+       {std::pair(with("Betrag", same), "|error_um| = 1 Betrag"),
+        std::pair(with("Used %", share), "|error_um| = 0.08 Used %"),
+        std::pair(with("left", left), "|error_um| = 8 - 1 left"),
+        std::pair(with("bad", flag), "where bad is 1")}) {
+    const PreparedDataset prepared = Make(text);
+    EXPECT_THAT(InputNames(prepared.dataset),
+                ElementsAre("position_mm", "t1_degC", "t2_degC"));
+    EXPECT_THAT(prepared.remarks, Contains(HasSubstr(equation)));
+  }
+  // A switch is none, and neither is one that goes with the size but loosely.
+  int row = 0;
+  const auto by_turns = [&](double) {
+    return (row++ / 7) % 2 == 0 ? 1.0 : 0.0;
+  };
+  EXPECT_THAT(DroppedNames(Make(with("pump", by_turns))), IsEmpty());
+  const auto loose = [](double size) { return std::round(size) + 20.0; };
+  EXPECT_THAT(DroppedNames(Make(with("load", loose))), IsEmpty());
+}
+
 // A good map is no leak: thermometers that tell the error to their rounding.
 TEST(UselessReadings, StatesThatTellTheErrorAreNoLeak) {
   const Rows rows = Changed(Measured(), [](std::size_t i, auto* cells) {
