@@ -18,6 +18,7 @@ enum class Counted {
   kRows,     // of a pass, or of all
   kPasses,   // along the axis
   kElapsed,  // passes, by a name that may be a state ("elapsed_cycles")
+  kTurns,    // which of two things each pass has, by turns
   kWays,     // up and down
   kBlocks,   // of several passes each: days, warm-ups, files
 };
@@ -31,11 +32,12 @@ struct Counter {
 
 /// The columns that count, whatever they are called: whole numbers without a
 /// unit that change only where a pass or a way begins, mostly by the same, and
-/// words by the order in which they appear. Blocks go up by one, never back;
-/// numbers of no name that says so begin at 1 (three of them or more at 0).
-/// Without passes, a block has 8 rows or more. Neither positions, nor the
-/// target, nor what `selection` names. `motion` is that of `rows`, which are in
-/// the order of measurement.
+/// words by the order in which they appear. Words that come again (programs,
+/// fixtures) count no passes, nor do two numbers by turns. Blocks go up by one,
+/// never back; numbers of no name that says so begin at 1 (three of them or
+/// more at 0). Without passes, a block has 8 rows or more. Neither positions,
+/// nor the target, nor what `selection` names. `motion` is that of `rows`,
+/// which are in the order of measurement.
 std::vector<Counter> FindCounters(const CsvTable& table,
                                   const DatasetSelection& selection,
                                   std::size_t target,
