@@ -25,6 +25,11 @@ Loose ReadLooseNumber(std::string_view cell,
                       bool other_mark,
                       NumberForm* form);
 
+/// "-1.49D-03", as Fortran writes it.
+bool ReadFortranNumber(std::string_view cell,
+                       bool decimal_comma,
+                       NumberForm* form);
+
 /// What a cell says before its number: the axis "X" of a program's "X-215.9" or
 /// "N10 G1 X-215.9", "T1" of "T1=21.42"; no text where there is nothing.
 struct CellLabel {
