@@ -57,7 +57,8 @@ constexpr auto kWords = std::to_array<std::string_view>({
     "temperature temp temperatur temperatura temperatuur teplota lampotila "
     "sicaklik sicaklig ondo температура темп 温度 온도",
     // kDirection
-    "direction dir bidir approach motion richtung anfahrrichtung direccion "
+    "direction dir bidir approach motion richtung anfahrrichtung anfahrt "
+    "direccion "
     "direzione direcao sens sentido senso richting kierunek riktning "
     "retning smer suunta yon verso fangxiang направление 方向 방향",
     // kCycle
@@ -97,7 +98,7 @@ constexpr auto kWords = std::to_array<std::string_view>({
     // kPart
     "machine maschine tool werkzeug pallet palette station operator",
     // kComponent
-    "side axis slide component",
+    "side axis slide component diagonal diagonale",
     // kPlace
     "station point punkt messpunkt stelle messstelle punto stazione estacion",
 });

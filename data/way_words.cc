@@ -23,18 +23,27 @@ constexpr std::string_view kBack =
     "zurueck ruckwarts rueckwaerts her ruckweg rueckweg ruckfahrt rueckfahrt "
     "retour indietro ritorno vuelta volta terug zpet tillbaka fan \u2190";
 
+// "+x" is "+".
+std::string PlainWay(std::string_view word) {
+  std::string plain = PlainText(word);
+  const bool is_axis = plain.size() == 2 &&
+                       (plain[0] == '+' || plain[0] == '-') &&
+                       IsAxisLetter(plain.substr(1));
+  return is_axis ? plain.substr(0, 1) : plain;
+}
+
 }  // namespace
 
 std::optional<bool> IsUpwards(std::string_view word) {
-  const std::string plain = PlainText(word);
+  const std::string plain = PlainWay(word);
   if (IsOneOf(plain, kUp) || IsOneOf(plain, kForth)) return true;
   if (IsOneOf(plain, kDown) || IsOneOf(plain, kBack)) return false;
   return std::nullopt;
 }
 
 std::optional<bool> FirstIsUp(std::string_view first, std::string_view second) {
-  const std::string a = PlainText(first);
-  const std::string b = PlainText(second);
+  const std::string a = PlainWay(first);
+  const std::string b = PlainWay(second);
   if (IsOneOf(a, kUp) && IsOneOf(b, kDown)) return true;
   if (IsOneOf(a, kDown) && IsOneOf(b, kUp)) return false;
   return std::nullopt;

@@ -34,6 +34,7 @@ class SessionFinder : private RowColumns {
         clock_(std::move(clues.clock)),
         nights_(clues.nights),
         passes_(std::move(clues.passes)),
+        cycles_in_sessions_(clues.cycles_in_sessions),
         blocks_(clues.blocks),
         rows_repeat_(clues.rows_repeat) {
     found_.ordered = clues.ordered;
@@ -130,7 +131,10 @@ class SessionFinder : private RowColumns {
     std::vector<std::size_t> found;
     const auto add = [&](const auto& called) {
       for (const std::size_t i : ColumnsOf(called)) {
-        if (std::ranges::find(found, i) == found.end()) found.push_back(i);
+        if (std::ranges::find(found, i) == found.end() &&
+            !std::cmp_equal(i, cycles_in_sessions_)) {
+          found.push_back(i);
+        }
       }
     };
     for (const char* name : kSessionColumns) {
@@ -423,6 +427,7 @@ class SessionFinder : private RowColumns {
   Nights nights_;
   std::vector<Index> passes_;
   std::optional<CycleRestarts> restarts_;
+  std::ptrdiff_t cycles_in_sessions_;
   std::ptrdiff_t blocks_;
   bool rows_repeat_;
   bool come_again_ = false;  // names of sessions, after others

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "data/input_error.h"
+#include "data/tables/cells/loose_numbers.h"
 #include "data/tables/cells/missing_cells.h"
 #include "data/tables/cells/thousands.h"
 #include "data/text.h"
@@ -30,7 +31,7 @@ bool IsLikeTime(std::string_view cell) {
 bool IsKnown(std::string_view cell, bool decimal_comma) {
   NumberForm form;
   return ReadNumberForm(cell, decimal_comma, &form) || IsMissingNumber(cell) ||
-         IsLikeTime(cell);
+         IsLikeTime(cell) || ReadFortranNumber(cell, decimal_comma, &form);
 }
 
 // How well a delimiter explains the rows: of those of the usual width the

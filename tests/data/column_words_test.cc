@@ -1,8 +1,11 @@
 #include "data/column_words.h"
 
+#include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "data/way_words.h"
 
 namespace errmap::data {
 namespace {
@@ -33,6 +36,14 @@ TEST(IsCalledPosition, IsInNoUnitOfErrors) {
     EXPECT_FALSE(IsCalledPosition("pos dev [" + std::string(unit) + "]"));
     EXPECT_FALSE(IsCalledPosition("X [" + std::string(unit) + "]"));
   }
+}
+
+TEST(WayWords, TakeASignWithItsAxis) {
+  EXPECT_EQ(FirstIsUp("+x", "-x"), true);
+  EXPECT_EQ(FirstIsUp("-Z", "+Z"), false);
+  EXPECT_EQ(IsUpwards("-x"), false);
+  EXPECT_EQ(IsUpwards("+k"), std::nullopt);
+  EXPECT_TRUE(IsCalled("Anfahrt", Word::kDirection));
 }
 
 }  // namespace

@@ -22,7 +22,11 @@ using Eigen::Index;
 
 class ClockColumns : private RowColumns {
  public:
-  using RowColumns::RowColumns;
+  ClockColumns(const CsvTable& table,
+               const DatasetSelection& selection,
+               const std::vector<Index>& rows)
+      : RowColumns(table, selection, rows),
+        dates_(ColumnOfDates(table, selection)) {}
 
   std::vector<std::vector<std::size_t>> Find() const {
     std::vector<std::vector<std::size_t>> found(6);
@@ -41,7 +45,10 @@ class ClockColumns : private RowColumns {
         continue;
       }
       const bool is_named = NamesTime(column.name);
-      if (!(is_named || MayBeTime(column)) || Repeats(i)) continue;
+      if (!(is_named || MayBeTime(column)) || Repeats(i) ||
+          IsDuration(column)) {
+        continue;
+      }
       const bool is_time = StartsWithIgnoringCase(column.name, "time");
       found[is_time ? 1 : is_named ? 2 : 4].push_back(i);
     }
@@ -50,8 +57,7 @@ class ClockColumns : private RowColumns {
       std::swap(found[0], found[4]);
     }
     // Hours and what counts on: the dates beside the hours tell more.
-    if (found[0].empty() && !found[3].empty() &&
-        ColumnOfDates(table_, selection_) >= 0) {
+    if (found[0].empty() && !found[3].empty() && dates_ >= 0) {
       std::swap(found[0], found[3]);
     }
     if (std::ranges::all_of(found, [](const auto& of) { return of.empty(); })) {
@@ -59,7 +65,7 @@ class ClockColumns : private RowColumns {
         const CsvColumn& column = table_.columns[i];
         if (IsMeasured(i)) continue;
         if (CountsFrom1970(column)) found[0].push_back(i);
-        if (!GoesOn(column)) continue;
+        if (!GoesOn(column) || IsDuration(column)) continue;
         (IsCalledTime(column.name) ? found[1] : found[2]).push_back(i);
       }
     }
@@ -85,6 +91,25 @@ class ClockColumns : private RowColumns {
                  earlier.exceptions.empty() && later.exceptions.empty() &&
                  std::ranges::equal(earlier.values, later.values);
         });
+  }
+
+  // Whether the days are known, and within them the column stays, and goes back
+  // as often as on: "Cycle time [s]" says how long a cycle takes.
+  bool IsDuration(const CsvColumn& column) const {
+    if (dates_ < 0) return false;
+    const CsvColumn& dates = table_.At(dates_);
+    const std::vector<double> values = ValuesOf(column);
+    std::size_t on = 0;
+    std::size_t back = 0;
+    std::size_t stays = 0;
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      if (dates.TextAt(DataRow(i)) != dates.TextAt(DataRow(i - 1))) continue;
+      on += values[i] > values[i - 1] ? 1 : 0;
+      back += values[i] < values[i - 1] ? 1 : 0;
+      stays += values[i] == values[i - 1] ? 1 : 0;
+    }
+    constexpr std::size_t kOften = 3;
+    return stays > 0 && back > 1 && kOften * back >= on;
   }
 
   // Of a name that says a time or a date somewhere: in a unit of time, or by
@@ -131,6 +156,13 @@ class ClockColumns : private RowColumns {
             NamedDays(name).has_value());
   }
 
+  // "[kWh]" is no unit known here, but one; "(MATLAB)" is a remark.
+  static bool HasUnit(std::string_view name) {
+    constexpr std::size_t kMostLetters = 4;
+    const std::string text = ReadHeader(name).unit_text;
+    return !text.empty() && text.size() <= kMostLetters;
+  }
+
   // What goes on with the rows: in a unit of time most often, else with each
   // row but where it begins anew, in steps that are not all the same, as those
   // of a number of the row are. What costs least is looked at first: most
@@ -138,7 +170,7 @@ class ClockColumns : private RowColumns {
   bool GoesOn(const CsvColumn& column) const {
     const bool called = IsCalledTime(column.name);
     if (column.is_text() || !column.exceptions.empty() || rows_.size() < 2 ||
-        !(called || UnitOfColumn(column.name).symbol.empty())) {
+        (HasUnit(column.name) && !called)) {
       return false;
     }
     const std::vector<double> values = ValuesOf(column);
@@ -184,6 +216,8 @@ class ClockColumns : private RowColumns {
     return !std::isnan(SecondsOfDigits(values[0])) ||
            EpochOf(PaceOf(values), Named::kNothing).has_value();
   }
+
+  std::ptrdiff_t dates_;  // the only column of dates without hours, or -1
 };
 
 }  // namespace

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <set>
 
 #include "data/column_header.h"
 #include "data/column_words.h"
@@ -148,6 +150,17 @@ std::vector<double> NumbersOf(const CsvTable& table,
   return numbers;
 }
 
+// Of what changes with each pass: words that come again name what a pass has.
+Counted AsTurns(const std::vector<double>& values, bool are_words) {
+  const bool goes_on = std::ranges::is_sorted(values) ||
+                       std::ranges::is_sorted(values, std::greater<>());
+  if (goes_on) return Counted::kPasses;
+  if (are_words) return Counted::kNothing;
+  constexpr std::size_t kTwo = 2;
+  const std::set<double> distinct(values.begin(), values.end());
+  return distinct.size() > kTwo ? Counted::kPasses : Counted::kTurns;
+}
+
 }  // namespace
 
 std::string_view ToString(Counted counted) {
@@ -156,6 +169,7 @@ std::string_view ToString(Counted counted) {
                                        "counts the rows",
                                        "counts the passes along the axis",
                                        "counts the passes so far",
+                                       "changes by turns with the passes",
                                        "counts the ways along the axis",
                                        "counts days or other blocks of rows"});
   return NameOf(kNames, counted);
@@ -175,11 +189,14 @@ std::vector<Counter> FindCounters(const CsvTable& table,
     if (i == target || is_named || !MayCount(column)) continue;
     const bool is_called =
         KeepsRecord(column) || column.is_text() || Says(name, Word::kDay);
-    Counted counts =
-        ChangesOf(NumbersOf(table, column, rows), motion).Counts(is_called);
+    const std::vector<double> values = NumbersOf(table, column, rows);
+    Counted counts = ChangesOf(values, motion).Counts(is_called);
     if (counts == Counted::kPasses && !is_called &&
         CountsCycles({.name = name, .unit = {}})) {
       counts = Counted::kElapsed;
+    }
+    if (counts == Counted::kPasses && !KeepsRecord(column)) {
+      counts = AsTurns(values, column.is_text());
     }
     if (counts != Counted::kNothing) found.push_back({i, counts});
   }

@@ -18,6 +18,7 @@ enum class Counted {
   kRows,     // of a pass, or of all
   kPasses,   // along the axis
   kElapsed,  // passes, by a name that may be a state ("elapsed_cycles")
+  kTurns,    // which of two things each pass has, by turns
   kWays,     // up and down
   kBlocks,   // of several passes each: days, warm-ups, files
 };
@@ -31,11 +32,12 @@ struct Counter {
 
 /// Finds the columns that count, whatever their names. They are whole numbers
 /// without a unit that change only where a pass or a direction begins, mostly
-/// by the same step, or words in order of appearance. Blocks increase by one
-/// and never decrease. Numbers without a telling name begin at 1 (three of them
-/// or more at 0). Without passes, a block has at least 8 rows. Excludes
-/// positions, the target and columns that `selection` names. `motion` is that
-/// of `rows`, which are in the order of measurement.
+/// by the same step, or words in order of appearance. Words that come again
+/// (programs, fixtures) count no passes, nor do two alternating numbers. Blocks
+/// increase by one and never decrease. Numbers without a telling name begin at
+/// 1 (three of them or more at 0). Without passes, a block has at least 8 rows.
+/// Excludes positions, the target and columns that `selection` names. `motion`
+/// is that of `rows`, which are in the order of measurement.
 std::vector<Counter> FindCounters(const CsvTable& table,
                                   const DatasetSelection& selection,
                                   std::size_t target,

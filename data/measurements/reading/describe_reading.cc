@@ -25,6 +25,19 @@ bool AreAlike(const FoundSessions& found) {
          std::ranges::count(counts, counts[0]) == std::ssize(counts);
 }
 
+// Whether a row has the target, without which it is left out; all rows where
+// none has.
+std::vector<bool> HaveTarget(const CsvTable& table, std::size_t target) {
+  std::vector<bool> have(table.num_rows, true);
+  if (target >= table.columns.size()) return have;
+  const ColumnValues& values = table.columns[target].values;
+  for (std::size_t row = 0; row < have.size(); ++row) {
+    have[row] = !std::isnan(values[row]);
+  }
+  if (std::ranges::count(have, true) == 0) have.assign(have.size(), true);
+  return have;
+}
+
 // The sessions, and the number of cycles in them.
 void DescribeSessions(const CsvTable& table,
                       const Clock& clock,
@@ -62,12 +75,13 @@ void DescribeSessions(const CsvTable& table,
   std::vector<std::int64_t> first(found.sessions.labels.size(), -1);
   std::set<std::pair<Index, double>> cycles;
   const std::ptrdiff_t group = read->roles.group;
+  const std::vector<bool> have_target = HaveTarget(table, read->roles.target);
   for (std::size_t i = 0; i < found.sessions.codes.size(); ++i) {
     const Index code = found.sessions.codes[i];
     auto& at = first[static_cast<std::size_t>(code)];
     if (at < 0) at = static_cast<std::int64_t>(read->log_rows[i]);
-    if (group != kNoColumn) {
-      const auto row = static_cast<std::size_t>(read->log_rows[i]);
+    const auto row = static_cast<std::size_t>(read->log_rows[i]);
+    if (group != kNoColumn && have_target[row]) {
       const CsvColumn& column = table.At(group);
       const std::string* const text = column.TextAt(row);
       cycles.emplace(code,
@@ -83,9 +97,23 @@ void DescribeSessions(const CsvTable& table,
   }
 }
 
-void DescribeTime(const CsvTable& table,
+// Between rows that have the target.
+double StepOf(const Eigen::VectorXd& time,
+              const std::vector<Index>& rows,
+              const std::vector<bool>& have_target) {
+  std::vector<Index> places;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (have_target[static_cast<std::size_t>(rows[i])]) {
+      places.push_back(static_cast<Index>(i));
+    }
+  }
+  return MedianStepOf(time(places));
+}
+
+void DescribeTime(const TableInReading& in,
                   const Clock& clock,
                   Reading::Time* time) {
+  const CsvTable& table = in.table();
   time->unit = clock.unit;
   time->origin = clock.origin;
   time->evidence = clock.evidence;
@@ -96,7 +124,8 @@ void DescribeTime(const CsvTable& table,
   if (clock.date_column >= 0) {
     *time->column = table.At(clock.date_column).name + " + " + *time->column;
   }
-  const double step = MedianStepOf(clock.time);
+  const double step =
+      StepOf(clock.time, in.base_rows, HaveTarget(table, in.read.roles.target));
   if (std::isfinite(step)) time->step_s = step;
 }
 
@@ -125,7 +154,7 @@ void DescribeReading(TableInReading* in) {
     reading.position.sure = true;
   }
   const bool is_used = !selection.with_log || read->found.time_column >= 0;
-  DescribeTime(table, is_used ? in->clock : Clock(), &reading.time);
+  DescribeTime(*in, is_used ? in->clock : Clock(), &reading.time);
   if (!read->found.sessions.labels.empty()) {
     DescribeSessions(table, in->clock, in->nights, read);
   }

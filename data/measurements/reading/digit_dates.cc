@@ -114,14 +114,14 @@ std::string ClockOfPoints(double digits) {
 class DateParts {
  public:
   explicit DateParts(const CsvTable& table) : table_(table) {
-    constexpr auto kNames = std::to_array<std::string_view>(
-        {"year jahr annee anno ano yyyy",
-         "month monat mois mese mes mm",
-         "day tag jour giorno dia dd",
-         "hour hr stunde heure ora hora hh",
-         "minute min minuto",
-         "second sec sekunde seconde secondo segundo ss"});
-    for (const std::string_view names : kNames) columns_.push_back(Find(names));
+    constexpr auto kNames =
+        std::to_array<Names>({{"year jahr annee anno ano yyyy", ""},
+                              {"month monat mois mese mes mm", ""},
+                              {"day tag jour giorno dia dd", ""},
+                              {"ora hh", "h"},
+                              {"", "min"},
+                              {"ss", "s"}});
+    for (const Names& names : kNames) columns_.push_back(Find(names));
   }
 
   bool are_found() const {
@@ -153,12 +153,22 @@ class DateParts {
   }
 
  private:
-  std::optional<std::size_t> Find(std::string_view names) const {
+  // Of a part: its words, beside those of a unit of time.
+  struct Names {
+    std::string_view words;
+    std::string_view unit;
+  };
+
+  std::optional<std::size_t> Find(const Names& names) const {
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       const CsvColumn& column = table_.columns[i];
       const std::vector<std::string> words = WordsOf(column.name);
-      if (words.size() == 1 && IsOneOf(words[0], names) && !column.is_text() &&
-          column.exceptions.empty()) {
+      if (words.size() != 1 || column.is_text() || !column.exceptions.empty()) {
+        continue;
+      }
+      const TimeUnit* const unit = StatedUnit(words[0]);
+      if (IsOneOf(words[0], names.words) ||
+          (unit != nullptr && unit->name == names.unit)) {
         return i;
       }
     }

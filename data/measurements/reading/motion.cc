@@ -126,6 +126,39 @@ void PartStandsAtTurns(const Levels& levels,
   }
 }
 
+// Where all rows go one way: steps back to where the pass began begin the next
+// one, as after a pass that was broken off. They are no steps of the way.
+void BeginAnew(const Levels& levels, int way, std::vector<int>* signs) {
+  Index first = -1;
+  Index last = -1;
+  for (std::size_t i = 0; i < signs->size(); ++i) {
+    const Index now = levels.codes[i];
+    if (now < 0) continue;
+    int& sign = (*signs)[i];
+    if (sign == -way && now == first) sign = 0;
+    if (now != last && sign == 0) first = now;
+    last = now;
+  }
+}
+
+// What stands still, or begins a pass, goes where the next step goes.
+std::vector<int> DirectionsOf(const Levels& levels,
+                              const std::vector<int>& signs) {
+  std::vector<int> directions(signs.size(), 0);
+  int next = 0;
+  for (std::size_t i = signs.size(); i-- > 0;) {
+    if (signs[i] != 0) next = signs[i];
+    directions[i] = next;
+  }
+  PartStandsAtTurns(levels, signs, &directions);
+  int last = 0;
+  for (int& direction : directions) {
+    if (direction == 0) direction = last;
+    last = direction;
+  }
+  return directions;
+}
+
 }  // namespace
 
 Levels LevelsOf(std::span<const double> values) {
@@ -196,25 +229,18 @@ Motion MotionThrough(const Levels& levels) {
   motion.is_commanded = num_levels >= 3 && rows >= 2 * num_levels &&
                         std::ssize(visits) >= 2 * num_levels - 1 &&
                         Predictability(visits) >= 0.8;
-  const std::vector<int> signs = StepSigns(levels);
-  // What stands still, or begins a pass, goes where the next step goes.
-  int next = 0;
-  for (std::size_t i = n; i-- > 0;) {
-    if (signs[i] != 0) next = signs[i];
-    motion.directions[i] = next;
-  }
-  PartStandsAtTurns(levels, signs, &motion.directions);
-  int last = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (motion.directions[i] == 0) motion.directions[i] = last;
-    last = motion.directions[i];
-  }
+  std::vector<int> signs = StepSigns(levels);
+  motion.directions = DirectionsOf(levels, signs);
   const auto up = std::ranges::count(motion.directions, 1);
   constexpr double kGoodPart = 0.25;
   motion.both_ways =
       motion.is_commanded &&
       static_cast<double>(std::min(up, std::ssize(signs) - up)) >=
           kGoodPart * static_cast<double>(n);
+  if (motion.is_commanded && !motion.both_ways) {
+    BeginAnew(levels, 2 * up > std::ssize(signs) ? 1 : -1, &signs);
+    motion.directions = DirectionsOf(levels, signs);
+  }
   // A pass begins anew where the way is again that of the first row, or with a
   // long step back.
   const int first = n > 0 ? motion.directions[0] : 0;

@@ -12,6 +12,7 @@
 #include "data/measurements/reading/derived_columns.h"
 #include "data/measurements/reading/directions.h"
 #include "data/measurements/reading/label_parts.h"
+#include "data/measurements/sessions.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -69,6 +70,63 @@ void NumberPassesAs(TableInReading* in, std::string name) {
                              .count = motion.num_passes,
                              .evidence = Evidence::kValues,
                              .sure = true};
+}
+
+// The rows at which another value begins.
+std::vector<Index> ChangesOf(const TableInReading& in, std::size_t column) {
+  std::vector<Index> codes;
+  for (const std::size_t code :
+       LabelsOf(in.table(), in.table().columns[column], in.base_rows, kNoLimit)
+           .codes) {
+    codes.push_back(static_cast<Index>(code));
+  }
+  return RunStarts(codes);
+}
+
+// Of columns that are called sessions or runs, or count blocks of rows, one
+// that parts what another parts already: "Run" in "Session". -1: none.
+std::ptrdiff_t CyclesInSessions(const TableInReading& in) {
+  std::vector<std::pair<std::size_t, std::vector<Index>>> parting;
+  for (std::size_t i = 0; i < in.table().columns.size(); ++i) {
+    const CsvColumn& column = in.table().columns[i];
+    const bool counts =
+        std::ranges::any_of(in.read.counters, [&](const Counter& counter) {
+          return counter.column == i && counter.counts == Counted::kBlocks;
+        });
+    if (counts || IsCalled(column.name, Word::kSession) ||
+        IsCalled(column.name, Word::kRun)) {
+      parting.emplace_back(i, ChangesOf(in, i));
+    }
+  }
+  constexpr std::size_t kFewestRows = 3;
+  for (const auto& [column, fine] : parting) {
+    if (Says(in.table().columns[column].name, Word::kDay) ||
+        kFewestRows * fine.size() > in.base_rows.size()) {
+      continue;
+    }
+    for (const auto& [session, coarse] : parting) {
+      if (coarse.size() > 1 && 2 * coarse.size() <= fine.size() &&
+          std::ranges::includes(fine, coarse)) {
+        return static_cast<std::ptrdiff_t>(column);
+      }
+    }
+  }
+  return kNoColumn;
+}
+
+// Where the axis shows no passes: what counts within sessions.
+void TakeCyclesInSessions(TableInReading* in) {
+  const std::ptrdiff_t column = CyclesInSessions(*in);
+  if (column == kNoColumn) return;
+  in->cycles_in_sessions = column;
+  in->read.roles.group = column;
+  std::erase_if(in->read.counters, [&](const Counter& counter) {
+    return std::cmp_equal(counter.column, column);
+  });
+  in->read.reading.cycles.column = in->table().At(column).name;
+  in->read.reading.cycles.by = "column";
+  in->read.reading.cycles.evidence = Evidence::kName;
+  in->read.reading.cycles.sure = true;
 }
 
 }  // namespace
@@ -140,12 +198,15 @@ void FindCycles(TableInReading* in) {
   }
   const Motion& motion = in->Passes();
   constexpr Index kFewestPasses = 2;
-  if (!motion.is_commanded || !in->ordered ||
-      motion.num_passes < kFewestPasses ||
-      motion.num_passes * 3 > std::ssize(in->base_rows) ||
-      in->given.Find(kCycleColumn) >= 0) {
+  const bool shows_passes = motion.is_commanded &&
+                            motion.num_passes >= kFewestPasses &&
+                            motion.num_passes * 3 <= std::ssize(in->base_rows);
+  if (!in->ordered) return;
+  if (!shows_passes) {
+    if (in->selection.session.empty()) TakeCyclesInSessions(in);
     return;
   }
+  if (in->given.Find(kCycleColumn) >= 0) return;
   const std::ptrdiff_t counter = in->FirstThatCounts(Counted::kPasses);
   if (counter >= 0) {
     in->read.roles.group = counter;

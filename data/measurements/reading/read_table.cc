@@ -104,6 +104,7 @@ SessionClues CluesOfLog(const TableInReading& in) {
                                 in.FirstThatCounts(Counted::kPasses),
                                 in.FirstThatCounts(Counted::kElapsed),
                                 in.FirstThatCounts(Counted::kWays)},
+                     .cycles_in_sessions = in.cycles_in_sessions,
                      .blocks = in.FirstThatCounts(Counted::kBlocks),
                      .ordered = in.ordered,
                      .rows_repeat = !in.read.repeated_rows.empty()};

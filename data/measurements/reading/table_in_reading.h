@@ -24,6 +24,7 @@ struct TableInReading {
   std::vector<Eigen::Index> base_rows = {};  // that filters by columns leave
   Clock clock = {};                          // of those
   Nights nights = {};
+  std::ptrdiff_t cycles_in_sessions = -1;  // of columns that nest
   bool ordered = true;  // whether the rows stand in the order of time
 
   const CsvTable& table() const { return read.table ? *read.table : given; }

@@ -65,6 +65,19 @@ std::string TakeGroups(std::string_view* text,
 
 }  // namespace
 
+bool ReadFortranNumber(std::string_view cell,
+                       bool decimal_comma,
+                       NumberForm* form) {
+  const std::size_t at = cell.find_first_of("dD");
+  if (at == cell.npos || at == 0 || at + 2 >= cell.size() ||
+      (cell[at + 1] != '-' && cell[at + 1] != '+')) {
+    return false;
+  }
+  std::string with_e(cell);
+  with_e[at] = 'e';
+  return ReadNumberForm(with_e, decimal_comma, form);
+}
+
 Loose ReadLooseNumber(std::string_view cell,
                       bool decimal_comma,
                       bool other_mark,
@@ -74,14 +87,7 @@ Loose ReadLooseNumber(std::string_view cell,
     return ReadNumberForm(number, decimal_comma, form) ? Loose::kRemark
                                                        : Loose::kNone;
   }
-  // "-1.49D-03", as Fortran writes it.
-  if (const std::size_t at = cell.find_first_of("dD");
-      at != cell.npos && at > 0 && at + 2 < cell.size() &&
-      (cell[at + 1] == '-' || cell[at + 1] == '+')) {
-    std::string with_e(cell);
-    with_e[at] = 'e';
-    if (ReadNumberForm(with_e, decimal_comma, form)) return Loose::kExponent;
-  }
+  if (ReadFortranNumber(cell, decimal_comma, form)) return Loose::kExponent;
   Loose kind = Loose::kDash;
   std::string sign;
   for (const std::string_view dash :

@@ -25,6 +25,11 @@ Loose ReadLooseNumber(std::string_view cell,
                       bool other_mark,
                       NumberForm* form);
 
+/// Reads "-1.49D-03", as Fortran writes it.
+bool ReadFortranNumber(std::string_view cell,
+                       bool decimal_comma,
+                       NumberForm* form);
+
 /// The text before the number in a cell: the axis "X" of "X-215.9" or "N10 G1
 /// X-215.9" in a program, "T1" of "T1=21.42"; empty if there is none.
 struct CellLabel {

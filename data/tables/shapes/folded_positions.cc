@@ -210,6 +210,48 @@ std::vector<CsvColumn> LabelsOfRuns(const std::vector<RunColumn>& columns) {
   return labels;
 }
 
+// "Run 3" of "Run 3 Error [um]".
+std::string_view UpToNumber(std::string_view name) {
+  constexpr std::string_view kDigits = "0123456789";
+  return name.substr(
+      0, name.find_first_not_of(kDigits, name.find_first_of(kDigits)));
+}
+
+// What else each run has ("Run 3 T [degC]"), by the name without the run.
+void FoldBesideRuns(const CsvTable& table,
+                    const std::vector<RunColumn>& runs,
+                    Fold* fold) {
+  std::map<std::string, std::vector<std::size_t>> beside;
+  for (const RunColumn& of : runs) {
+    const std::string_view run = UpToNumber(table.columns[of.column].name);
+    for (const std::size_t i : fold->kept) {
+      const std::string_view name = table.columns[i].name;
+      if (UpToNumber(name) != run) continue;
+      const std::size_t rest = name.find_first_not_of(" _-.:", run.size());
+      if (rest == name.npos) continue;
+      beside[std::string(name.substr(rest))].push_back(i);
+    }
+  }
+  for (const auto& [name, sources] : beside) {
+    if (sources.size() != runs.size()) continue;
+    std::erase_if(fold->kept, [&](std::size_t i) {
+      return std::ranges::count(sources, i) > 0;
+    });
+    fold->quantities[name] = sources;
+  }
+}
+
+// "R1" to "R4" number runs: one letter tells a way where another tells the
+// other one.
+void ForgetLetters(std::vector<RunColumn>* runs) {
+  const std::string& first = runs->front().name.direction;
+  if (std::ranges::all_of(*runs, [&](const RunColumn& of) {
+        return of.name.is_letter && of.name.direction == first;
+      })) {
+    for (RunColumn& of : *runs) of.name.direction.clear();
+  }
+}
+
 // Of runs that have numbers, or else of one column for each way.
 std::optional<Fold> FindRuns(const CsvTable& table, bool are_numbered) {
   Fold fold;
@@ -239,10 +281,12 @@ std::optional<Fold> FindRuns(const CsvTable& table, bool are_numbered) {
       fold.kept.empty() || !SayTheSame(columns)) {
     return std::nullopt;
   }
+  ForgetLetters(&columns);
+  if (are_numbered) FoldBesideRuns(table, columns, &fold);
   // Beside errors in another unit they are something else: positions read.
   const CsvColumn* const beside = ErrorBeside(table, fold);
   if (beside != nullptr && UnitOfColumn(beside->name) !=
-                               UnitOfColumn(fold.quantities.begin()->first)) {
+                               UnitOfColumn(columns.front().name.quantity)) {
     return std::nullopt;
   }
   fold.slots = runs.size();

@@ -222,7 +222,15 @@ std::optional<RunName> ReadRunName(std::string_view name) {
     } else if (IsCalled(word, Word::kSession)) {
       number = &said.session;
     } else if (up) {
+      // "Pos 3" is a position.
+      const bool is_place = IsWord(PlainText(word), Word::kPosition);
+      const std::size_t next = rest.find_first_not_of(" _.#");
+      if (is_place && next != rest.npos && IsDigitOfName(rest[next])) {
+        return std::nullopt;
+      }
       said.direction = *up ? "up" : "down";
+      said.is_letter =
+          word.size() == 1 && !rest.empty() && IsDigitOfName(rest.front());
       // "f1" may be anything, "1 fwd" is a run.
       is_run = is_run || word.size() > 1;
     } else if (!IsErrorWord(word) && !IsOneOf(word, kLetters)) {

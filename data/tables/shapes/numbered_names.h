@@ -26,6 +26,7 @@ struct RunName {
   std::string date = {};
   int run = 0;
   std::string direction = {};  // "up", "down", or ""
+  bool is_letter = false;      // that says the way, directly before a number
 
   bool is_numbered() const { return session > 0 || run > 0 || !date.empty(); }
 };

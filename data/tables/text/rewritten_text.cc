@@ -43,6 +43,51 @@ bool IsInSingleQuotes(std::string_view line) {
   return true;
 }
 
+// "x;y": one quoted cell with others in it.
+bool IsQuotedWhole(std::string_view line) {
+  if (line.size() < 2 || line.front() != '"' || line.back() != '"') {
+    return false;
+  }
+  line = line.substr(1, line.size() - 2);
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] != '"') continue;
+    if (i + 1 == line.size() || line[i + 1] != '"') return false;
+    ++i;
+  }
+  return true;
+}
+
+// Whether the lines are, and have as many delimiters of one kind each: a column
+// of words or of decimal commas has none in its name.
+bool AreQuotedWhole(const std::vector<std::string_view>& lines) {
+  return lines.size() > 1 && std::ranges::all_of(lines, IsQuotedWhole) &&
+         std::ranges::any_of(std::string_view(",;\t|"), [&](char delimiter) {
+           const auto cells = std::ranges::count(lines[0], delimiter);
+           return cells > 0 &&
+                  std::ranges::all_of(lines, [&](std::string_view line) {
+                    return std::ranges::count(line, delimiter) == cells;
+                  });
+         });
+}
+
+std::string WithoutQuotesOfLines(std::string_view text) {
+  std::string plain;
+  const char* const end = text.data() + text.size();
+  for (const char* p = text.data(); p != end;) {
+    const char* const stop = std::find_if(p, end, IsLineEnd);
+    std::string_view line = Trimmed({p, static_cast<std::size_t>(stop - p)});
+    const bool is_quoted = IsQuotedWhole(line);
+    if (is_quoted) line = line.substr(1, line.size() - 2);
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      plain += line[i];
+      if (is_quoted && line[i] == '"') ++i;  // the second of two
+    }
+    p = PastLineEnd(stop, end);
+    plain.append(stop, p);
+  }
+  return plain;
+}
+
 // Cells that so many blanks or more part.
 std::size_t CellsParted(std::string_view line, std::string_view blanks) {
   std::size_t cells = 1;
@@ -114,6 +159,7 @@ std::optional<std::string> RewrittenText(std::string_view text) {
     std::ranges::replace(quoted, '\'', '"');
     return quoted;
   }
+  if (AreQuotedWhole(lines)) return WithoutQuotesOfLines(text);
   if (IsSetApart(lines)) return WithTabs(text);
   return std::nullopt;
 }

@@ -207,6 +207,30 @@ TEST(FoldedPositions, RefuseNumbersThatMayBeRuns) {
   }
 }
 
+// Each row has the thermometer of its own run.
+TEST(FoldedRuns, TakeWhatEachRunHasBesideItsErrors) {
+  for (const std::string run : {"Run ", "R"}) {
+    std::string names = "x [mm]";
+    for (const char* number : {"1", "2", "3"}) {
+      names += "," + run + number + " err [um]," + run + number + " T [degC]";
+    }
+    const CsvTable table =
+        ParseCsv(names + "\n0,1,20,2,21,3,22\n50,4,20,5,21,6,22\n", "f.csv");
+    EXPECT_THAT(NamesIn(table),
+                ElementsAre("x [mm]", "cycle", "T [degC]", "error [um]"));
+    const ColumnValues& warm = table.columns[2].values;
+    EXPECT_THAT(std::vector<double>(warm), ElementsAre(20, 20, 21, 21, 22, 22));
+  }
+  // Three thermometers of every run.
+  EXPECT_THAT(ColumnsOf("x [mm],Run 1 [um],Run 2 [um],Run 3 [um],T1 [degC],"
+                        "T2 [degC],T3 [degC]\n0,1,2,3,20,21,22\n"),
+              SizeIs(6));
+  // Places along the axis, of which the file says no more.
+  EXPECT_THAT(
+      ColumnsOf("T [degC],Pos 1 [um],Pos 2 [um],Pos 3 [um]\n20,1,2,3\n"),
+      SizeIs(4));
+}
+
 TEST(FoldedRuns, AreNamedInManyWays) {
   const struct {
     const char* names;

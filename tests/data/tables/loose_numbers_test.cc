@@ -120,5 +120,27 @@ TEST(CutLine, IsLeftOutAndNamed) {
   EXPECT_EQ(ParseCsv("a,b\n1,2.5\n3,4", "f.csv").num_rows, 2U);
 }
 
+// Blanks part Fortran's numbers, too.
+TEST(LooseNumbers, StandBetweenBlanks) {
+  const CsvTable table = ParseCsv(
+      "pos_mm  err_um\n0.0D+00  -1.6D-01\n5.0D+01  1.1D+00\n1.0D+02  "
+      "2.1D+00\n",
+      "f.csv");
+  ASSERT_EQ(table.columns.size(), 2U);
+  EXPECT_EQ(table.columns[1].values[0], -0.16);
+}
+
+// As spreadsheets save a sheet that has all in its first column.
+TEST(LooseNumbers, StandInLinesThatAreQuotedWhole) {
+  const CsvTable table = ParseCsv(
+      "\"pos_mm;\"\"err_um\"\"\"\r\n\"0;-1,5\"\r\n\"50;2,5\"\r\n", "f.csv");
+  ASSERT_EQ(table.columns.size(), 2U);
+  EXPECT_EQ(table.columns[1].name, "err_um");
+  EXPECT_EQ(table.columns[1].values[1], 2.5);
+  // One column of decimal commas.
+  EXPECT_EQ(ParseCsv("\"err_um\"\n\"1,5\"\n\"2,5\"\n", "f.csv").columns.size(),
+            1U);
+}
+
 }  // namespace
 }  // namespace errmap::data

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -438,6 +439,31 @@ TEST(Clock, ReadsNoDaysAsSeconds) {
           .reading;
   EXPECT_EQ(reading.time.unit, "date");
   EXPECT_EQ(reading.time.step_s, 86400.0);
+}
+
+// How long a cycle takes is no time of day, and a meter none at all.
+TEST(Clock, IsNoDurationAndNoMeterBesideADate) {
+  const auto date = [](int i) {
+    return "2024-03-0" + std::to_string(4 + i / 40) + ",";
+  };
+  const std::string durations[] = {"88", "92", "96", "90", "94"};
+  const BeginOfRow duration = [&](int i, double /*warm*/) {
+    return date(i) + durations[i / 10 % 5];
+  };
+  const BeginOfRow meter = [&](int i, double /*warm*/) {
+    return date(i) + std::to_string(5123.0 + 0.11 * i + 0.03 * (i % 3));
+  };
+  for (const auto& [name, cells] :
+       {std::pair("Cycle time [s]", duration), {"Energy (kWh)", meter}}) {
+    const Reading reading =
+        MadeOf(Days("Date," + std::string(name), cells)).reading;
+    EXPECT_EQ(reading.time.column, std::nullopt) << name;
+    EXPECT_EQ(reading.sessions.by, "dates") << name;
+    EXPECT_EQ(reading.sessions.count, 3) << name;
+  }
+  // A remark in brackets is no unit.
+  EXPECT_NEAR(
+      *CountedIn("t (MATLAB)", 86400.0, 739315.5).reading.time.step_s, 30, 0.2);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -255,15 +256,21 @@ TEST(Counting, LeavesWhatComesAgainToTheDate) {
 }
 
 TEST(Counting, JoinsYearMonthAndDay) {
-  const Reading reading =
-      MadeWith("Year,Month,Day,Hour,Minute,Second", [](const Place& at) {
-        const int seconds = 5 * (at.row % 40);
-        return "2024,3," + Number(4 + at.day) + ",8," + Number(seconds / 60) +
-               "," + Number(seconds % 60);
-      }).reading;
-  EXPECT_EQ(reading.time.column, "Year + Month + Day + Hour + Minute + Second");
-  EXPECT_EQ(reading.sessions.count, 3);
-  EXPECT_THAT(reading.sensors, ElementsAre("t1_degC"));
+  const Cell parts = [](const Place& at) {
+    const int seconds = 5 * (at.row % 40);
+    return "2024,3," + Number(4 + at.day) + ",8," + Number(seconds / 60) + "," +
+           Number(seconds % 60);
+  };
+  for (const auto& [names, joined] :
+       {std::pair("Year,Month,Day,Hour,Minute,Second",
+                  "Year + Month + Day + Hour + Minute + Second"),
+        {"Jahr,Monat,Tag,Std,Min,Sek",
+         "Jahr + Monat + Tag + Std + Min + Sek"}}) {
+    const Reading reading = MadeWith(names, parts).reading;
+    EXPECT_EQ(reading.time.column, joined);
+    EXPECT_EQ(reading.sessions.count, 3);
+    EXPECT_THAT(reading.sensors, ElementsAre("t1_degC"));
+  }
 }
 
 // Labels of cycles name their day beside a number that begins anew.
@@ -309,6 +316,93 @@ TEST(Counting, OutranksADateThatChangesAtMidnight) {
       });
   EXPECT_EQ(prepared.reading.sessions.by, "counter");
   EXPECT_EQ(prepared.reading.sessions.count, kDays);
+}
+
+// Programs and fixtures take turns; the axis shows the cycles.
+TEST(Counting, TakesWhatComesAgainForNoCycles) {
+  const auto cycles_with = [](const std::string& name, const Cell& cell) {
+    return MadeWith("time_s," + name, [&](const Place& at) {
+      return Number(5 * at.row + 50000 * at.day) + "," + cell(at);
+    });
+  };
+  const char* const modes[] = {"AUTO", "JOG", "MDI", "AUTO"};
+  for (const auto& [name, cell] : std::vector<std::pair<const char*, Cell>>{
+           {"Prog",
+            [](const Place& at) {
+              return std::string(at.cycle % 2 == 0 ? "O1234" : "O1240");
+            }},
+           {"Mode", [&](const Place& at) { return modes[at.cycle]; }},
+           {"Spannung",
+            [](const Place& at) { return Number(at.cycle % 2 + 1); }}}) {
+    const Reading reading = cycles_with(name, cell).reading;
+    EXPECT_EQ(reading.cycles.column, "cycle") << name;
+    EXPECT_EQ(reading.cycles.count, kDays * kCycles) << name;
+    EXPECT_THAT(reading.sensors, ElementsAre("t1_degC"));
+    EXPECT_THAT(reading.switches, ElementsAre());
+  }
+  const char* const diagonals[] = {"PPP", "NPP", "PNP", "PPN"};
+  EXPECT_THAT(
+      cycles_with("Diagonal",
+                  [&](const Place& at) { return diagonals[at.cycle]; })
+          .remarks,
+      Contains(HasSubstr("rows that differ in 'Diagonal' may need a map")));
+}
+
+// Positions in no order show no passes.
+TEST(Counting, FindsCyclesWithinSessionsWhereTheAxisShowsNone) {
+  for (const char* names : {"Session,Run", "Session,Series", "Block,Series"}) {
+    std::string text = std::string(names) + ",x [mm],t1_degC,error_um\n";
+    const bool anew = std::string(names).ends_with("Run");
+    for (int row = 0; row < 120; ++row) {
+      const int at = (7 * row + row * row * row / 11) % 10;
+      const double warm = 20.0 + row % 40 / 10;
+      text += Number(row / 40 + 1) + "," +
+              Number((anew ? row % 40 : row) / 10 + 1) + "," + Number(40 * at) +
+              "," + CsvNumber(warm + 0.01 * (row % 7)) + "," +
+              CsvNumber(0.1 * at + 2.0 * warm + 0.01 * (row % 3)) + "\n";
+    }
+    const Reading reading = MakeDataset(ParseCsv(text, "f.csv"), {}).reading;
+    EXPECT_EQ(reading.sessions.count, 3) << names;
+    EXPECT_EQ(reading.cycles.count, 12) << names;
+  }
+}
+
+// Home is measured again before each point.
+TEST(Counting, FindsCyclesWithinSessionsWhereEachPointIsAWay) {
+  std::string text = "Session,Run,x [mm],t1_degC,error_um\n";
+  for (int row = 0; row < 108; ++row) {
+    const int run = row / 12 % 3;
+    const int at = row % 2 == 0 ? 0 : row % 12 / 2 + 1;
+    text += Number(row / 36 + 1) + "," + Number(run + 1) + "," +
+            Number(60 * at) + "," + CsvNumber(20.0 + run + 0.01 * row) + "," +
+            CsvNumber(0.3 * at + 2.0 * run + 0.01 * (row % 5)) + "\n";
+  }
+  const Reading reading = MakeDataset(ParseCsv(text, "f.csv"), {}).reading;
+  EXPECT_EQ(reading.sessions.column, "Session");
+  EXPECT_EQ(reading.cycles.column, "Run");
+  EXPECT_EQ(reading.cycles.count, 9);
+}
+
+// A logger's rows between the sweeps.
+TEST(Counting, LeavesRowsWithoutAnErrorOutOfStepsAndCycles) {
+  std::string text = "time_s,x [mm],t1_degC,error_um\n";
+  int time = 0;
+  for (int cycle = 0; cycle < 12; ++cycle) {
+    for (int i = 0; i < 12; ++i) {
+      const std::string warm = CsvNumber(20.0 + 0.1 * (cycle % 4) + 0.01 * i);
+      text += Number(time) + "," + (i < 5 ? Number(50 * i) : "") + "," + warm +
+              "," + (i < 5 ? CsvNumber(0.1 * (i * i % 4) + cycle % 4) : "") +
+              "\n";
+      time += i < 4 ? 10 : 60;
+    }
+    if (cycle % 4 == 3) time += 60000;
+  }
+  const Reading reading = MakeDataset(ParseCsv(text, "f.csv"),
+                                      {.missing = MissingPolicy::kDropRows})
+                              .reading;
+  EXPECT_EQ(reading.sessions.count, 3);
+  EXPECT_EQ(reading.cycles.count, 12);
+  EXPECT_EQ(reading.time.step_s, 10.0);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
 #include "data/measurements/reading/directions.h"
+#include "data/measurements/reading/motion.h"
 #include "data/measurements/reading/read_table.h"
 
 namespace errmap::data {
@@ -619,6 +620,19 @@ TEST(Reading, GoesOnOverMidnight) {
       }));
   EXPECT_EQ(reading.sessions.count, 4);
   EXPECT_EQ(reading.cycles.count, 32);
+}
+
+// Two points, or half of the way, and then all from the start.
+TEST(Motion, BeginsAPassAnewAfterOneThatWasBrokenOff) {
+  for (const int broken_off : {2, 5}) {
+    std::vector<double> positions;
+    for (const int points : {9, 9, broken_off, 9, 9}) {
+      for (int i = 0; i < points; ++i) positions.push_back(50.0 * i);
+    }
+    const Motion motion = MotionThrough(LevelsOf(positions));
+    EXPECT_EQ(motion.num_passes, 5) << broken_off;
+    EXPECT_EQ(std::ranges::count(motion.directions, 1), std::ssize(positions));
+  }
 }
 
 }  // namespace
