@@ -232,12 +232,13 @@ void FoldBesideRuns(const CsvTable& table,
       beside[std::string(name.substr(rest))].push_back(i);
     }
   }
-  for (const auto& [name, sources] : beside) {
+  for (const auto& found : beside) {
+    const std::vector<std::size_t>& sources = found.second;
     if (sources.size() != runs.size()) continue;
     std::erase_if(fold->kept, [&](std::size_t i) {
       return std::ranges::count(sources, i) > 0;
     });
-    fold->quantities[name] = sources;
+    fold->quantities[found.first] = sources;
   }
 }
 
