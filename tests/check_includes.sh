@@ -53,14 +53,19 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     rooms["data/tables"] = rooms["data/tables/text"] \
                            "data/tables/text data/tables/shapes "
     rooms["data/measurements"] = rooms["data/tables"] \
-                                 "data/tables data/measurements/reading "
-    rooms["data/measurements/reading"] = " data data/files data/measurements " \
+                                 "data/tables data/measurements/axis " \
+                                 "data/measurements/clock " \
+                                 "data/measurements/reading "
+    rooms["data/measurements/clock"] = " data data/measurements " \
+                                       "data/measurements/reading "
+    rooms["data/measurements/axis"] = rooms["data/measurements/clock"]
+    rooms["data/measurements/faults"] = rooms["data/measurements/clock"] \
+                                        "data/measurements/clock "
+    rooms["data/measurements/reading"] = rooms["data/measurements/faults"] \
+                                         "data/files " \
+                                         "data/measurements/axis " \
                                          "data/measurements/faults "
-    rooms["data/measurements/faults"] = " data data/measurements " \
-                                        "data/measurements/reading "
-    rooms["data/measurements/making"] = " data data/measurements " \
-                                        "data/measurements/faults " \
-                                        "data/measurements/reading "
+    rooms["data/measurements/making"] = rooms["data/measurements/reading"]
     rooms["data/formats"] = " data data/files data/measurements "
     rooms["models"] = ""
     rooms["models/history"] = " models "

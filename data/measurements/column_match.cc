@@ -7,9 +7,9 @@
 
 #include "data/argument_name.h"
 #include "data/column_header.h"
+#include "data/measurements/clock/digit_dates.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/reading/derived_columns.h"
-#include "data/measurements/reading/digit_dates.h"
 #include "data/measurements/reading/merged_cells.h"
 #include "data/text.h"
 

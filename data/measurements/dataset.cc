@@ -12,9 +12,9 @@
 #include "data/argument_name.h"
 #include "data/column_words.h"
 #include "data/columns.h"
+#include "data/measurements/clock/date_time.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
-#include "data/measurements/date_time.h"
 #include "data/text.h"
 
 namespace errmap::data {

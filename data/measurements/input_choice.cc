@@ -9,9 +9,9 @@
 #include "data/argument_name.h"
 #include "data/column_header.h"
 #include "data/column_words.h"
+#include "data/measurements/clock/text_times.h"
+#include "data/measurements/clock/time_units.h"
 #include "data/measurements/column_checks.h"
-#include "data/measurements/reading/time_units.h"
-#include "data/measurements/text_times.h"
 #include "data/text.h"
 #include "data/units.h"
 

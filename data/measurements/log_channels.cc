@@ -8,8 +8,8 @@
 
 #include "data/column_header.h"
 #include "data/columns.h"
+#include "data/measurements/clock/text_times.h"
 #include "data/measurements/column_roles.h"
-#include "data/measurements/text_times.h"
 #include "data/text.h"
 
 namespace errmap::data {

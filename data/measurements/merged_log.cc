@@ -9,14 +9,14 @@
 
 #include "data/argument_name.h"
 #include "data/columns.h"
-#include "data/measurements/clock_zone.h"
+#include "data/measurements/clock/clock.h"
+#include "data/measurements/clock/clock_zone.h"
+#include "data/measurements/clock/midnight.h"
+#include "data/measurements/clock/text_times.h"
+#include "data/measurements/clock/time_units.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/log_channels.h"
-#include "data/measurements/reading/clock.h"
-#include "data/measurements/reading/midnight.h"
 #include "data/measurements/reading/reading.h"
-#include "data/measurements/sessions.h"
-#include "data/measurements/text_times.h"
 #include "data/text.h"
 
 namespace errmap::data {

@@ -10,19 +10,31 @@
 #include "data/argument_name.h"
 #include "data/column_words.h"
 #include "data/columns.h"
+#include "data/measurements/clock/clock_columns.h"
+#include "data/measurements/clock/date_time.h"
+#include "data/measurements/clock/row_columns.h"
+#include "data/measurements/clock/text_times.h"
+#include "data/measurements/clock/time_units.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/cycle_restarts.h"
-#include "data/measurements/date_time.h"
 #include "data/measurements/joined_tables.h"
-#include "data/measurements/reading/clock_columns.h"
-#include "data/measurements/reading/row_columns.h"
-#include "data/measurements/text_times.h"
 #include "data/text.h"
 
 namespace errmap::data {
 namespace {
 
 using Eigen::Index;
+
+// Where runs of equal codes begin.
+std::vector<Index> RunStarts(const std::vector<Index>& codes) {
+  std::vector<Index> starts;
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    if (i == 0 || codes[i] != codes[i - 1]) {
+      starts.push_back(static_cast<Index>(i));
+    }
+  }
+  return starts;
+}
 
 class SessionFinder : private RowColumns {
  public:
@@ -436,41 +448,6 @@ class SessionFinder : private RowColumns {
 
 }  // namespace
 
-std::vector<Index> RunStarts(const std::vector<Index>& codes) {
-  std::vector<Index> starts;
-  for (std::size_t i = 0; i < codes.size(); ++i) {
-    if (i == 0 || codes[i] != codes[i - 1]) {
-      starts.push_back(static_cast<Index>(i));
-    }
-  }
-  return starts;
-}
-
-double MedianStep(std::vector<double> steps) {
-  std::erase_if(steps, [](double step) { return !(step > 0.0); });
-  if (steps.empty()) return INFINITY;
-  const auto middle =
-      steps.begin() + static_cast<std::ptrdiff_t>((steps.size() - 1) / 2);
-  std::ranges::nth_element(steps, middle);
-  return *middle;
-}
-
-double MedianStepOf(const Eigen::VectorXd& time) {
-  std::vector<double> steps;
-  for (Index i = 1; i < time.size(); ++i) {
-    steps.push_back(time[i] - time[i - 1]);
-  }
-  return MedianStep(std::move(steps));
-}
-
-Index TimesBack(const Eigen::VectorXd& time) {
-  Index count = 0;
-  for (Index i = 1; i < time.size(); ++i) {
-    count += time[i] < time[i - 1] ? 1 : 0;
-  }
-  return count;
-}
-
 std::vector<Index> FirstRows(const Grouping& sessions,
                              const Eigen::MatrixXd& input_values) {
   constexpr Index kNone = -1;
@@ -488,13 +465,6 @@ std::vector<Index> FirstRows(const Grouping& sessions,
     if (complete[session] != kNone) first[session] = complete[session];
   }
   return first;
-}
-
-bool NamesTime(std::string_view name) {
-  return !StatesTemperature(name) &&
-         std::ranges::any_of(kTimeWords, [&](const char* word) {
-           return StartsWithIgnoringCase(name, word);
-         });
 }
 
 FoundSessions FindSessions(const CsvTable& table,

@@ -3,12 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "data/csv.h"
+#include "data/measurements/clock/clock.h"
 #include "data/measurements/dataset.h"
-#include "data/measurements/reading/clock.h"
 #include "data/measurements/reading/nights.h"
 #include "data/measurements/reading/reading.h"
 
@@ -18,27 +17,6 @@ namespace errmap::data {
 inline constexpr auto kSessionColumns =
     std::to_array<const char*>({"session", "day", "run", "tag"});
 inline constexpr const char* kSessionColumnsText = "session, day, run or tag";
-
-/// Default beginnings of the name of the column of times, in this order.
-inline constexpr auto kTimeWords = std::to_array<const char*>({"time", "zeit"});
-bool NamesTime(std::string_view name);  // by one of these
-
-/// A time step of more than this many median steps is a break.
-inline constexpr double kLeapSteps = 20.0;
-
-/// Returns the starts of runs of equal codes.
-std::vector<Eigen::Index> RunStarts(const std::vector<Eigen::Index>& codes);
-
-/// Returns the median of the steps above 0 (the lower of two), infinite if
-/// there is none.
-double MedianStep(std::vector<double> steps);
-/// Returns the same for the steps of `time`, and the number of times that go
-/// back.
-double MedianStepOf(const Eigen::VectorXd& time);
-Eigen::Index TimesBack(const Eigen::VectorXd& time);
-
-/// A night lasts longer than this, s.
-inline constexpr double kShortestNight = 3.5 * 3600.0;
 
 /// Returns the row at which each session is zeroed: the first whose inputs (n x
 /// p) are all numbers, measured or not, else its first row.

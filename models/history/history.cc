@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "data/csv.h"
-#include "data/measurements/sessions.h"
+#include "data/measurements/clock/time_units.h"
 #include "data/text.h"
 #include "models/history/history_state.h"
 #include "models/history/session_start.h"

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "data/measurements/clock/time_units.h"
 #include "data/measurements/sessions.h"
 
 namespace errmap::models {

@@ -9,12 +9,12 @@
 #include <fmt/format.h>
 
 #include "data/columns.h"
+#include "data/measurements/clock/time_units.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/measured_files.h"
 #include "data/measurements/reading/derived_columns.h"
 #include "data/measurements/reading/read_table.h"
-#include "data/measurements/reading/time_units.h"
 #include "data/measurements/row_filters.h"
 #include "data/text.h"
 #include "models/history/history.h"

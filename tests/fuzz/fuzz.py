@@ -49,7 +49,7 @@ READERS = {
     "predictions": ("csv", 4096, "models/study/given_predictions"),
     "machine": ("toml", 4096, "cli/machine/machine_file models/kinematics/machine models/kinematics/iso230"),
     "file_list": ("json", 2048, "cli/output/claimed_folder"),
-    "header": ("csv", 128, "data/units data/measurements/date_time"),
+    "header": ("csv", 128, "data/units data/measurements/clock/date_time"),
     "arguments": ("arguments", 512, "cli/commands cli/shell cli/application"),
     "compare": (None, 512, "models/study models/polynomial stats"),
 }  # fmt: skip

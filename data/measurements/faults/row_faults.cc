@@ -16,12 +16,12 @@
 #include "data/argument_name.h"
 #include "data/column_words.h"
 #include "data/columns.h"
+#include "data/measurements/clock/text_times.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/dataset.h"
 #include "data/measurements/faults/thermometers.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/least_squares.h"
-#include "data/measurements/text_times.h"
 #include "data/text.h"
 
 namespace errmap::data {

@@ -13,6 +13,7 @@
 
 #include "data/argument_name.h"
 #include "data/column_header.h"
+#include "data/measurements/clock/text_times.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/dataset.h"
@@ -28,7 +29,6 @@
 #include "data/measurements/rounded.h"
 #include "data/measurements/session_log.h"
 #include "data/measurements/sessions.h"
-#include "data/measurements/text_times.h"
 #include "data/text.h"
 
 namespace errmap::data {

@@ -4,10 +4,10 @@
 
 #include "data/column_words.h"
 #include "data/columns.h"
+#include "data/measurements/axis/directions.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/faults/row_faults.h"
-#include "data/measurements/reading/directions.h"
 #include "data/text.h"
 
 namespace errmap::data {

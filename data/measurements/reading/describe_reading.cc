@@ -8,6 +8,7 @@
 
 #include "data/column_header.h"
 #include "data/files/shown_path.h"
+#include "data/measurements/clock/time_units.h"
 
 namespace errmap::data {
 namespace {

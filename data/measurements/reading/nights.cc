@@ -7,8 +7,8 @@
 
 #include "data/argument_name.h"
 #include "data/input_error.h"
-#include "data/measurements/date_time.h"
-#include "data/measurements/sessions.h"
+#include "data/measurements/clock/date_time.h"
+#include "data/measurements/clock/time_units.h"
 #include "data/text.h"
 
 namespace errmap::data {

@@ -4,11 +4,14 @@
 
 #include <Eigen/Core>
 
+#include "data/measurements/axis/motion.h"
+#include "data/measurements/clock/clock.h"
 #include "data/measurements/dataset.h"
-#include "data/measurements/reading/clock.h"
-#include "data/measurements/reading/motion.h"
 
 namespace errmap::data {
+
+/// A night lasts longer than this, s.
+inline constexpr double kShortestNight = 3.5 * 3600.0;
 
 /// Nights divide the rows: pauses of more than `gap`.
 struct Nights {

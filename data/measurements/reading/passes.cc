@@ -7,12 +7,11 @@
 
 #include "data/argument_name.h"
 #include "data/columns.h"
+#include "data/measurements/axis/directions.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/reading/derived_columns.h"
-#include "data/measurements/reading/directions.h"
 #include "data/measurements/reading/label_parts.h"
-#include "data/measurements/sessions.h"
 #include "data/text.h"
 
 namespace errmap::data {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "data/csv.h"
+#include "data/measurements/axis/axis.h"
+#include "data/measurements/axis/counting.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/dataset.h"
-#include "data/measurements/reading/axis.h"
-#include "data/measurements/reading/counting.h"
 #include "data/measurements/reading/reading.h"
 #include "data/measurements/sessions.h"
 

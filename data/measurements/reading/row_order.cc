@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "data/columns.h"
+#include "data/measurements/axis/axis.h"
+#include "data/measurements/clock/midnight.h"
+#include "data/measurements/clock/time_units.h"
 #include "data/measurements/column_roles.h"
-#include "data/measurements/reading/axis.h"
 #include "data/measurements/reading/base_rows.h"
-#include "data/measurements/reading/midnight.h"
-#include "data/measurements/sessions.h"
 #include "data/text.h"
 
 namespace errmap::data {

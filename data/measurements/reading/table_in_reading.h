@@ -7,10 +7,10 @@
 
 #include "data/column_words.h"
 #include "data/csv.h"
+#include "data/measurements/axis/counting.h"
+#include "data/measurements/axis/motion.h"
+#include "data/measurements/clock/clock.h"
 #include "data/measurements/dataset.h"
-#include "data/measurements/reading/clock.h"
-#include "data/measurements/reading/counting.h"
-#include "data/measurements/reading/motion.h"
 #include "data/measurements/reading/nights.h"
 #include "data/measurements/reading/read_table.h"
 

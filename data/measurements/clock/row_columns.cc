@@ -1,4 +1,4 @@
-#include "data/measurements/reading/row_columns.h"
+#include "data/measurements/clock/row_columns.h"
 
 #include "data/text.h"
 

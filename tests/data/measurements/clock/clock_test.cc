@@ -1,4 +1,4 @@
-#include "data/measurements/reading/clock.h"
+#include "data/measurements/clock/clock.h"
 
 #include <array>
 #include <cmath>

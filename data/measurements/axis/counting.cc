@@ -1,4 +1,4 @@
-#include "data/measurements/reading/counting.h"
+#include "data/measurements/axis/counting.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,6 @@
 #include "data/columns.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
-#include "data/measurements/text_times.h"
 #include "data/text.h"
 
 namespace errmap::data {

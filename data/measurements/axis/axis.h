@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "data/csv.h"
+#include "data/measurements/axis/motion.h"
 #include "data/measurements/dataset.h"
-#include "data/measurements/reading/motion.h"
 #include "data/measurements/reading/reading.h"
 
 namespace errmap::data {

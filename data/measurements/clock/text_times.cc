@@ -1,4 +1,4 @@
-#include "data/measurements/text_times.h"
+#include "data/measurements/clock/text_times.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 
 #include "data/argument_name.h"
 #include "data/column_words.h"
+#include "data/measurements/clock/date_time.h"
 #include "data/measurements/column_checks.h"
-#include "data/measurements/date_time.h"
 #include "data/text.h"
 
 namespace errmap::data {

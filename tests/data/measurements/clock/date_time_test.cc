@@ -1,11 +1,11 @@
-#include "data/measurements/date_time.h"
+#include "data/measurements/clock/date_time.h"
 
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "data/csv.h"
-#include "data/measurements/text_times.h"
+#include "data/measurements/clock/text_times.h"
 
 namespace errmap::data {
 namespace {

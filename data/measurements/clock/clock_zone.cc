@@ -1,4 +1,4 @@
-#include "data/measurements/clock_zone.h"
+#include "data/measurements/clock/clock_zone.h"
 
 #include <algorithm>
 #include <array>

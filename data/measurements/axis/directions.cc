@@ -1,4 +1,4 @@
-#include "data/measurements/reading/directions.h"
+#include "data/measurements/axis/directions.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "data/measurements/reading/digit_dates.h"
+#include "data/measurements/clock/digit_dates.h"
 
 #include <algorithm>
 #include <array>
@@ -16,9 +16,9 @@
 
 #include "data/column_words.h"
 #include "data/columns.h"
-#include "data/measurements/date_time.h"
-#include "data/measurements/reading/time_units.h"
-#include "data/measurements/text_times.h"
+#include "data/measurements/clock/date_time.h"
+#include "data/measurements/clock/text_times.h"
+#include "data/measurements/clock/time_units.h"
 #include "data/text.h"
 
 namespace errmap::data {

@@ -1,4 +1,4 @@
-#include "data/measurements/reading/time_units.h"
+#include "data/measurements/clock/time_units.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,6 @@
 #include "data/column_header.h"
 #include "data/column_words.h"
 #include "data/csv.h"
-#include "data/measurements/sessions.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -79,6 +78,36 @@ const TimeUnit* StatedUnit(std::string_view column) {
     }
   }
   return nullptr;
+}
+
+bool NamesTime(std::string_view name) {
+  return !StatesTemperature(name) && (StartsWithIgnoringCase(name, "time") ||
+                                      StartsWithIgnoringCase(name, "zeit"));
+}
+
+double MedianStep(std::vector<double> steps) {
+  std::erase_if(steps, [](double step) { return !(step > 0.0); });
+  if (steps.empty()) return INFINITY;
+  const auto middle =
+      steps.begin() + static_cast<std::ptrdiff_t>((steps.size() - 1) / 2);
+  std::ranges::nth_element(steps, middle);
+  return *middle;
+}
+
+double MedianStepOf(const Eigen::VectorXd& time) {
+  std::vector<double> steps;
+  for (Eigen::Index i = 1; i < time.size(); ++i) {
+    steps.push_back(time[i] - time[i - 1]);
+  }
+  return MedianStep(std::move(steps));
+}
+
+Eigen::Index TimesBack(const Eigen::VectorXd& time) {
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 1; i < time.size(); ++i) {
+    count += time[i] < time[i - 1] ? 1 : 0;
+  }
+  return count;
 }
 
 bool Pace::MayBeIn(const TimeUnit& unit) const {

@@ -4,9 +4,26 @@
 #include <string_view>
 #include <vector>
 
-#include "data/measurements/date_time.h"
+#include <Eigen/Core>
+
+#include "data/measurements/clock/date_time.h"
 
 namespace errmap::data {
+
+/// True if a name begins with "time" or "zeit", the default names of the column
+/// of times, and is not a temperature.
+bool NamesTime(std::string_view name);
+
+/// A time step of more than this many median steps is a break.
+inline constexpr double kLeapSteps = 20.0;
+
+/// Returns the median of the steps above 0 (the lower of two), infinite if
+/// there is none.
+double MedianStep(std::vector<double> steps);
+/// Returns the same for the steps of `time`, and the number of times that go
+/// back.
+double MedianStepOf(const Eigen::VectorXd& time);
+Eigen::Index TimesBack(const Eigen::VectorXd& time);
 
 /// A unit in which columns count time: "s", "ms", "us", "100ns", "ns", "min",
 /// "h", "days".

@@ -1,4 +1,4 @@
-#include "data/measurements/reading/counting.h"
+#include "data/measurements/axis/counting.h"
 
 #include <cmath>
 #include <functional>

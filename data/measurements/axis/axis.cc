@@ -1,4 +1,4 @@
-#include "data/measurements/reading/axis.h"
+#include "data/measurements/axis/axis.h"
 
 #include <algorithm>
 #include <cmath>

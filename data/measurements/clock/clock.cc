@@ -1,4 +1,4 @@
-#include "data/measurements/reading/clock.h"
+#include "data/measurements/clock/clock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,13 +7,12 @@
 #include "data/argument_name.h"
 #include "data/column_header.h"
 #include "data/column_words.h"
-#include "data/measurements/date_time.h"
+#include "data/measurements/clock/clock_columns.h"
+#include "data/measurements/clock/date_time.h"
+#include "data/measurements/clock/row_columns.h"
+#include "data/measurements/clock/text_times.h"
+#include "data/measurements/clock/time_units.h"
 #include "data/measurements/joined_tables.h"
-#include "data/measurements/reading/clock_columns.h"
-#include "data/measurements/reading/row_columns.h"
-#include "data/measurements/reading/time_units.h"
-#include "data/measurements/sessions.h"
-#include "data/measurements/text_times.h"
 #include "data/text.h"
 
 namespace errmap::data {

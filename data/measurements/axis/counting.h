@@ -7,8 +7,8 @@
 #include <Eigen/Core>
 
 #include "data/csv.h"
+#include "data/measurements/axis/motion.h"
 #include "data/measurements/dataset.h"
-#include "data/measurements/reading/motion.h"
 
 namespace errmap::data {
 

@@ -1,4 +1,4 @@
-#include "data/measurements/reading/clock_columns.h"
+#include "data/measurements/clock/clock_columns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,12 +6,10 @@
 
 #include "data/column_header.h"
 #include "data/column_words.h"
+#include "data/measurements/clock/row_columns.h"
+#include "data/measurements/clock/text_times.h"
+#include "data/measurements/clock/time_units.h"
 #include "data/measurements/column_roles.h"
-#include "data/measurements/reading/axis.h"
-#include "data/measurements/reading/row_columns.h"
-#include "data/measurements/reading/time_units.h"
-#include "data/measurements/sessions.h"
-#include "data/measurements/text_times.h"
 #include "data/text.h"
 #include "data/units.h"
 

@@ -1,4 +1,4 @@
-#include "data/measurements/date_time.h"
+#include "data/measurements/clock/date_time.h"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "data/measurements/clock_zone.h"
-#include "data/measurements/date_scanner.h"
+#include "data/measurements/clock/clock_zone.h"
+#include "data/measurements/clock/date_scanner.h"
 #include "data/text.h"
 
 namespace errmap::data {

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "data/csv.h"
-#include "data/measurements/reading/clock.h"
+#include "data/measurements/clock/clock.h"
 
 namespace errmap::data {
 

@@ -1,4 +1,4 @@
-#include "data/measurements/reading/motion.h"
+#include "data/measurements/axis/motion.h"
 
 #include <algorithm>
 #include <cmath>
