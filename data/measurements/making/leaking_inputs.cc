@@ -61,7 +61,7 @@ class LeakFinder {
              const VectorXd& target_values,
              const std::vector<ColumnInfo>& inputs,
              const Eigen::MatrixXd& input_values)
-      : unit_(target.unit), inputs_(inputs) {
+      : name_(NameInRemark(target.name)), unit_(target.unit), inputs_(inputs) {
     const Index m = target_values.size();
     const Index stride = 1 + (m - 1) / kMostRowsLooked;
     for (Index row = 0; row < m; row += stride) rows_.push_back(row);
@@ -72,8 +72,10 @@ class LeakFinder {
     for (Index j = 0; j < input_values.cols(); ++j) {
       TakeCandidate(target, j, input_values.col(j)(rows_));
     }
-    FindShares(target_values(rows_), input_values(rows_, Eigen::all));
-    FindSizes(target_values(rows_), input_values(rows_, Eigen::all));
+    const VectorXd looked = target_values(rows_);
+    const Eigen::MatrixXd values = input_values(rows_, Eigen::all);
+    FindShares(looked, values);
+    FindSizes(looked, values);
   }
 
   std::vector<Leak> Find() {
@@ -86,8 +88,7 @@ class LeakFinder {
     for (Index k = 0; k < size; ++k) values.col(k) = Of(k).values;
     products_ = values.transpose() * values;
     with_target_ = values.transpose() * target_;
-    std::vector<Leak> leaks = shares_;
-    leaks.insert(leaks.end(), sizes_.begin(), sizes_.end());
+    std::vector<Leak> leaks = alone_;
     for (std::size_t members = 1; members <= 3; ++members) {
       if (members == 3 && candidates_.size() > kMostForTriples) break;
       LookAtSets({}, 0, members, &leaks);
@@ -152,9 +153,9 @@ class LeakFinder {
         leak = ShareOf(target, j, values.col(j), values.col(k));
         if (!leak) continue;
         leak->inputs.push_back(k);
-        leak->formula += " times " + NameOf(k);
+        leak->statement += " times " + NameOf(k);
       }
-      if (leak) shares_.push_back(*std::move(leak));
+      if (leak) alone_.push_back(*std::move(leak));
     }
   }
 
@@ -176,7 +177,7 @@ class LeakFinder {
     }
     return Leak{.inputs = {input},
                 .left_out = {input},
-                .formula = Rounded(b) + " " + NameOf(input)};
+                .statement = name_ + " = " + Rounded(b) + " " + NameOf(input)};
   }
 
   // What is made of the error's size: a share of a tolerance, what is left of
@@ -193,18 +194,16 @@ class LeakFinder {
                                 input.unit.quantity != Quantity::kRatio)) {
         continue;
       }
-      std::string formula =
-          has_both_signs ? LineOf(size, j, values.col(j)) : "";
-      if (formula.empty()) formula = LimitOf(size, j, values.col(j));
-      if (formula.empty()) continue;
-      sizes_.push_back({.inputs = {j},
+      std::string what = has_both_signs ? LineOf(size, j, values.col(j)) : "";
+      if (what.empty()) what = LimitOf(size, j, values.col(j));
+      if (what.empty()) continue;
+      alone_.push_back({.inputs = {j},
                         .left_out = {j},
-                        .formula = std::move(formula),
-                        .of_size = true});
+                        .statement = "|" + name_ + "| " + what});
     }
   }
 
-  // "8 - tolerance_left"; "" where the size is no line of the values.
+  // "= 8 - tolerance_left"; "" where the size is no line of the values.
   std::string LineOf(const VectorXd& size,
                      Index input,
                      const VectorXd& values) const {
@@ -217,13 +216,13 @@ class LeakFinder {
     const double worst = (y - b * x).cwiseAbs().maxCoeff();
     if (!(worst <= rounding && rounding < kMostOfSize * sd)) return "";
     const double a = size.mean() - b * values.mean();
-    if (std::abs(a) <= rounding) return Rounded(b) + " " + NameOf(input);
-    return Rounded(a) + (b < 0.0 ? " - " : " + ") + Rounded(std::abs(b)) + " " +
-           NameOf(input);
+    if (std::abs(a) <= rounding) return "= " + Rounded(b) + " " + NameOf(input);
+    return "= " + Rounded(a) + (b < 0.0 ? " - " : " + ") +
+           Rounded(std::abs(b)) + " " + NameOf(input);
   }
 
-  // "above 3 where out_of_tol is 1": of flags that go on and off often, as no
-  // switch does just where the error passes a limit.
+  // "is above 3 where out_of_tol is 1": of flags that go on and off often, as
+  // no switch does just where the error passes a limit.
   std::string LimitOf(const VectorXd& size,
                       Index input,
                       const VectorXd& values) const {
@@ -247,7 +246,7 @@ class LeakFinder {
     if (!when_on) std::swap(large, small);
     const double gap = large.first - small.second;
     if (gap < 0.0 || gap > kMostOfGap * (large.second - small.first)) return "";
-    return "above " + Rounded(large.first - 0.5 * gap) + " where " +
+    return "is above " + Rounded(large.first - 0.5 * gap) + " where " +
            NameOf(input) + " is " + Rounded(when_on ? on : off);
   }
 
@@ -335,6 +334,7 @@ class LeakFinder {
 
   Leak MakeLeak(const std::vector<Index>& set, const VectorXd& b) {
     Leak leak;
+    std::string formula;
     std::vector<std::size_t> places(set.size());
     std::iota(places.begin(), places.end(), std::size_t{0});
     std::ranges::stable_sort(places, std::greater<>(), [&](std::size_t i) {
@@ -343,14 +343,13 @@ class LeakFinder {
     for (const std::size_t i : places) {
       const double factor = b[static_cast<Index>(i)];
       const bool one = std::abs(std::abs(factor) - 1.0) < kUnitSlack;
-      if (!leak.formula.empty() || factor < 0.0) {
-        leak.formula += leak.formula.empty() ? "-"
-                        : factor < 0.0       ? " - "
-                                             : " + ";
+      if (!formula.empty() || factor < 0.0) {
+        formula += formula.empty() ? "-" : factor < 0.0 ? " - " : " + ";
       }
-      leak.formula += (one ? "" : Rounded(std::abs(factor)) + " ") +
-                      NameOf(Of(set[i]).input);
+      formula += (one ? "" : Rounded(std::abs(factor)) + " ") +
+                 NameOf(Of(set[i]).input);
     }
+    leak.statement = name_ + " = " + formula;
     for (const Index k : set) {
       leak.inputs.push_back(Of(k).input);
       if (!Of(k).position && !Of(k).settings) {
@@ -392,6 +391,7 @@ class LeakFinder {
         [&](const char* symbol) { return is_factor_of(UnitOfSymbol(symbol)); });
   }
 
+  std::string name_;  // of the target, as remarks say it
   const Unit& unit_;
   const std::vector<ColumnInfo>& inputs_;
   std::vector<Index> rows_;  // looked at
@@ -399,8 +399,7 @@ class LeakFinder {
   double sd_ = 0.0;
   double resolution_ = 0.0;
   std::vector<Candidate> candidates_;
-  std::vector<Leak> shares_;
-  std::vector<Leak> sizes_;
+  std::vector<Leak> alone_;   // of one input, but for a position
   Eigen::MatrixXd products_;  // of candidates
   VectorXd with_target_;
 };

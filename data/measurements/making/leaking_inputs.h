@@ -13,8 +13,9 @@ namespace errmap::data {
 struct Leak {
   std::vector<Eigen::Index> inputs;    // indices, one to three
   std::vector<Eigen::Index> left_out;  // of these, those that hold the error
-  std::string formula;                 // "actual_mm - nominal_mm"
-  bool of_size = false;                // the formula is of |target|
+  /// "error_mm = actual_mm - nominal_mm", "|error_um| is above 3 where bad is
+  /// 1".
+  std::string statement;
 };
 
 /// Finds components of the error itself among the inputs (m x p) of a target

@@ -12,11 +12,6 @@ namespace errmap::data {
 using Eigen::Index;
 
 std::vector<UselessInput> LeakingInputs(const Dataset::Parts& parts) {
-  const std::string target = NameInRemark(parts.target.name);
-  const auto equation_of = [&](const Leak& leak) {
-    return (leak.of_size ? "|" + target + "|" : target) +
-           (leak.formula.starts_with("above") ? " is " : " = ") + leak.formula;
-  };
   std::vector<UselessInput> useless;
   for (const Leak& leak : FindLeaks(parts.target,
                                     parts.target_values,
@@ -24,7 +19,7 @@ std::vector<UselessInput> LeakingInputs(const Dataset::Parts& parts) {
                                     parts.input_values)) {
     for (const Index input : leak.left_out) {
       useless.push_back({.input = input,
-                         .why = "holds the error itself (" + equation_of(leak) +
+                         .why = "holds the error itself (" + leak.statement +
                                 " in all rows, to rounding)",
                          .behind = ": no control knows it beforehand",
                          .even_named = true});
