@@ -1,6 +1,7 @@
 #include "data/column_header.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -322,6 +323,18 @@ std::string StemOfColumn(std::string_view name) {
   }
   // A name that is all number and unit says nothing of its quantity.
   return std::string(stem.empty() ? name : stem);
+}
+
+bool HasUnit(std::string_view name) {
+  constexpr std::size_t kMostLetters = 4;
+  const Header header = ReadHeader(name);
+  return !header.unit.symbol.empty() ||
+         (header.source == UnitSource::kUnknown &&
+          header.unit_text.size() <= kMostLetters &&
+          !IsOneOf(header.unit_text, "no no. nr nr. num") &&
+          std::ranges::any_of(header.unit_text, [](unsigned char c) {
+            return std::isalpha(c) != 0;
+          }));
 }
 
 }  // namespace errmap::data

@@ -40,6 +40,10 @@ Header ReadHeader(std::string_view name);
 /// ReadHeader(name).unit.
 Unit UnitOfColumn(std::string_view name);
 
+/// True if a column has a unit, or something in brackets that is one, though
+/// not known here: "[kWh]", but not "(MATLAB)" or "(No.)".
+bool HasUnit(std::string_view name);
+
 /// Returns the column name without its unit suffix and the digits before it:
 /// "disp_ch1_um" -> "disp_ch", "error_mm" -> "error". Two columns with one stem
 /// measure the same quantity.

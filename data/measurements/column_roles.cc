@@ -1,7 +1,6 @@
 #include "data/measurements/column_roles.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -242,18 +241,14 @@ class RoleChooser {
   ColumnRoles roles_;
 };
 
-// "Charge [Ah]" counts no batches.
-bool HasUnit(std::string_view name) {
-  const Header header = ReadHeader(name);
-  return header.unit.quantity != Quantity::kTime &&
-         std::ranges::any_of(header.unit_text, [](unsigned char c) {
-           return std::isalpha(c) != 0;
-         });
+// "Charge [Ah]" counts no batches, "Minute [min]" counts.
+bool HasQuantity(std::string_view name) {
+  return HasUnit(name) && UnitOfColumn(name).quantity != Quantity::kTime;
 }
 
 // Whether a word of a name says that it counts: "cycles" of "elapsed_cycles".
 bool HasCounterIn(std::string_view name) {
-  if (StatesTemperature(name) || HasUnit(name)) return false;
+  if (StatesTemperature(name) || HasQuantity(name)) return false;
   return std::ranges::any_of(WordsOf(name), [](const std::string& word) {
     // "no" and "test" are words of other names, too.
     return word.size() > 2 && word != "test" &&
@@ -264,7 +259,7 @@ bool HasCounterIn(std::string_view name) {
 
 // Which thing, or how many of them, and no quantity of a machine.
 bool Identifies(std::string_view name) {
-  return !HasUnit(name) && !StatesTemperature(name) &&
+  return !HasQuantity(name) && !StatesTemperature(name) &&
          SaysPhrase(name, Word::kIdentifier);
 }
 
@@ -300,7 +295,7 @@ bool KeepsRecord(std::string_view name) {
       words.size() > 1 && IsOneOf(words.back(), "no nr number nummer num") &&
       !StatesTemperature(name) && !IsCalled(name, Word::kPart);
   return is_number_of || Identifies(name) ||
-         (IsCalled(name, Word::kCounter) && !HasUnit(name)) ||
+         (IsCalled(name, Word::kCounter) && !HasQuantity(name)) ||
          IsCalled(name, Word::kCycle) || IsCalled(name, Word::kSession) ||
          IsCalled(name, Word::kRun) || NamesTime(name) ||
          StartsWithIgnoringCase(name, kTruth);

@@ -92,7 +92,7 @@ class ClockColumns : private RowColumns {
   }
 
   // Whether the days are known, and within them the column stays, and goes back
-  // as often as on: "Cycle time [s]" says how long a cycle takes.
+  // a third as often as on or more: "Cycle time [s]" is how long a cycle takes.
   bool IsDuration(const CsvColumn& column) const {
     if (dates_ < 0) return false;
     const CsvColumn& dates = table_.At(dates_);
@@ -152,13 +152,6 @@ class ClockColumns : private RowColumns {
            (UnitOfColumn(name).quantity == Quantity::kTime ||
             StatedUnit(name) != nullptr || EqualsIgnoringCase(name, "t") ||
             NamedDays(name).has_value());
-  }
-
-  // "[kWh]" is no unit known here, but one; "(MATLAB)" is a remark.
-  static bool HasUnit(std::string_view name) {
-    constexpr std::size_t kMostLetters = 4;
-    const std::string text = ReadHeader(name).unit_text;
-    return !text.empty() && text.size() <= kMostLetters;
   }
 
   // What goes on with the rows: in a unit of time most often, else with each
