@@ -43,6 +43,7 @@ std::vector<bool> HaveTarget(const CsvTable& table, std::size_t target) {
 void DescribeSessions(const CsvTable& table,
                       const Clock& clock,
                       const Nights& nights,
+                      const std::vector<bool>& have_target,
                       ReadTable* read) {
   Reading::Sessions& sessions = read->reading.sessions;
   const FoundSessions& found = read->found;
@@ -76,7 +77,6 @@ void DescribeSessions(const CsvTable& table,
   std::vector<std::int64_t> first(found.sessions.labels.size(), -1);
   std::set<std::pair<Index, double>> cycles;
   const std::ptrdiff_t group = read->roles.group;
-  const std::vector<bool> have_target = HaveTarget(table, read->roles.target);
   for (std::size_t i = 0; i < found.sessions.codes.size(); ++i) {
     const Index code = found.sessions.codes[i];
     auto& at = first[static_cast<std::size_t>(code)];
@@ -113,6 +113,7 @@ double StepOf(const Eigen::VectorXd& time,
 
 void DescribeTime(const TableInReading& in,
                   const Clock& clock,
+                  const std::vector<bool>& have_target,
                   Reading::Time* time) {
   const CsvTable& table = in.table();
   time->unit = clock.unit;
@@ -125,8 +126,7 @@ void DescribeTime(const TableInReading& in,
   if (clock.date_column >= 0) {
     *time->column = table.At(clock.date_column).name + " + " + *time->column;
   }
-  const double step =
-      StepOf(clock.time, in.base_rows, HaveTarget(table, in.read.roles.target));
+  const double step = StepOf(clock.time, in.base_rows, have_target);
   if (std::isfinite(step)) time->step_s = step;
 }
 
@@ -155,9 +155,10 @@ void DescribeReading(TableInReading* in) {
     reading.position.sure = true;
   }
   const bool is_used = !selection.with_log || read->found.time_column >= 0;
-  DescribeTime(*in, is_used ? in->clock : Clock(), &reading.time);
+  const std::vector<bool> have_target = HaveTarget(table, read->roles.target);
+  DescribeTime(*in, is_used ? in->clock : Clock(), have_target, &reading.time);
   if (!read->found.sessions.labels.empty()) {
-    DescribeSessions(table, in->clock, in->nights, read);
+    DescribeSessions(table, in->clock, in->nights, have_target, read);
   }
   reading.rows -= std::ssize(reading.rows_left_out);
   if (selection.faults == FaultPolicy::kDropRows) {

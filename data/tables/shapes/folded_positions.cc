@@ -221,25 +221,31 @@ std::string_view UpToNumber(std::string_view name) {
 void FoldBesideRuns(const CsvTable& table,
                     const std::vector<RunColumn>& runs,
                     Fold* fold) {
-  std::map<std::string, std::vector<std::size_t>> beside;
+  std::vector<std::string_view> of_columns;
   for (const RunColumn& of : runs) {
-    const std::string_view run = UpToNumber(table.columns[of.column].name);
-    for (const std::size_t i : fold->kept) {
-      const std::string_view name = table.columns[i].name;
-      if (UpToNumber(name) != run) continue;
-      const std::size_t rest = name.find_first_not_of(" _-.:", run.size());
-      if (rest == name.npos) continue;
-      beside[std::string(name.substr(rest))].push_back(i);
+    of_columns.push_back(UpToNumber(table.columns[of.column].name));
+  }
+  const std::set<std::string_view> distinct(of_columns.begin(),
+                                            of_columns.end());
+  // The column of each run.
+  std::map<std::string, std::map<std::string_view, std::size_t>> beside;
+  for (const std::size_t i : fold->kept) {
+    const std::string_view name = table.columns[i].name;
+    const std::string_view run = UpToNumber(name);
+    const std::size_t rest = name.find_first_not_of(" _-.:", run.size());
+    if (!distinct.contains(run) || rest == name.npos) continue;
+    beside[std::string(name.substr(rest))].emplace(run, i);
+  }
+  std::set<std::size_t> folded;
+  for (const auto& found : beside) {
+    if (found.second.size() != distinct.size()) continue;
+    for (const std::string_view run : of_columns) {
+      const std::size_t column = found.second.at(run);
+      fold->quantities[found.first].push_back(column);
+      folded.insert(column);
     }
   }
-  for (const auto& found : beside) {
-    const std::vector<std::size_t>& sources = found.second;
-    if (sources.size() != runs.size()) continue;
-    std::erase_if(fold->kept, [&](std::size_t i) {
-      return std::ranges::count(sources, i) > 0;
-    });
-    fold->quantities[found.first] = sources;
-  }
+  std::erase_if(fold->kept, [&](std::size_t i) { return folded.contains(i); });
 }
 
 // "R1" to "R4" number runs: one letter tells a way where another tells the
