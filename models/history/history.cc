@@ -14,6 +14,7 @@
 
 #include "data/csv.h"
 #include "data/measurements/clock/time_units.h"
+#include "data/measurements/reading/nights.h"
 #include "data/text.h"
 #include "models/history/history_state.h"
 #include "models/history/session_start.h"
@@ -270,6 +271,8 @@ double History::settles_after() const {
   }
   return longest;
 }
+
+double History::night() const { return gap > 0.0 ? gap : data::kShortestNight; }
 
 bool History::needs_time() const {
   return std::ranges::any_of(derived, RunsInTime, &DerivedInput::filter);

@@ -100,6 +100,8 @@ struct History {
   /// input is zeroed, since the zero was taken elsewhere; 0 if nothing is
   /// remembered.
   double settles_after() const;
+  /// Returns the shortest pause that separates sessions, s.
+  double night() const;
   /// Returns true if any filter runs in time.
   bool needs_time() const;
   /// Returns true if a derived input depends on where sessions begin.

@@ -1,77 +1,23 @@
 #include "models/history/map_log.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "data/argument_name.h"
-#include "data/columns.h"
 #include "data/input_error.h"
-#include "data/measurements/axis/directions.h"
 #include "data/measurements/column_checks.h"
-#include "data/measurements/column_match.h"
-#include "data/measurements/joined_tables.h"
-#include "data/measurements/reading/read_table.h"
 #include "data/measurements/row_filters.h"
 #include "data/text.h"
+#include "models/history/earlier_rows.h"
+#include "models/history/rows_made_for.h"
 #include "models/trained_range.h"
 #include "stats/indices.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::models {
 namespace {
-
-data::DatasetSelection SelectionFor(const History& history,
-                                    const data::CsvTable& table,
-                                    const MapDataArguments& arguments) {
-  data::DatasetSelection selection;
-  selection.time = history.time_unit == "rows" ? "none" : arguments.time;
-  // Of several possible time columns, the one that the map was fitted with.
-  if (selection.time.empty() && !history.time.empty() &&
-      table.Find(history.time) >= 0) {
-    selection.time = history.time;
-  }
-  if (history.gap > 0.0) selection.gap = data::CsvNumber(history.gap);
-  selection.session = arguments.session;
-  if (selection.session.empty()) {
-    selection.session = history.session.empty() ? "none" : history.session;
-    if (!history.session.empty() && table.Find(history.session) < 0) {
-      // A clock shows the nights.
-      if (history.time_unit == "s") {
-        selection.session.clear();
-        return selection;
-      }
-      throw data::InputError(fmt::format(
-          "{}: no column {}, which tells the map's memory where a session "
-          "begins; add it, or name another with {}",
-          data::PrintablePath(table.file),
-          data::QuotedName(history.session),
-          data::ArgumentName("session")));
-    }
-  }
-  return selection;
-}
-
-data::FoundSessions FindAll(const History& history,
-                            const data::CsvTable& table,
-                            const data::DatasetSelection& selection) {
-  const std::vector<Index> rows =
-      stats::AllIndices(static_cast<Index>(table.num_rows));
-  data::FoundSessions found = data::FindSessions(table, selection, rows);
-  if (history.time_unit == "s" && found.time_column < 0) {
-    throw data::InputError(fmt::format(
-        "{}: no column of times, which the map's filters need; add one (time_s "
-        "or dates and times), or name it with {}{}",
-        data::PrintablePath(table.file),
-        data::ArgumentName("time"),
-        found.remarks.empty() ? "" : " (" + found.remarks.front() + ")"));
-  }
-  return found;
-}
 
 // Until when a session that begins inside is not known.
 std::string UntilSettled(const History& history) {
@@ -200,198 +146,57 @@ void PassOverRowsNotMadeFor(const FittedModel& fitted,
   }
 }
 
-// Rows before those of a table, by a clock of their own.
-struct Earlier {
-  data::FoundSessions found;
-  MatrixXd readings;  // (rows x inputs); NaN where nothing remembers them
-  std::string file;
-  std::vector<std::string> remarks;
-};
-
-// What names a column of both files may not be in this one.
-MapDataArguments ArgumentsFor(const data::CsvTable& table,
-                              const MapDataArguments& arguments) {
-  MapDataArguments own = arguments;
-  for (std::string* named : {&own.time, &own.session}) {
-    if (*named != "none" && table.Find(*named) < 0) named->clear();
-  }
-  return own;
-}
-
-// In order of time. Positions are not known between measurements, and no filter
-// reads them.
-Earlier ReadEarlier(const FittedModel& fitted,
-                    const MapDataArguments& arguments,
-                    const data::FoundSessions& later) {
-  const History& history = *fitted.history;
-  std::vector<data::ColumnInfo> needed;
-  const std::vector<Index> remembered = history.remembered();
-  for (const Index input : remembered) {
-    needed.push_back(fitted.inputs[static_cast<std::size_t>(input)].column);
-  }
-  data::CsvTable given = data::ReadCsv(arguments.after);
-  data::NameLike(history.session, &given);
-  data::NameLike(history.time, &given);
-  // Rows before those of a file that is a session belong to it.
-  if (later.sessions.column == data::kFileColumn &&
-      given.Find(data::kFileColumn) < 0) {
-    data::AddFileColumn(later.sessions.labels[0], &given);
-  }
-  data::TableForMap read = data::InMapUnits(std::move(given), needed);
-  const MapDataArguments own = ArgumentsFor(read.table, arguments);
-  const data::DatasetSelection selection =
-      SelectionFor(history, read.table, own);
-  if (const data::ReadTable rows = data::ReadRowsForMap(read.table, selection);
-      !rows.order.empty()) {
-    read.table = data::TakeRows(read.table, rows.order);
-  }
-  Earlier earlier{
-      .found = FindAll(history, read.table, selection),
-      .readings = MatrixXd::Constant(static_cast<Index>(read.table.num_rows),
-                                     std::ssize(fitted.inputs),
-                                     stats::kNaN),
-      .file = read.table.file,
-      .remarks = std::move(read.remarks)};
-  for (std::size_t i = 0; i < needed.size(); ++i) {
-    const std::size_t at = data::RequireColumn(read.table, needed[i].name, "");
-    earlier.readings.col(remembered[i]) = data::ValuesOfRows(
-        read.table.columns[at], stats::AllIndices(earlier.readings.rows()));
-  }
-  return earlier;
-}
-
-// When each session of a table begins.
-VectorXd StartsOf(const data::FoundSessions& found) {
-  VectorXd starts = VectorXd::Constant(std::ssize(found.sessions.labels),
-                                       std::numeric_limits<double>::infinity());
-  for (Index row = 0; row < found.time.size(); ++row) {
-    double& start = starts[found.sessions.codes[static_cast<std::size_t>(row)]];
-    start = std::min(start, found.time[row]);
-  }
-  return starts;
-}
-
-// The session of the later rows in which each earlier row is: by name where
-// both files have the same column of these, else the one that begins after it
-// without a night between. -1: it is over, or has begun.
-std::vector<Index> SessionsGoneOn(const data::FoundSessions& earlier,
-                                  const data::FoundSessions& later) {
-  const std::vector<std::string>& labels = later.sessions.labels;
-  std::vector<Index> sessions(earlier.sessions.codes.size(), -1);
-  if (!earlier.sessions.column.empty() &&
-      earlier.sessions.column == later.sessions.column) {
-    for (std::size_t row = 0; row < sessions.size(); ++row) {
-      const std::string& label =
-          earlier.sessions
-              .labels[static_cast<std::size_t>(earlier.sessions.codes[row])];
-      const auto at = std::ranges::find(labels, label);
-      if (at != labels.end()) sessions[row] = at - labels.begin();
-    }
-    return sessions;
-  }
-  if (later.time_unit != "s") {
-    std::ranges::fill(sessions, 0);
-    return sessions;
-  }
-  const VectorXd starts = StartsOf(later);
-  for (Index session = 0; session < starts.size(); ++session) {
-    double next = starts[session];
-    for (Index row = earlier.time.size() - 1; row >= 0; --row) {
-      const double time = earlier.time[row];
-      if (time >= starts[session]) continue;
-      if (next - time >= data::kShortestNight) break;
-      sessions[static_cast<std::size_t>(row)] = session;
-      next = time;
-    }
-  }
-  return sessions;
-}
-
-// Earlier rows before those found, as far as their sessions go on; their
-// number.
-Index Prepend(const Earlier& earlier,
-              const data::CsvTable& table,
-              data::FoundSessions* found,
-              MatrixXd* readings) {
-  if (earlier.found.time_column >= 0 && found->time_column >= 0 &&
-      earlier.found.dated != found->dated) {
-    throw data::InputError(fmt::format(
-        "{}: its clock and that of {} have no common zero, since one of them "
-        "has dates; give both files the same column of times",
-        data::PrintablePath(earlier.file),
-        data::PrintablePath(table.file)));
-  }
-  const std::vector<Index> sessions = SessionsGoneOn(earlier.found, *found);
-  const bool has_clock = found->time_unit == "s";
-  const VectorXd starts = StartsOf(*found);
-  std::vector<Index> rows;
-  std::vector<Index> codes;
-  for (std::size_t row = 0; row < sessions.size(); ++row) {
-    const Index session = sessions[row];
-    const auto at = static_cast<Index>(row);
-    if (session < 0 ||
-        (has_clock && earlier.found.time[at] >= starts[session])) {
-      continue;
-    }
-    rows.push_back(at);
-    codes.push_back(session);
-  }
-  const auto count = std::ssize(rows);
-  codes.insert(
-      codes.end(), found->sessions.codes.begin(), found->sessions.codes.end());
-  found->sessions.codes = std::move(codes);
-  VectorXd time(count + found->time.size());
-  time << earlier.found.time(rows),
-      found->time.array() + (has_clock ? 0.0 : static_cast<double>(count));
-  found->time = std::move(time);
-  MatrixXd all(count + readings->rows(), readings->cols());
-  all << earlier.readings(rows, Eigen::all), *readings;
-  *readings = std::move(all);
-  return count;
-}
-
 }  // namespace
 
-std::optional<std::string> WayOf(const FittedModel& fitted) {
-  if (fitted.reading == nullptr || !fitted.reading->direction.sure) {
-    return std::nullopt;
-  }
-  const data::Reading::Direction& direction = fitted.reading->direction;
-  const data::ColumnFilter* const filter = data::DirectionFilter(fitted.where);
-  if (filter == nullptr) {
-    return direction.values.size() == 1 ? std::optional(direction.values[0])
-                                        : std::nullopt;
-  }
-  const auto place = data::PlaceOfWay(direction, ValueText(*filter));
-  return place ? std::optional(direction.values[*place]) : std::nullopt;
-}
-
-std::vector<data::ColumnFilter> FiltersFor(const FittedModel& fitted,
-                                           const data::CsvTable& table) {
-  const std::optional<std::string> way =
-      table.Find(kWayColumn) < 0 ? std::nullopt : WayOf(fitted);
-  std::vector<data::ColumnFilter> filters;
-  for (const data::ColumnFilter& filter : fitted.where) {
-    const bool is_told = way && &filter == data::DirectionFilter(fitted.where);
-    if (!is_told && table.Find(filter.column) >= 0) filters.push_back(filter);
-  }
-  if (way) filters.push_back({.column = kWayColumn, .value = *way});
-  return filters;
-}
-
-std::vector<bool> RowsMadeFor(const FittedModel& fitted,
-                              const data::CsvTable& table) {
-  std::vector<bool> made_for(table.num_rows, true);
-  for (const data::ColumnFilter& filter : FiltersFor(fitted, table)) {
-    data::KeepPassing(table, filter, &made_for);
-  }
-  return made_for;
+data::DatasetSelection SelectionOfRows(const History* history,
+                                       const data::CsvTable& table,
+                                       const MapDataArguments& arguments) {
+  data::DatasetSelection selection;
+  selection.time = arguments.time;
+  selection.session = arguments.session;
+  if (history == nullptr) return selection;
+  // Of several possible columns, the one that the map was fitted with.
+  const auto take = [&table](const std::string& of_map, std::string* column) {
+    if (column->empty() && !of_map.empty() && table.Find(of_map) >= 0) {
+      *column = of_map;
+    }
+  };
+  take(history->time, &selection.time);
+  take(history->session, &selection.session);
+  if (history->gap > 0.0) selection.gap = data::CsvNumber(history->gap);
+  return selection;
 }
 
 data::FoundSessions FindSessionsFor(const History& history,
                                     const data::CsvTable& table,
                                     const MapDataArguments& arguments) {
-  return FindAll(history, table, SelectionFor(history, table, arguments));
+  data::DatasetSelection selection =
+      SelectionOfRows(&history, table, arguments);
+  if (history.time_unit == "rows") selection.time = "none";
+  if (history.session.empty() && selection.session.empty()) {
+    selection.session = "none";
+  }
+  // A clock shows the nights where no column tells the sessions.
+  if (selection.session.empty() && history.time_unit != "s") {
+    throw data::InputError(fmt::format(
+        "{}: no column {}, which tells the map's memory where a session "
+        "begins; add it, or name another with {}",
+        data::PrintablePath(table.file),
+        data::QuotedName(history.session),
+        data::ArgumentName("session")));
+  }
+  const std::vector<Index> rows =
+      stats::AllIndices(static_cast<Index>(table.num_rows));
+  data::FoundSessions found = data::FindSessions(table, selection, rows);
+  if (history.time_unit == "s" && found.time_column < 0) {
+    throw data::InputError(fmt::format(
+        "{}: no column of times, which the map's filters need; add one (time_s "
+        "or dates and times), or name it with {}{}",
+        data::PrintablePath(table.file),
+        data::ArgumentName("time"),
+        found.remarks.empty() ? "" : " (" + found.remarks.front() + ")"));
+  }
+  return found;
 }
 
 MatrixXd ReadingsOf(const FittedModel& fitted, const data::CsvTable& table) {
@@ -434,9 +239,10 @@ MapLog MakeMapLog(const FittedModel& fitted,
   auto log = std::make_shared<data::SessionLog>();
   log->input_values = ReadingsOf(fitted, table);
   if (!arguments.after.empty()) {
-    Earlier earlier = ReadEarlier(fitted, arguments, found);
+    EarlierRows earlier =
+        PrependEarlier(fitted, table, arguments, &found, &log->input_values);
     map.warnings = std::move(earlier.remarks);
-    map.first_row = Prepend(earlier, table, &found, &log->input_values);
+    map.first_row = earlier.count;
   }
   LeaveOutSpikes(fitted,
                  found.sessions.codes,

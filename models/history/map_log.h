@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,31 +24,17 @@ struct MapDataArguments {
   std::string clock_offset = {};  // how far that log's clock is ahead
 };
 
+/// The columns of times and sessions of a table, as far as they are known.
+/// `history` may be null.
+data::DatasetSelection SelectionOfRows(const History* history,
+                                       const data::CsvTable& table,
+                                       const MapDataArguments& arguments);
+
 /// Finds sessions and times of a table's rows as a map's memory needs them.
 /// Throws data::InputError as MakeMapLog does.
 data::FoundSessions FindSessionsFor(const History& history,
                                     const data::CsvTable& table,
                                     const MapDataArguments& arguments);
-
-/// The column of directions, "up" and "down", that ReadForMap adds to a table.
-/// It does so if the rows move in another direction than the map is made for,
-/// or call it by another name.
-inline constexpr const char* kWayColumn = "direction of motion";
-
-/// Returns the direction along the axis that the map is made for: that of its
-/// filter, else that of all its training rows. Nothing if these moved in both
-/// directions.
-std::optional<std::string> WayOf(const FittedModel& fitted);
-
-/// Returns the filters for the rows that the map is made for, as far as the
-/// table has their columns.
-std::vector<data::ColumnFilter> FiltersFor(const FittedModel& fitted,
-                                           const data::CsvTable& table);
-
-/// Returns, for each row of the table, true if the map is made for it, as far
-/// as known.
-std::vector<bool> RowsMadeFor(const FittedModel& fitted,
-                              const data::CsvTable& table);
 
 /// Rows for the filters of a map: those of a file, after any earlier rows.
 struct MapLog {

@@ -5,7 +5,6 @@
 #include <tuple>
 #include <utility>
 
-#include "data/measurements/clock/time_units.h"
 #include "data/measurements/sessions.h"
 
 namespace errmap::models {
@@ -38,12 +37,13 @@ class Timeline {
     column_ = found.sessions.column;
   }
 
-  void Sort() {
+  // Cuts by time are made at pauses of a `night`, s.
+  void Sort(double night) {
     KeepSessionsOfPoints();
     std::ranges::stable_sort(rows_, {}, [](const Row& row) {
       return std::tuple(row.session, row.time, row.is_point);
     });
-    if (column_.empty()) CutByTime();
+    if (column_.empty()) CutAt(night);
   }
 
   const std::vector<Row>& rows() const { return rows_; }
@@ -80,15 +80,10 @@ class Timeline {
     std::erase_if(rows_, [](const Row& row) { return row.session < 0; });
   }
 
-  void CutByTime() {
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < rows_.size(); ++i) {
-      steps.push_back(rows_[i].time - rows_[i - 1].time);
-    }
-    const double leap = data::kLeapSteps * data::MedianStep(steps);
+  void CutAt(double night) {
     labels_ = {"1"};
     for (std::size_t i = 1; i < rows_.size(); ++i) {
-      if (steps[i - 1] > leap) {
+      if (rows_[i].time - rows_[i - 1].time >= night) {
         labels_.push_back(std::to_string(labels_.size() + 1));
       }
       rows_[i].session = std::ssize(labels_) - 1;
@@ -116,7 +111,7 @@ Timeline TimelineOf(const History& history,
     later = static_cast<double>(log->table.num_rows);
   }
   timeline.Add(found, true, later);
-  timeline.Sort();
+  timeline.Sort(history.night());
   return timeline;
 }
 

@@ -11,6 +11,7 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/row_filters.h"
 #include "data/measurements/sessions.h"
+#include "models/history/rows_made_for.h"
 #include "stats/indices.h"
 
 namespace errmap::models {
@@ -67,7 +68,7 @@ MomentsOfRows MomentsOf(const FittedModel& fitted,
                         const std::vector<Index>& rows,
                         const MapDataArguments& arguments) {
   const data::FoundSessions found = data::FindSessions(
-      table, SelectionOfRows(fitted, table, arguments), rows);
+      table, SelectionOfRows(fitted.history.get(), table, arguments), rows);
   const bool has_times = found.time_column >= 0;
   MomentsOfRows moments{
       .at = {}, .session_column = found.sessions.column, .dated = {}};

@@ -18,6 +18,7 @@
 #include "data/measurements/row_filters.h"
 #include "data/text.h"
 #include "models/history/history.h"
+#include "models/history/rows_made_for.h"
 #include "models/map_experience.h"
 
 namespace errmap::models {
@@ -151,14 +152,11 @@ std::optional<std::string> NameClockUnit(const FittedModel& fitted,
 data::DatasetSelection SelectionToRead(const FittedModel& fitted,
                                        const data::CsvTable& table,
                                        const MapDataArguments& arguments) {
-  data::DatasetSelection selection = SelectionOfRows(fitted, table, arguments);
+  data::DatasetSelection selection =
+      SelectionOfRows(fitted.history.get(), table, arguments);
   selection.target = fitted.target.name;
   if (table.Find(PositionOf(fitted)) >= 0) {
     selection.position = PositionOf(fitted);
-  }
-  if (selection.time.empty() && fitted.history != nullptr &&
-      table.Find(fitted.history->time) >= 0) {
-    selection.time = fitted.history->time;
   }
   return selection;
 }
@@ -281,22 +279,6 @@ data::JoinedTable ReadFiles(const FittedModel& fitted,
 }
 
 }  // namespace
-
-data::DatasetSelection SelectionOfRows(const FittedModel& fitted,
-                                       const data::CsvTable& table,
-                                       const MapDataArguments& arguments) {
-  data::DatasetSelection selection;
-  selection.time = arguments.time;
-  selection.session = arguments.session;
-  if (selection.session.empty() && fitted.history != nullptr &&
-      table.Find(fitted.history->session) >= 0) {
-    selection.session = fitted.history->session;
-  }
-  if (fitted.history != nullptr && fitted.history->gap > 0.0) {
-    selection.gap = data::CsvNumber(fitted.history->gap);
-  }
-  return selection;
-}
 
 data::TableForMap ReadForMap(const FittedModel& fitted,
                              const std::vector<std::string>& files,

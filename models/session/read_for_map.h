@@ -24,9 +24,4 @@ data::TableForMap ReadForMap(const FittedModel& fitted,
                              MapColumns columns,
                              const MapDataArguments& arguments);
 
-/// Returns the columns of times and sessions of a table for the map, if known.
-data::DatasetSelection SelectionOfRows(const FittedModel& fitted,
-                                       const data::CsvTable& table,
-                                       const MapDataArguments& arguments);
-
 }  // namespace errmap::models

@@ -28,6 +28,7 @@
 #include "data/measurements/measured_files.h"
 #include "data/text.h"
 #include "models/history/map_log.h"
+#include "models/history/rows_made_for.h"
 #include "models/history/view.h"
 #include "models/sensors/sensor_check.h"
 #include "models/session/probe_correction.h"
@@ -56,11 +57,17 @@ struct WholeRows {
 
 WholeRows FindWholeRows(const models::FittedModel& fitted,
                         const data::CsvTable& table) {
-  WholeRows whole{.readings = models::ReadingsOf(fitted, table), .rows = {}};
+  WholeRows whole{
+      .readings = MatrixXd::Constant(static_cast<Index>(table.num_rows),
+                                     std::ssize(fitted.inputs),
+                                     stats::kNaN),
+      .rows = {}};
+  Index column = 0;
   for (const models::TrainedInput& input : fitted.inputs) {
-    // Refuses what is no number and not missing either.
-    data::NumericColumn(
-        table, input.column.name, data::MissingPolicy::kDropRows, nullptr);
+    std::vector<Index> rows;
+    const VectorXd values = data::NumericColumn(
+        table, input.column.name, data::MissingPolicy::kDropRows, &rows);
+    whole.readings.col(column++)(rows) = values;
   }
   for (Index row = 0; row < whole.readings.rows(); ++row) {
     if (whole.readings.row(row).allFinite()) whole.rows.push_back(row);

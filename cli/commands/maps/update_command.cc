@@ -20,6 +20,7 @@
 #include "data/files/shown_path.h"
 #include "data/measurements/column_checks.h"
 #include "data/text.h"
+#include "models/history/rows_made_for.h"
 #include "models/model_file.h"
 #include "models/study/record/record_json.h"
 #include "models/study/study_defaults.h"
