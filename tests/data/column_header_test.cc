@@ -275,5 +275,19 @@ TEST(NamesPosition, TakesALengthOrAnAngleThatIsCalledSo) {
   }
 }
 
+// Known or not, stated or assumed; a remark in brackets is none.
+TEST(HasUnit, TakesWhatStandsInBracketsForOne) {
+  for (const char* name : {"angle [arcsec]",
+                           "Energy [kWh]",
+                           "Charge [Ah]",
+                           "t1_degC",
+                           "position"}) {
+    EXPECT_TRUE(HasUnit(name)) << name;
+  }
+  for (const char* name : {"t (MATLAB)", "Sample (No.)", "index [-]", "flow"}) {
+    EXPECT_FALSE(HasUnit(name)) << name;
+  }
+}
+
 }  // namespace
 }  // namespace errmap::data
