@@ -149,6 +149,17 @@ std::vector<std::ptrdiff_t> PartsOfRows(
   return parts;
 }
 
+std::vector<std::ptrdiff_t> RunStarts(
+    const std::vector<std::ptrdiff_t>& codes) {
+  std::vector<std::ptrdiff_t> starts;
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    if (i == 0 || codes[i] != codes[i - 1]) {
+      starts.push_back(static_cast<std::ptrdiff_t>(i));
+    }
+  }
+  return starts;
+}
+
 std::string FreeName(const CsvTable& table, const std::string& name) {
   std::string free = name;
   for (int i = 2; table.Find(free) >= 0; ++i) {

@@ -55,6 +55,9 @@ std::vector<std::ptrdiff_t> AllRows(std::size_t count);
 std::vector<std::ptrdiff_t> PartsOfRows(
     const CsvTable& table, const std::vector<std::ptrdiff_t>& rows);
 
+/// Returns where runs of equal codes begin.
+std::vector<std::ptrdiff_t> RunStarts(const std::vector<std::ptrdiff_t>& codes);
+
 /// Returns the first of "name", "name_2", "name_3" that no column has.
 std::string FreeName(const CsvTable& table, const std::string& name);
 

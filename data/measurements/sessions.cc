@@ -25,17 +25,6 @@ namespace {
 
 using Eigen::Index;
 
-// Where runs of equal codes begin.
-std::vector<Index> RunStarts(const std::vector<Index>& codes) {
-  std::vector<Index> starts;
-  for (std::size_t i = 0; i < codes.size(); ++i) {
-    if (i == 0 || codes[i] != codes[i - 1]) {
-      starts.push_back(static_cast<Index>(i));
-    }
-  }
-  return starts;
-}
-
 class SessionFinder : private RowColumns {
  public:
   SessionFinder(const CsvTable& table,

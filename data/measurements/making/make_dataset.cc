@@ -13,6 +13,7 @@
 
 #include "data/argument_name.h"
 #include "data/column_header.h"
+#include "data/columns.h"
 #include "data/measurements/clock/text_times.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
