@@ -58,9 +58,9 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
                                  "data/measurements/reading "
     rooms["data/measurements/clock"] = " data data/measurements " \
                                        "data/measurements/reading "
-    rooms["data/measurements/axis"] = rooms["data/measurements/clock"]
-    rooms["data/measurements/faults"] = rooms["data/measurements/clock"] \
-                                        "data/measurements/clock "
+    rooms["data/measurements/axis"] = rooms["data/measurements/clock"] \
+                                      "data/measurements/clock "
+    rooms["data/measurements/faults"] = rooms["data/measurements/axis"]
     rooms["data/measurements/reading"] = rooms["data/measurements/faults"] \
                                          "data/files " \
                                          "data/measurements/axis " \

@@ -10,6 +10,7 @@
 #include "data/column_header.h"
 #include "data/column_words.h"
 #include "data/columns.h"
+#include "data/measurements/clock/text_times.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/text.h"
