@@ -24,29 +24,37 @@ bool IsNear(const TrainedInput& input, double min, double max) {
   return min >= input.min - width && max <= input.max + width;
 }
 
-// Whether readings from min to max are like those of training. A length or an
-// angle is travelled, a temperature read where it stands.
-bool IsLike(const TrainedInput& input, double min, double max) {
+// A length or an angle is travelled, a temperature read where it stands.
+bool IsTravelled(const TrainedInput& input, double min, double max) {
   constexpr double kLeastTravel = 0.2;
-  return IsNear(input, min, max) &&
-         (input.column.unit.quantity == data::Quantity::kTemperature ||
-          max - min >= kLeastTravel * (input.max - input.min));
+  return input.column.unit.quantity == data::Quantity::kTemperature ||
+         max - min >= kLeastTravel * (input.max - input.min);
+}
+
+// Whether readings from min to max are like those of training.
+bool IsLike(const TrainedInput& input, double min, double max) {
+  return IsNear(input, min, max) && IsTravelled(input, min, max);
 }
 
 std::string LooksLike(const TrainedInput& input, double min, double max) {
   const data::Unit& unit = input.column.unit;
-  if (unit.quantity == data::Quantity::kOther || IsNear(input, min, max)) {
+  if (unit.quantity == data::Quantity::kOther || IsLike(input, min, max)) {
     return "";
   }
+  std::string nearest;
+  double least = std::numeric_limits<double>::infinity();
   for (const data::Unit& other : data::UnitsOf(unit.quantity)) {
-    if (other.symbol != unit.symbol &&
-        IsLike(input,
-               data::Converted(min, other, unit),
-               data::Converted(max, other, unit))) {
-      return other.symbol;
+    const double low = data::Converted(min, other, unit);
+    const double high = data::Converted(max, other, unit);
+    const double apart = std::abs(low - input.min) + std::abs(high - input.max);
+    if (other.symbol == unit.symbol || !IsLike(input, low, high) ||
+        apart >= least) {
+      continue;
     }
+    least = apart;
+    nearest = other.symbol;
   }
-  return "";
+  return nearest;
 }
 
 // (k) The readings that there are, in order of the rows.

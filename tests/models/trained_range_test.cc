@@ -59,6 +59,12 @@ TEST(InputsOutside, RecognisesTheUnitThatWasMeant) {
   EXPECT_EQ(looks_like(Trained("t1_degC", 16.0, 38.0), 40.0), "");
   EXPECT_EQ(looks_like(Trained("x_mm", 0.0, 800.0), 1200.0), "");
   EXPECT_EQ(looks_like(Trained("x_mm", 0.0, 800.0), 2400.0), "");
+  // Inches lie near the millimetres of an axis, but travel less.
+  EXPECT_EQ(InputsOutside({Trained("x_mm", -215.9, -12.7)},
+                          Eigen::MatrixXd{{-8.5}, {-4.5}, {-0.5}})
+                .front()
+                .looks_like,
+            "in");
 }
 
 TEST(InputsOutside, RecognisesTheUnitOfAnAxisByItsTravel) {
