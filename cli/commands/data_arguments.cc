@@ -230,11 +230,16 @@ desk::GivenError ErrorOfFlag(const char* flag,
 }
 
 double GoalOrNone(const std::optional<std::string>& goal,
-                  const data::Unit& target) {
+                  const data::ColumnInfo& target,
+                  double size,
+                  bool quiet) {
   const desk::GivenError given = ErrorOfFlag("--goal", goal, false);
   if (!given.is_given()) return models::kNotKnown;
+  const std::string remark =
+      desk::BareNumberRemark("goal", given, target, size);
+  if (!remark.empty()) SayUnless(quiet, {remark});
   return data::ThrowingAs<UsageError>(
-      "--goal ", [&] { return desk::InUnitOf(target, given); });
+      "--goal ", [&] { return desk::InUnitOf(target.unit, given); });
 }
 
 int JobsOf(int jobs) {

@@ -92,10 +92,13 @@ desk::GivenError ErrorOfFlag(const char* flag,
                              const std::optional<std::string>& text,
                              bool may_be_zero);
 
-/// Returns --goal in the target's unit, or NaN if it is not given. Throws
-/// UsageError.
+/// Returns --goal in the target's unit, or NaN if it is not given. Unless
+/// `quiet`, remarks on a bare number too large for errors of `size` (RMS,
+/// target's unit). Throws UsageError.
 double GoalOrNone(const std::optional<std::string>& goal,
-                  const data::Unit& target);
+                  const data::ColumnInfo& target,
+                  double size,
+                  bool quiet);
 
 /// Returns models::SplitList of a flag's value. Throws UsageError naming
 /// `flag`.

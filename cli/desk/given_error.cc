@@ -65,6 +65,27 @@ double InUnitOf(const data::Unit& target, const GivenError& given) {
          data::Converted(0.0, given.unit, target);
 }
 
+std::string BareNumberRemark(const char* what,
+                             const GivenError& given,
+                             const data::ColumnInfo& target,
+                             double size) {
+  constexpr double kLeastShare = 0.01;  // of the errors that is still a goal
+  const data::Unit& unit = target.unit;
+  if (given.has_unit() || unit.display_scale == 1.0 || !(given.value > size) ||
+      given.value / unit.display_scale < kLeastShare * size) {
+    return "";
+  }
+  return fmt::format(
+      "{0} {1} is in {2}, the unit of {3}: {4:g} {5}, more than the error "
+      "itself; write {1}{5} if that was meant",
+      what,
+      given.value,
+      unit.symbol,
+      data::Printable(target.name, target.name.size()),
+      unit.display_scale * given.value,
+      unit.display_symbol);
+}
+
 void CheckRezero(std::string_view text) {
   std::string noise;
   models::ParseRezero(text, &noise);

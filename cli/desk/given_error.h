@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "data/measurements/dataset.h"
 #include "data/units.h"
 #include "models/study/rezero/rezero_rule.h"
 
@@ -29,6 +30,14 @@ GivenError ParseGivenError(std::string_view text, bool may_be_zero);
 /// Returns the value in `target`, or NaN if none is given. Throws
 /// std::invalid_argument if its unit is of another quantity.
 double InUnitOf(const data::Unit& target, const GivenError& given);
+
+/// Returns a remark on a bare number above `size` (RMS of the errors, target's
+/// unit) that was rather meant in the unit that people read errors in; "" if
+/// there is nothing to say. `what`: "goal".
+std::string BareNumberRemark(const char* what,
+                             const GivenError& given,
+                             const data::ColumnInfo& target,
+                             double size);
 
 /// Checks the text of --rezero as far as possible without data. Throws
 /// std::invalid_argument; callers put the option's name before the message.

@@ -254,7 +254,8 @@ int RunCheck(const ProbeArguments& arguments, const std::string& command_line) {
   double goal = std::numeric_limits<double>::quiet_NaN();
   std::optional<models::ZeroSchedule> schedule;
   if (arguments.goal) {
-    goal = GoalOrNone(arguments.goal, fitted.target.unit);
+    goal =
+        GoalOrNone(arguments.goal, fitted.target, errors.rmse, arguments.quiet);
     RequireAges(fitted, arguments.model);
     schedule = models::ScheduleZeros(errors, goal);
   }
@@ -309,9 +310,7 @@ int RunCheck(const ProbeArguments& arguments, const std::string& command_line) {
         data::NamesOfFiles(arguments.files),
         report::CheckText(
             check, errors, sites, probes.elapsed, fitted.target.unit),
-        schedule
-            ? report::ZeroAdvice(*schedule, errors, fitted.target.unit, goal)
-            : ""));
+        schedule ? report::ZeroAdvice(*schedule, fitted, goal) : ""));
   }
   switch (check.status) {
     case models::SessionStatus::kHolds:

@@ -38,6 +38,7 @@
 #include "models/study/journal/kept_fits.h"
 #include "models/study/record/record_json.h"
 #include "models/study/study_defaults.h"
+#include "stats/error_metrics.h"
 
 namespace errmap::cli {
 namespace {
@@ -268,7 +269,10 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
   }
   const data::PreparedDataset prepared = ReadData(arguments.data);
   const data::Dataset& dataset = prepared.dataset;
-  const double goal = GoalOrNone(arguments.goal, dataset.target().unit);
+  const double goal = GoalOrNone(arguments.goal,
+                                 dataset.target(),
+                                 stats::RootMeanSquare(dataset.target_values()),
+                                 arguments.data.quiet);
   Learned learned;
   if (arguments.by == "sensors") {
     LearnBySensors(arguments, dataset, &learned);

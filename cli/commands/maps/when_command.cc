@@ -133,8 +133,8 @@ int RunWhen(const WhenArguments& arguments, const std::string& command_line) {
   const models::FittedModel fitted = LoadMap(arguments.model, false);
   RequireAges(fitted, arguments.model);
   const models::HeldOutErrors& errors = *fitted.held_out;
-  const data::Unit& unit = fitted.target.unit;
-  const double goal = GoalOrNone(arguments.goal, unit);
+  const double goal =
+      GoalOrNone(arguments.goal, fitted.target, errors.rmse, false);
   const models::ZeroSchedule schedule = models::ScheduleZeros(errors, goal);
   const models::ZeroTrigger advised = schedule.advised();
   std::optional<SinceProbe> since;
@@ -161,7 +161,7 @@ int RunWhen(const WhenArguments& arguments, const std::string& command_line) {
         fitted.name,
         report::Count(static_cast<long long>(schedule.sessions),
                       "unseen session"),
-        report::WhenText(schedule, errors, unit, goal),
+        report::WhenText(schedule, fitted, goal),
         since && schedule.clock
             ? report::ZeroDueText(advised, errors, since->age, since->change)
             : ""));

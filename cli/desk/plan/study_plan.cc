@@ -280,31 +280,22 @@ class ComponentPlanner {
     });
   }
 
-  // The component's own, else the study's, in the target's unit. A bare number
-  // that says nothing was meant in the unit that people read errors in.
+  // The component's own, else the study's, in the target's unit.
   std::optional<double> SizeOf(const char* what,
                                const GivenError& own,
                                const GivenError& of_study,
                                const data::Dataset& dataset) const {
     const GivenError& given = own.is_given() ? own : of_study;
     if (!given.is_given()) return std::nullopt;
-    const data::ColumnInfo& target = dataset.target();
-    const data::Unit& unit = target.unit;
-    if (!given.has_unit() && unit.display_scale != 1.0 && remark_ &&
-        given.value > stats::RootMeanSquare(dataset.target_values())) {
-      Tell(fmt::format(
-          "{0} {1} is in {2}, the unit of {3}: {4:g} {5}, more than the error "
-          "itself; write {1}{5} if that was meant",
-          what,
-          given.value,
-          unit.symbol,
-          data::Printable(target.name, target.name.size()),
-          unit.display_scale * given.value,
-          unit.display_symbol));
-    }
+    const std::string remark =
+        BareNumberRemark(what,
+                         given,
+                         dataset.target(),
+                         stats::RootMeanSquare(dataset.target_values()));
+    if (remark_ && !remark.empty()) Tell(remark);
     return data::ThrowingAs<data::InputError>(
         fmt::format("{}: {} ", component_.data, what),
-        [&] { return InUnitOf(unit, given); });
+        [&] { return InUnitOf(dataset.target().unit, given); });
   }
 
   const StudyConfig& study_;

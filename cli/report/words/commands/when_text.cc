@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/report/number_text.h"
+#include "cli/report/words/answers/component_numbers.h"
 #include "cli/report/words/answers/rezero_text.h"
 #include "data/column_header.h"
 #include "data/text.h"
@@ -53,22 +54,19 @@ std::string RuleSentence(const ZeroSchedule& schedule,
                          const models::HeldOutErrors& errors,
                          const ErrorText& error) {
   const ZeroSchedule::Rule& rule = *schedule.rule;
-  const std::string figures = fmt::format(
-      "{}, not {} RMSE, with no more probes. It errs less in {} of {} sessions "
-      "not used to find it",
+  if (!rule.established) {
+    return fmt::format(
+        "A rule by temperature ({}) is not proven better: keep to the clock.",
+        TemperatureText(errors));
+  }
+  return fmt::format(
+      "Better: {}. In sessions not used to find it, it leaves {}, not {} RMSE, "
+      "with no more probes, and errs less in {} of {}.",
+      RuleText(rule.trigger, errors),
       error(rule.rmse),
       error.WithUnit(rule.clock_rmse),
       rule.better,
       schedule.sessions);
-  if (!rule.established) {
-    return fmt::format(
-        "A rule by temperature ({}) is not proven better. It leaves {}. Keep "
-        "to the clock.",
-        TemperatureText(errors),
-        figures);
-  }
-  return fmt::format(
-      "Better: {}. It leaves {}.", RuleText(rule.trigger, errors), figures);
 }
 
 std::string TableRow(const std::string& when,
@@ -116,18 +114,35 @@ std::string IntervalsText(const ZeroSchedule& schedule,
   return text + " --goal 2um names the interval that keeps to it.\n";
 }
 
+std::string NoProbeText(const ZeroSchedule& schedule,
+                        const models::FittedModel& fitted,
+                        const ErrorText& error,
+                        double goal) {
+  std::string text = fmt::format(
+      "No probe is needed: 90 % of the errors are within {} as the map is.",
+      error.WithUnit(schedule.none.within_90));
+  // Few sessions promise less of another than they show of themselves.
+  if (fitted.interval && fitted.interval->levels[0].half_width > goal) {
+    text += fmt::format(
+        " But {} {} promise only {} for a new one: take a few probes in it "
+        "(errmap check).",
+        fitted.interval->units,
+        PluralOf(fitted.interval->unit),
+        error.WithUnit(fitted.interval->levels[0].half_width));
+  }
+  return text + "\n";
+}
+
 }  // namespace
 
 std::string ZeroAdvice(const ZeroSchedule& schedule,
-                       const models::HeldOutErrors& errors,
-                       const data::Unit& unit,
+                       const models::FittedModel& fitted,
                        double goal) {
   if (std::isnan(goal)) return "";
-  const ErrorText error = ErrorTextFor(schedule, unit);
+  const models::HeldOutErrors& errors = *fitted.held_out;
+  const ErrorText error = ErrorTextFor(schedule, fitted.target.unit);
   if (schedule.no_probe_serves) {
-    return fmt::format(
-        "No probe is needed: 90 % of the errors are within {} as the map is.\n",
-        error.WithUnit(schedule.none.within_90));
+    return NoProbeText(schedule, fitted, error, goal);
   }
   if (!schedule.clock) {
     const models::ZeroedErrors& best = *std::ranges::min_element(
@@ -149,10 +164,9 @@ std::string ZeroAdvice(const ZeroSchedule& schedule,
 }
 
 std::string WhenText(const ZeroSchedule& schedule,
-                     const models::HeldOutErrors& errors,
-                     const data::Unit& unit,
+                     const models::FittedModel& fitted,
                      double goal) {
-  const ErrorText error = ErrorTextFor(schedule, unit);
+  const ErrorText error = ErrorTextFor(schedule, fitted.target.unit);
   std::string text = fmt::format("{:<24} {:>17} {:>9} {:>11}\n",
                                  "a probe",
                                  "probes a session",
@@ -164,7 +178,7 @@ std::string WhenText(const ZeroSchedule& schedule,
   }
   return text + "\n" +
          (std::isnan(goal) ? IntervalsText(schedule, error)
-                           : ZeroAdvice(schedule, errors, unit, goal));
+                           : ZeroAdvice(schedule, fitted, goal));
 }
 
 std::string ZeroDueText(const ZeroTrigger& advised,

@@ -2,23 +2,21 @@
 
 #include <string>
 
-#include "data/units.h"
+#include "models/error_model.h"
 #include "models/session/zero_schedule.h"
 
 namespace errmap::report {
 
-/// Says what a map's errors on unseen sessions mean for the time between
-/// probes: a table, and the advice below it. `goal`: target's unit; NaN: no
-/// advice.
+/// Says what the errors of a map (with held_out) on unseen sessions mean for
+/// the time between probes: a table, and the advice below it. `goal`: target's
+/// unit; NaN: no advice.
 std::string WhenText(const models::ZeroSchedule& schedule,
-                     const models::HeldOutErrors& errors,
-                     const data::Unit& unit,
+                     const models::FittedModel& fitted,
                      double goal);
 
 /// The advice alone.
 std::string ZeroAdvice(const models::ZeroSchedule& schedule,
-                       const models::HeldOutErrors& errors,
-                       const data::Unit& unit,
+                       const models::FittedModel& fitted,
                        double goal);
 
 /// Describes in one sentence the state `age` (s) and `change` (temperature's

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -115,6 +116,33 @@ TEST_F(When, EndsWithAnErrorWhereNothingCanBeSaid) {
   const Outcome always = Run({"when", "map.json", "--goal", "1mm"});
   EXPECT_EQ(always.status, 0);
   EXPECT_THAT(always.out, HasSubstr("No probe is needed"));
+  EXPECT_THAT(always.out, Not(HasSubstr("for a new one")));
+}
+
+TEST_F(When, DoesNotCallEnoughWhatUnequalDaysDoNotPromise) {
+  std::string text = "day,time_s,position_mm,t1_degC,error_mm\n";
+  for (int day = 1; day <= 5; ++day) {
+    for (int i = 0; i < 60; ++i) {
+      text += fmt::format("{},{},{},{},{}\n",
+                          day,
+                          600 * i,
+                          100 * (i % 3),
+                          20 + 3 * day * i % 5,
+                          1e-4 * day * i);
+    }
+  }
+  Write("unequal.csv", text);
+  Run({"fit", "unequal.csv", "--model", "poly:position", "-o", "unequal.json"});
+  const Json found = RunJson({"when", "unequal.json", "--format", "json"});
+  const auto shown = found["none"]["within_90"].get<double>();
+  const Outcome narrow = Run(
+      {"when", "unequal.json", "--goal", fmt::format("{}mm", 1.001 * shown)});
+  EXPECT_THAT(OneLine(narrow.out),
+              AllOf(HasSubstr("No probe is needed"),
+                    HasSubstr("But 5 days promise only")));
+  EXPECT_THAT(Run({"when", "unequal.json", "--goal", "20"}).err,
+              HasSubstr("goal 20 is in mm, the unit of error_mm: 20000 um"));
+  EXPECT_EQ(Run({"when", "unequal.json", "--goal", "0.02"}).err, "");
 }
 
 // What probes say today and when to take the next ones, in one answer.
