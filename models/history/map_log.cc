@@ -54,9 +54,9 @@ void WarnOfSessions(const History& history,
     any_goes_on = any_goes_on || goes_on[s];
     if (!begins_inside[s]) continue;
     map->warnings.push_back(
-        fmt::format("warning: session {} begins inside, as no session of "
-                    "training began: inside = 0 {}; give its earlier rows with "
-                    "{}, or say {} where the machine was at rest before",
+        fmt::format("warning: session {} seems to have begun before its first "
+                    "row here: inside = 0 {}; give the earlier rows with {}, "
+                    "or say {} if the machine was at rest before",
                     data::QuotedText(log.sessions.labels[s]),
                     UntilSettled(history),
                     data::ArgumentName("after"),

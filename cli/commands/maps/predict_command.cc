@@ -149,7 +149,7 @@ struct Predicted {
   std::optional<models::ProbeCorrection> probes;
   std::vector<models::RowFlag> flags;  // the column that is missing
   std::vector<bool> made_for;          // as models::RowsMadeFor
-  Index clipped = 0;
+  std::vector<bool> clipped;           // as models::Prediction
 
   Index NumWhole() const { return std::ranges::count(is_whole, true); }
   models::Missing MissingBefore(std::size_t row) const {
@@ -179,7 +179,8 @@ std::string_view WhyOutside(const Predicted& found, std::size_t row) {
   return "";
 }
 
-// ",LOWER,UPPER" at each coverage; empty cells without an interval.
+// ",LOWER,UPPER" at each coverage; empty cells without an interval, and where
+// the map is clipped: no held-out row tells how it errs there.
 std::string IntervalCells(const Predicted& found, bool inside, Index row) {
   const double predicted = found.errors[row];
   std::string cells;
@@ -187,7 +188,8 @@ std::string IntervalCells(const Predicted& found, bool inside, Index row) {
        ++i) {
     const double half_width =
         HalfWidth(found.fitted, i, inside, found.probes, row);
-    cells += std::isfinite(predicted) && std::isfinite(half_width)
+    cells += std::isfinite(predicted) && std::isfinite(half_width) &&
+                     !found.clipped[static_cast<std::size_t>(row)]
                  ? fmt::format(",{},{}",
                                data::CsvNumber(predicted - half_width),
                                data::CsvNumber(predicted + half_width))
@@ -206,13 +208,16 @@ std::ptrdiff_t TimeColumn(const Predicted& found, const std::string& named) {
   return of_map < 0 ? data::TimeColumn(found.table) : of_map;
 }
 
-// The columns that tell a row apart, where the file has them: its number and
-// cycle, when and where it is.
+// The columns that tell a row apart, where the file has them: its number,
+// session and cycle, when and where it is.
 std::vector<const data::CsvColumn*> IdColumns(const Predicted& found,
                                               const std::string& time) {
-  std::vector<std::ptrdiff_t> places = {found.table.Find("record"),
-                                        data::CycleColumn(found.table),
-                                        TimeColumn(found, time)};
+  const models::History* const history = found.fitted.history.get();
+  std::vector<std::ptrdiff_t> places = {
+      found.table.Find("record"),
+      history == nullptr ? -1 : found.table.Find(history->session),
+      data::CycleColumn(found.table),
+      TimeColumn(found, time)};
   for (const models::TrainedInput& input : found.fitted.inputs) {
     if (!data::IsPosition(input.column)) continue;
     places.push_back(found.table.Find(input.column.name));
@@ -291,12 +296,14 @@ void SaySensorFault(const models::FittedModel& fitted, const MatrixXd& inputs) {
   Say("warning: " + text);
 }
 
-void SayClipped(Index clipped) {
+void SayClipped(const Predicted& found) {
+  const Index clipped = std::ranges::count(found.clipped, true);
   if (clipped == 0) return;
   Say(
       fmt::format("warning: {} clipped by the map's guards, since an input "
-                  "or the error went far beyond its trained range",
-                  report::Count(clipped, "row")));
+                  "or the error went far beyond its trained range{}",
+                  report::Count(clipped, "row"),
+                  found.fitted.interval ? "; no interval there" : ""));
 }
 
 // Rows that lack a reading are told by the column of the first.
@@ -336,12 +343,13 @@ Predicted PredictRows(const models::FittedModel& fitted,
       .probes = {},
       .flags = std::vector<models::RowFlag>(num_rows),
       .made_for = models::RowsMadeFor(fitted, read.table),
-      .clipped = prediction.clipped.count()};
+      .clipped = std::vector<bool>(num_rows)};
   for (std::size_t i = 0; i < whole.rows.size(); ++i) {
     const auto row = static_cast<std::size_t>(whole.rows[i]);
     found.errors[whole.rows[i]] = prediction.errors[static_cast<Index>(i)];
     found.is_whole[row] = true;
     found.flags[row] = flags[i];
+    found.clipped[row] = prediction.clipped[static_cast<Index>(i)];
   }
   for (std::size_t row = 0; row < num_rows; ++row) {
     if (found.is_whole[row]) continue;
@@ -368,7 +376,7 @@ void SayAll(const Predicted& found, const WholeRows& whole) {
              data::AllRows(found.table.num_rows),
              false);
   SaySensorFault(found.fitted, inputs);
-  SayClipped(found.clipped);
+  SayClipped(found);
   if (const Index learnt =
           models::CountLearntRows(found.fitted, inputs, nullptr);
       learnt > 0) {
@@ -446,10 +454,10 @@ void AddPredictCommand(CLI::App* app, Run* run) {
   AddQuietFlag(command, &command->quiet);
   SetFooter(
       command,
-      R"(Columns: record; cycle, time and position if the data have them; predicted,
-lower_90 to upper_95 (empty without an interval), inside, why, offender and
-unit. inside is 1 for rows like those in training, else 0, and why says
-what differs.
+      R"(Columns: record; session, cycle, time and position if the data have them;
+predicted, lower_90 to upper_95, inside, why, offender and unit. Without an
+interval, and where the map is clipped, the bounds are empty. inside is 1 for
+rows like those in training, else 0, and why says what differs.
 - range: a column (offender) leaves its trained range
 - relation: it contradicts the other columns
 - distance, leverage: the thermal state is far from all trained ones

@@ -236,14 +236,14 @@ TEST_F(CliMemory, WarnsOncePerSessionThatBeginsInside) {
   const Outcome outcome = Run({"predict", "map.json", "later.csv"});
   EXPECT_THAT(
       outcome.err,
-      AllOf(HasSubstr("warning: session '1' begins inside, as no session of "
-                      "training began"),
+      AllOf(HasSubstr("warning: session '1' seems to have begun before its "
+                      "first row here: inside = 0"),
             HasSubstr("--after, or say --from-rest"),
-            HasSubstr("warning: session '2' begins inside")));
+            HasSubstr("session '2' seems to have begun before")));
   EXPECT_THAT(ColumnOf(outcome, "inside"), ::testing::Each(0.0));
   const Outcome rested =
       Run({"predict", "map.json", "later.csv", "--from-rest"});
-  EXPECT_THAT(rested.err, Not(HasSubstr("begins inside")));
+  EXPECT_THAT(rested.err, Not(HasSubstr("seems to have begun before")));
   EXPECT_THAT(ColumnOf(rested, "inside"), ::testing::Each(1.0));
   EXPECT_THAT(
       Run({"predict", "map.json", "later.csv", "--after", "later.csv"}).err,

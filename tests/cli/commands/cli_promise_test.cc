@@ -42,6 +42,18 @@ TEST_F(CliPromise, PredictNamesWhatPutsARowOutside) {
   EXPECT_THAT(raised.err, HasSubstr("warning: farthest outside is data row"));
 }
 
+// No held-out row tells how the map errs where it is clipped.
+TEST_F(CliPromise, PredictStatesNoIntervalFarBeyondTheTraining) {
+  Write("dead.csv", DaysInCliPromise(3, 3, 0.0, -500.0));
+  const Outcome dead = Run({"predict", "map.json", "dead.csv"});
+  for (const auto& row : Records(dead.out)) {
+    EXPECT_NE(row.at("predicted"), "");
+    EXPECT_EQ(row.at("lower_90"), "");
+    EXPECT_EQ(row.at("upper_95"), "");
+  }
+  EXPECT_THAT(dead.err, HasSubstr("trained range; no interval there"));
+}
+
 // What held-out rows showed of rows unlike their training, predict says of such
 // rows alone, and evaluate counts by it.
 TEST_F(CliPromise, TheIntervalIsWiderWhereTheMapWasNotTrained) {
@@ -338,7 +350,7 @@ TEST_F(CliPromise, CheckAndProbesKnowWhereTheSessionBegan) {
   EXPECT_EQ(only.status, 5);
   EXPECT_THAT(only.out, HasSubstr("Not known whether the map holds"));
   EXPECT_THAT(only.out, Not(HasSubstr("re-zero by")));
-  EXPECT_THAT(only.err, HasSubstr("warning: session '11' begins inside"));
+  EXPECT_THAT(only.err, HasSubstr("session '11' seems to have begun before"));
 
   const Outcome by_all =
       Run({"predict", "zero.json", "day.csv", "--probes", "all.csv"});
@@ -346,7 +358,7 @@ TEST_F(CliPromise, CheckAndProbesKnowWhereTheSessionBegan) {
       Run({"predict", "zero.json", "day.csv", "--probes", "only.csv"});
   EXPECT_EQ(by_all.status, 0) << by_all.err;
   EXPECT_EQ(by_only.out, by_all.out);
-  EXPECT_THAT(by_only.err, Not(HasSubstr("begins inside")));
+  EXPECT_THAT(by_only.err, Not(HasSubstr("seems to have begun before")));
 }
 
 // A filter that has seen nothing between two probes says something else than in

@@ -131,23 +131,30 @@ std::string OffsetLine(const models::ProbeCorrection& correction,
         correction.num_probes == 1 ? "s" : "",
         Count(track.offset.size(), "row"));
   }
-  const Eigen::Index last = track.offset.size() - 1;
+  // Rows of another session behind them are not moved.
+  const Eigen::Index last =
+      track.used.rend() -
+      std::ranges::find_if(track.used.rbegin(),
+                           track.used.rend(),
+                           [](Eigen::Index used) { return used > 0; }) -
+      1;
   const double known = std::sqrt(track.variance[last]);
   const ErrorText error(unit, std::sqrt(correction.model.noise));
   std::string line =
-      fmt::format("{} {} {} of {}; the offset in the last is {}, known to {}",
+      fmt::format("{} {} {} of {}; the last of them by {}, known to {}",
                   Count(correction.num_probes, "probe"),
                   correction.num_probes == 1 ? "moves" : "move",
                   corrected,
                   Count(track.offset.size(), "row"),
                   error.WithUnit(track.offset[last]),
                   error.WithUnit(known));
-  if (track.contradicted.back()) {
+  const auto at = static_cast<std::size_t>(last);
+  if (track.contradicted[at]) {
     line += fmt::format(
         "; warning: these probes show more than an offset, so the interval is "
         "{:.2g} times as wide",
         track.widening[last]);
-  } else if (track.used.back() == 1) {
+  } else if (track.used[at] == 1) {
     line +=
         "; one probe cannot tell an offset from a wrong shape, so the interval "
         "does not narrow";
