@@ -13,17 +13,21 @@ namespace {
 
 constexpr double kSecondsPerMinute = 60.0;
 
-std::string TimesText(const models::HeldOutErrors& errors,
+std::string TimesText(const models::SessionCheck& check,
+                      const models::HeldOutErrors& errors,
                       const Eigen::VectorXd& elapsed) {
   if (errors.time_unit != "s") return "";
   const bool is_short = elapsed.maxCoeff() < 2.0 * kSecondsPerMinute;
   const double unit = is_short ? 1.0 : kSecondsPerMinute;
   const std::string first = fmt::format("{:.0f}", elapsed.minCoeff() / unit);
   const std::string last = fmt::format("{:.0f}", elapsed.maxCoeff() / unit);
-  return fmt::format(", {}{} {} after the session began",
+  return fmt::format(", {}{} {} after {}",
                      first,
                      last == first ? "" : " to " + last,
-                     is_short ? "s" : "min");
+                     is_short ? "s" : "min",
+                     check.missing == models::Missing::kStart
+                         ? "its first row"
+                         : "the session began");
 }
 
 std::string NameText(const data::ColumnInfo& column) {
@@ -82,6 +86,14 @@ std::string StatusText(const models::SessionCheck& check,
   if (!std::isfinite(check.session.low)) {
     return "Not known whether the map holds: it states no error to hold.\n";
   }
+  const std::string limit =
+      fmt::format("{}, {} times the promise",
+                  error.WithUnit(models::kOffRatio * check.promised),
+                  models::kOffRatio);
+  if (check.remedy == models::Remedy::kSign ||
+      check.remedy == models::Remedy::kGain) {
+    return fmt::format("{}: the limit is {}.\n", LeadOf(check.status), limit);
+  }
   const bool so_far = check.status == models::SessionStatus::kHoldsSoFar;
   const models::RmseForecast& told = so_far ? check.so_far : check.session;
   // The session beside the probes may err by more or less than these.
@@ -91,15 +103,14 @@ std::string StatusText(const models::SessionCheck& check,
                                     : "";
   return fmt::format(
       "{}: its error{} is {}{} to {} RMSE with 80 % confidence{}. The limit is "
-      "{}, {} times the promise.\n",
+      "{}.\n",
       LeadOf(check.status),
       so_far ? " until now" : "",
       *beside_probes != '\0' ? "forecast at " : "",
       error(told.low),
       error.WithUnit(told.high),
       beside_probes,
-      error.WithUnit(models::kOffRatio * check.promised),
-      models::kOffRatio);
+      limit);
 }
 
 std::string RemedyText(const models::SessionCheck& check,
@@ -115,7 +126,7 @@ std::string RemedyText(const models::SessionCheck& check,
           error.WithUnit(check.left));
     case models::Remedy::kGain:
       return fmt::format(
-          "The errors are {:.2f} times those predicted: check the unit and the "
+          "The errors are {:.3g} times those predicted: check the unit and the "
           "scale of this measurement. If they are right, measure this state in "
           "two sessions or more and fit again (errmap update).\n",
           check.gain);
@@ -234,7 +245,7 @@ std::string CheckText(const models::SessionCheck& check,
                       const data::Unit& unit) {
   const ErrorText error(unit, check.promised);
   return fmt::format("{}: RMS {}, mean {}; promised {} RMSE\n{}{}{}",
-                     TimesText(errors, elapsed),
+                     TimesText(check, errors, elapsed),
                      error.WithUnit(check.probe_rms),
                      error.WithUnit(check.probe_mean),
                      error.WithUnit(check.promised),
