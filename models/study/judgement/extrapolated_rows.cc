@@ -7,17 +7,18 @@ FoldValues ValuesOfFold(const data::Dataset& dataset,
                         const stats::Fold& fold,
                         Index input) {
   const auto values = dataset.input_values().col(input);
-  return {values(fold.train),
+  const VectorXd trained = values(fold.train);
+  return {trained.minCoeff(),
+          trained.maxCoeff(),
           holdout.test_data != nullptr
               ? VectorXd(holdout.test_data->input_values().col(input))
               : VectorXd(values(fold.test))};
 }
 
-std::vector<Eigen::Array<bool, Eigen::Dynamic, 1>> ExtrapolatedRows(
-    const data::Dataset& dataset,
-    const Holdout& holdout,
-    const FittedModel& map) {
-  std::vector<Eigen::Array<bool, Eigen::Dynamic, 1>> outside;
+std::vector<RowFlags> ExtrapolatedRows(const data::Dataset& dataset,
+                                       const Holdout& holdout,
+                                       const FittedModel& map) {
+  std::vector<RowFlags> outside;
   for (const stats::Fold& fold : holdout.folds) {
     auto& rows = outside.emplace_back();
     rows.setConstant(holdout.test_data != nullptr
@@ -25,10 +26,9 @@ std::vector<Eigen::Array<bool, Eigen::Dynamic, 1>> ExtrapolatedRows(
                          : std::ssize(fold.test),
                      false);
     for (const TrainedInput& input : map.inputs) {
-      const auto [trained, tested] = ValuesOfFold(
+      const FoldValues values = ValuesOfFold(
           dataset, holdout, fold, dataset.FindInput(input.column.name));
-      rows = rows || tested.array() < trained.minCoeff() ||
-             tested.array() > trained.maxCoeff();
+      rows = rows || values.Below() || values.Above();
     }
   }
   return outside;

@@ -2,15 +2,27 @@
 
 #include <vector>
 
+#include "models/map_experience.h"
 #include "models/study/study.h"
 #include "stats/eigen.h"
 
 namespace errmap::models {
 
-/// An input in a fold's training rows and in its held-out rows.
+using RowFlags = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
+/// The range of an input in a fold's training rows, and its values in the
+/// held-out ones. Noise at a bound, up to kRangeTolerance of the range, is
+/// within.
 struct FoldValues {
-  VectorXd trained;
+  double low;
+  double high;
   VectorXd tested;
+
+  RowFlags Below() const { return tested.array() < low - tolerance(); }
+  RowFlags Above() const { return tested.array() > high + tolerance(); }
+
+ private:
+  double tolerance() const { return kRangeTolerance * (high - low); }
 };
 FoldValues ValuesOfFold(const data::Dataset& dataset,
                         const Holdout& holdout,
@@ -19,9 +31,8 @@ FoldValues ValuesOfFold(const data::Dataset& dataset,
 
 /// Tells for each fold's held-out rows, in their order, if an input of the map
 /// lies outside the fold's training range: the fold extrapolates there.
-std::vector<Eigen::Array<bool, Eigen::Dynamic, 1>> ExtrapolatedRows(
-    const data::Dataset& dataset,
-    const Holdout& holdout,
-    const FittedModel& map);
+std::vector<RowFlags> ExtrapolatedRows(const data::Dataset& dataset,
+                                       const Holdout& holdout,
+                                       const FittedModel& map);
 
 }  // namespace errmap::models

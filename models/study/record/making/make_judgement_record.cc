@@ -265,15 +265,12 @@ std::vector<BeyondRecord> BeyondTraining(
     Index rows = 0;
     BeyondRecord beyond{.column = name};
     for (const stats::Fold& fold : holdout.folds) {
-      const auto [trained, tested] =
-          ValuesOfFold(dataset, holdout, fold, column);
-      const double low = trained.minCoeff();
-      const double high = trained.maxCoeff();
-      const Index under = (tested.array() < low).count();
-      const Index over = (tested.array() > high).count();
+      const FoldValues values = ValuesOfFold(dataset, holdout, fold, column);
+      const Index under = values.Below().count();
+      const Index over = values.Above().count();
       rows += under + over;
-      if (under > 0) beyond.below = std::fmax(beyond.below, low);
-      if (over > 0) beyond.above = std::fmin(beyond.above, high);
+      if (under > 0) beyond.below = std::fmax(beyond.below, values.low);
+      if (over > 0) beyond.above = std::fmin(beyond.above, values.high);
     }
     if (rows == 0 || beyond.below >= beyond.above) continue;
     // The map has learnt what every fold has, and nothing counts below one.

@@ -49,6 +49,15 @@ TEST(ExtrapolatedRows, TellsOfEachFoldTheRowsBeyondWhatItWasTrainedOn) {
                           ElementsAre(false, true)));
 }
 
+// As positions do that are measured, not commanded.
+TEST(ExtrapolatedRows, TakesNoiseAtABoundForWithin) {
+  const FoldValues values{.low = 0.0,
+                          .high = 100.0,
+                          .tested = Eigen::Vector4d(-3.0, -1.0, 101.0, 103.0)};
+  EXPECT_EQ(values.Below().count(), 1);
+  EXPECT_EQ(values.Above().count(), 1);
+}
+
 TEST(ExtrapolatedRows, LooksAtInputsOfTheMapOnly) {
   Holdout last = MakeHoldouts(Rows(), {"every:3"}).front();
   last.folds = {{.train = {0, 1, 2, 5}, .test = {3, 4}},
