@@ -222,8 +222,9 @@ MeasuredFiles FindFiles(const std::vector<std::string>& given,
           !fs::exists(path, ignored) &&
           FilesInMemory::FindTable(path) == nullptr) {
         throw InputError(PrintablePath(path) +
-                         ": cannot be read: there is no such file; names in a "
-                         "list stand between commas, without blanks");
+                         ": cannot be read: there is no such file; write "
+                         "lists (A,B) and numbers with a unit (2um) without "
+                         "blanks");
       }
       if (path.ends_with(".toml")) {
         throw InputError(PrintablePath(path) +

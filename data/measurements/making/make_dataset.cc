@@ -437,13 +437,26 @@ class DatasetBuilder {
                      const std::string& why,
                      const std::string& behind) {
     dropped_.push_back({.column = input, .why = why});
-    const std::string what =
-        NameInRemark(input) + " " + why + " and is left out" + behind;
-    remarks_.push_back("input " + what);
+    const std::string what = why + " and is left out" + behind;
+    RemarkOnLeftOut(NameInRemark(input), what);
     if (!IsNamed(input)) return;
     doubts_.push_back("The input " + NameInRemark(input) + ", asked for by " +
-                      ArgumentName("inputs") + ", " +
-                      what.substr(NameInRemark(input).size() + 1) + ".");
+                      ArgumentName("inputs") + ", " + what + ".");
+  }
+
+  // One line for those that the same is said of, one after another.
+  void RemarkOnLeftOut(const std::string& name, const std::string& what) {
+    const std::string of_one = "input " + name + " " + what;
+    if (what != said_of_all_.what || remarks_.empty() ||
+        remarks_.back() != said_of_all_.remark) {
+      said_of_all_ = {.what = what, .names = {name}, .remark = of_one};
+      remarks_.push_back(of_one);
+      return;
+    }
+    said_of_all_.names.push_back(name);
+    said_of_all_.remark =
+        "inputs " + JoinWords(said_of_all_.names, ", ") + ": each " + what;
+    remarks_.back() = said_of_all_.remark;
   }
 
   void ReportIdle(const std::string& input, const IdleInput& idle) {
@@ -558,6 +571,11 @@ class DatasetBuilder {
   RepeatedInputs repeated_;
   std::vector<DroppedColumn> dropped_;
   std::vector<std::string> remarks_;
+  struct {
+    std::string what;
+    std::vector<std::string> names;
+    std::string remark;  // that is on all of them
+  } said_of_all_;
   std::vector<ColumnFault> faults_;
   std::vector<std::size_t> words_;  // columns that name things
   std::vector<std::size_t> records_;

@@ -139,18 +139,18 @@ void FindSessionsOfRows(TableInReading* in) {
                            in->selection,
                            in->read.log_rows,
                            CluesOfLog(*in));
-  } catch (const InputError& error) {
+  } catch (const InputError&) {
     if (in->read.repeated_rows.empty() ||
         in->selection.faults == FaultPolicy::kDropRows) {
       throw;
     }
     throw InputError(
-        std::string(error.what()) + " (" +
+        PrintablePath(in->table().file) + ": " +
         std::to_string(in->read.repeated_rows.size()) +
         " rows repeat others value for value, the first at line " +
         std::to_string(in->table().LineOfRow(
             static_cast<std::size_t>(in->read.repeated_rows.front()))) +
-        "; " + ArgumentName("faults", "drop-rows") + " leaves them out)");
+        "; " + ArgumentName("faults", "drop-rows") + " leaves them out");
   }
 }
 

@@ -66,8 +66,9 @@ TEST_F(Cli, WrongCommandLinesGetOneLine) {
   }
   // A further word is a further file.
   EXPECT_THAT(RefusalOf(Run({"compare", kDown, "more"}), kUnusable),
-              HasSubstr("more: cannot be read: there is no such file; names in "
-                        "a list stand between commas"));
+              HasSubstr("more: cannot be read: there is no such file; write "
+                        "lists (A,B) and numbers with a unit (2um) without "
+                        "blanks"));
 }
 
 TEST_F(Cli, HelpAndVersionGoToStdout) {

@@ -44,6 +44,14 @@ TEST(IdleInputs, LeavesOutDeadInputsWithARemark) {
   EXPECT_EQ(prepared.dropped[0].why, "is dead (0 in all 10 rows)");
 }
 
+TEST(IdleInputs, AreToldInOneLineWhereTheSameIsSaid) {
+  EXPECT_THAT(Make("a,b,c,d,error_um\n1,0,0,5,1\n2,0,0,5,3\n").remarks,
+              ElementsAre("inputs b, c: each is dead (0 in all 2 rows) and is "
+                          "left out; keep_dead keeps it",
+                          "input d is dead (5 in all 2 rows) and is left out; "
+                          "keep_dead keeps it"));
+}
+
 TEST(IdleInputs, KeepsDeadInputsWhereAskedAndSaysSo) {
   const PreparedDataset prepared =
       Make("zero,nought,a,error_um\n0,0,1,1\n0,0,2,3\n", {.keep_dead = true});
