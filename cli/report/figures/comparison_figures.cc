@@ -173,6 +173,8 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
   Plot& plot = figure.plot;
   Span span;
   std::vector<Series> marks = HoldoutMarks(view, models, holdouts, &span);
+  const bool has_bars =
+      !holdouts.empty() && !marks.front().columns.front().empty();
   plot.series.push_back(LinksOf(view, models, holdouts));
   for (Series& series : marks) plot.series.push_back(std::move(series));
   const double goal = view.component->goal * view.scale;
@@ -201,10 +203,10 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
       kFrame + kRow * static_cast<int>(models.size()), kLeast, kMost);
   figure.note =
       view.decisive_is_unseen
-          ? "The filled dot counts. An open dot far to its left looks too "
-            "good, since the map knew neighbouring rows. Bars: 95 % "
-            "intervals."
-          : "Further left is better. Bars: 95 % intervals.";
+          ? "The orange dot counts. An open dot far to its left looks too "
+            "good, since the map knew neighbouring rows."
+          : "Further left is better.";
+  if (has_bars) figure.note += " Bars: 95 % intervals.";
   figure.description = GapWords(view, holdouts);
   return figure;
 }

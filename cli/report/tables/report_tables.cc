@@ -163,7 +163,10 @@ Table ComparisonTable(const ReportView& view, const std::string& holdout) {
         {{{"other model", false}, model->name},
          {{ErrorHead(view, "difference")}, Interval{interval, difference}},
          {{"p", true, "sign-flip test"}, P{pair->p}},
-         {{"p (Holm)", true, "- if the units are too few"}, CorrectedP(*pair)},
+         {{"p (Holm)",
+           true,
+           "one-sided against a baseline; - if the units are too few"},
+          CorrectedP(*pair)},
          {{"p Wilcoxon"}, P{pair->tests.wilcoxon.p}},
          {{"p corrected t", true, "Nadeau and Bengio"},
           p_of(pair->tests.corrected_t)},
@@ -207,14 +210,15 @@ Table SinceStartTable(const ReportView& view) {
   constexpr double kMinute = 60.0;
   Table table{.title = "Error since the start of a session, " +
                        view.recommended + ", " + view.decisive};
+  table.error = ErrorTextOf(view);
   if (view.component->recommendation) {
     for (const models::SinceStartRecord& part :
          view.component->recommendation->since_start) {
       table.Add({{{"from, min"}, Number{part.from / kMinute, 3}},
                  {{"to, min"}, Number{part.until / kMinute, 3}},
                  {{"rows"}, part.n},
-                 {{"mean"}, Error{part.mean}},
-                 {{"RMSE"}, Error{part.rmse}}});
+                 {{ErrorHead(view, "mean")}, Error{part.mean}},
+                 {{ErrorHead(view, "RMSE")}, Error{part.rmse}}});
     }
   }
   return table;

@@ -479,7 +479,7 @@ Table TerminalTimes(const ReportView& view) {
 Table SummaryRows(const models::StudyRecord& record) {
   Table table{.columns = {{.name = "component", .is_number = false},
                           {.name = "use", .is_number = false},
-                          {.name = "error"},
+                          {.name = "RMSE"},
                           {.name = "95 %", .gap = 1},
                           {.name = "proven", .is_number = false},
                           {.name = "goal", .is_number = false}}};
@@ -496,7 +496,7 @@ Table SummaryRows(const models::StudyRecord& record) {
     }
     const ErrorText error = ErrorTextOf(component);
     const ModelRecord& model = *found;
-    std::string interval;
+    std::string interval = "-";
     if (std::isfinite(advice->ci95[0])) {
       interval =
           fmt::format("{}-{}", error(advice->ci95[0]), error(advice->ci95[1]));
@@ -506,7 +506,8 @@ Table SummaryRows(const models::StudyRecord& record) {
          data::Printable(advice->model, advice->model.size()),
          error.WithUnit(advice->rmse),
          interval,
-         !advice->against_baseline                                       ? ""
+         !advice->against_baseline || model.choice == models::Choice::kBaseline
+             ? "-"
          : *advice->against_baseline == models::Confidence::kEstablished ? "yes"
                                                                          : "no",
          Goal({component,

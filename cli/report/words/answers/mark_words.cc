@@ -23,14 +23,15 @@ std::string WhyRecommended(const ComponentNumbers& component) {
         "much",
         *advice.fails_in);
   }
+  if (advice.single && advice.decided_by != advice.holdout) {
+    return fmt::format("an average of maps: {} do not choose between them",
+                       CountOfUnits(component.record.data.sessions,
+                                    component.HoldoutOfAdvice()));
+  }
   if (advice.single) {
     return fmt::format(
-        "an average of maps: {}. Best single map: {} ({})",
-        advice.decided_by == advice.holdout
-            ? "no single one is proven better"
-            : fmt::format("{} do not choose between them",
-                          CountOfUnits(component.record.data.sessions,
-                                       component.HoldoutOfAdvice())),
+        "an average of maps: no single one is proven better. Best single map: "
+        "{} ({})",
         *advice.single,
         component.RmseWithUnit(*advice.single));
   }

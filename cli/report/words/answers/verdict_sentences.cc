@@ -124,10 +124,8 @@ std::string ChoiceSentence(const ComponentNumbers& component,
           verdict.established ? "" : "not ");
     case Choice::kBaseline:
       return verdict.established
-                 ? "A baseline shares its first tier: no map is worth more "
-                   "there, established."
-                 : "A baseline shares its first tier: no map is known to be "
-                   "worth more there.";
+                 ? "No map is worth more than a baseline, established."
+                 : "No map is proven better than a baseline.";
     default:
       break;
   }

@@ -420,6 +420,7 @@ TEST(PageUnits, LeaveTheWordsOfAnIncompleteRecord) {
   ComponentRecord record = Base();
   record.recommendation->reasons = {"As it was told."};
   record.recommendation->single = "a map that is not there";
+  record.recommendation->decided_by = record.recommendation->holdout;
   const ComponentRecord page = WithPageUnits(Study(record)).components.front();
   EXPECT_THAT(page.recommendation->reasons, ElementsAre("As it was told."));
   EXPECT_THROW(AddSentences(&record), data::InputError);
