@@ -405,11 +405,10 @@ void AddExportCommand(CLI::App* app, Run* run) {
           "--linuxcnc",
           command->linuxcnc,
           "A COMP_FILE of type 0 for a joint of LinuxCNC");
-  AddOption(
-      command,
-      "--max-offset X",
-      command->max_offset,
-      "Largest compensation: 20um (default: 1.3 times the trained errors)");
+  AddOption(command,
+            "--max-offset X",
+            command->max_offset,
+            "Largest compensation: 20um (default: 1.3 times the errors' span)");
   AddOption(command,
             "--max-rate X",
             command->max_rate,
