@@ -151,7 +151,7 @@ void ComponentScreen::Leaderboard() {
   if (!view_.recommended.empty()) legend.push_back(MarkWords(view_));
   std::string where =
       fmt::format("RMSE: {}", WhereWords(view_, view_.decisive));
-  if (!view_.neighbours.empty()) {
+  if (!view_.neighbours.empty() && !record_.rezero) {
     where += "; " + WhereWords(view_, view_.neighbours);
   }
   if (!view_.later.empty()) {
@@ -168,7 +168,7 @@ void ComponentScreen::Leaderboard() {
   legend.push_back(where + ".");
   if (record_.rezero) {
     legend.push_back(fmt::format(
-        "All {} but no re-zero, the same rows without it (--rezero).",
+        "All {} (--rezero), but no re-zero: the same rows without it.",
         RezeroedWords(record_)));
   }
   if (std::string drawn = DrawnRowsWords(view_); !drawn.empty()) {

@@ -431,11 +431,11 @@ Table TerminalLeaderboard(const ReportView& view, std::size_t most_rows) {
   const ComponentRecord& component = *view.component;
   std::vector<Slot> slots = SlotsOf({"model", "sensors"});
   Append(SlotsOf({"test_rmse", "ci95"}, view.decisive), &slots);
-  if (const std::string& other = view.neighbours; !other.empty()) {
-    Append(SlotsOf({"test_rmse"}, other, UnseenWords(view, other)), &slots);
-  }
+  // 80 columns hold one of the two and the models' names.
   if (component.rezero) {
     Append(SlotsOf({"never_rezeroed"}, view.decisive), &slots);
+  } else if (const std::string& other = view.neighbours; !other.empty()) {
+    Append(SlotsOf({"test_rmse"}, other, UnseenWords(view, other)), &slots);
   }
   if (!view.later.empty()) {
     Append(SlotsOf({"test_rmse"}, view.later, "later"), &slots);

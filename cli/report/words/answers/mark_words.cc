@@ -35,6 +35,9 @@ std::string WhyRecommended(const ComponentNumbers& component) {
         *advice.single,
         component.RmseWithUnit(*advice.single));
   }
+  if (advice.choice == models::Choice::kBaseline) {
+    return "a baseline: no map with sensors is shown to be worth them";
+  }
   if (advice.first_tier.size() < 2) return "";
   const std::string& lowest = advice.first_tier.front();
   return lowest == advice.model
