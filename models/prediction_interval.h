@@ -36,7 +36,7 @@ struct PredictionInterval {
   /// the rows as sessions do are sessions.
   bool of_sessions = false;
   /// Number of future sessions for which it holds, as mean errors of
-  /// neighbouring sessions may be correlated; 0 if they are not. lag1 is their
+  /// neighbouring sessions may be correlated; 0: for any number. lag1 is their
   /// correlation (NaN if not computed).
   Index good_for = 0;
   double lag1 = stats::kNaN;

@@ -35,8 +35,8 @@ struct Spike {
 /// Finds such readings of the thermometers (m x p; NaN if a cell is empty),
 /// sorted by input, then row. They differ from the median of their column and
 /// from their neighbours by more than three trained ranges, at least 10 degC. A
-/// column with fewer than three readings has none. Nor has one in which more
-/// than a fifth of the readings are such, or more than one of fewer than ten.
+/// column with fewer than three readings has none. Nor has a column in which
+/// they are more than a fifth (of fewer than ten readings, more than one).
 std::vector<Spike> FindSpikes(const std::vector<TrainedInput>& inputs,
                               const MatrixXd& readings);
 

@@ -116,7 +116,7 @@ std::unique_ptr<models::ModelRecipe> RecipeFromArgument(
 void Say(const std::string& line);
 /// Says each of `lines`, unless `quiet`.
 void SayUnless(bool quiet, const std::vector<std::string>& lines);
-/// Returns Say, or an empty function if `quiet`.
+/// Returns the function Say, or an empty one if `quiet`.
 std::function<void(const std::string&)> Sayer(bool quiet);
 
 /// Adds --keep-paths to the help. The program itself reads it, before any

@@ -113,7 +113,7 @@ struct CertificationFloors {
   double nonlinear_mean_lre_parameters = 10.6;
   double nonlinear_lre_sd = 10.0;
   double nonlinear_lre_rss = 10.0;
-  /// For the sum of squares, whenever any solver claims a minimum.
+  /// LRE of the sum of squares that any solver needs to claim a minimum.
   double claimed_lre_rss = 4.0;
   double linear_lre_coefficients = 13.0;
   double linear_lre_sd = 13.0;

@@ -32,8 +32,8 @@ struct LearningPlan {
   std::vector<Holdout> holdouts;  // one per size
 };
 
-/// Tests each of at most five runs of whole units after training on each size,
-/// with up to `repeats` different random draws of that size. Throws
+/// Splits the units into at most five runs. For each training size, tests each
+/// run after training on up to `repeats` random draws of other units. Throws
 /// std::invalid_argument if there are fewer than four units.
 LearningPlan PlanLearning(const data::Dataset& dataset,
                           LearnBy by,

@@ -15,9 +15,9 @@ namespace errmap::models {
 /// needs no memory besides the patterns. Stored values are renewed from the
 /// weights from time to time, before rounding errors accumulate.
 ///
-/// To save cache, hidden outputs have one place, also for trials, and are
-/// recomputed if the point itself is needed after one. S is updated only when T
-/// is available anyway.
+/// To save cache, one buffer has the hidden outputs of the point and of trial
+/// points; after a trial, those of the point are recomputed if needed. S is
+/// updated only when T is available anyway.
 template <typename Scalar>
 class NetPath final : public fitting::Path<Scalar> {
  public:

@@ -63,7 +63,7 @@ enum class Named { kNothing, kTime, kDate };
 /// 100 ns since 1601. Day numbers of Excel (and MATLAB) look like other
 /// numbers. For a date any count; for a time, those with parts of days.
 std::optional<Epoch> EpochOf(const Pace& pace, Named called);
-/// Days from 0 to 1970 for a column whose name says what it counts: "JD",
+/// Days from a column's epoch to 1970, if its name tells the epoch: "JD",
 /// "BJD", "HJD" (from noon, 4713 BC), "MJD", "days since 1970". Its values must
 /// be of our time.
 std::optional<double> NamedDays(std::string_view column);

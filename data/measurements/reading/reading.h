@@ -10,7 +10,7 @@
 
 namespace errmap::data {
 
-/// Why a column or rule has a role.
+/// How the role of a column was found.
 enum class Evidence { kNone, kUser, kName, kValues, kNameAndValues };
 /// "none", "user", "name", "values", "name+values".
 std::string_view ToString(Evidence evidence);

@@ -35,8 +35,8 @@ struct FigureHoldoutRecord {
   std::string name;
   std::int64_t table = 0;
   ByName<std::vector<double>> predictions;  // NaN: not held out
-  /// Table entries with an input of the recommended map outside its fold's
-  /// training range.
+  /// Table entries at which an input of the recommended map was outside the
+  /// range of its fold's training rows.
   LeftOut<std::vector<std::int64_t>> outside;
 };
 

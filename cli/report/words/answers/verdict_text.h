@@ -19,8 +19,8 @@ extern const char* const kIntervalCoverage;
 /// not.
 void AddSentences(models::ComponentRecord* record);
 
-/// Returns the record with the unit symbols and words of pages: "0.5 µm" where
-/// a terminal has "0.5 um".
+/// Returns a copy of the record with units as pages print them: "0.5 µm" for a
+/// terminal's "0.5 um".
 models::StudyRecord WithPageUnits(models::StudyRecord record);
 
 /// Says which measurements would make the answer more certain: "cycles with t1
