@@ -111,7 +111,7 @@ void PutInOrder(std::vector<std::string>* paths) {
 
 bool IsTable(const fs::path& path) {
   constexpr auto kEndings = std::to_array<std::string_view>(
-      {".csv", ".tsv", ".csv.gz", ".tsv.gz", ".xlsx"});
+      {".csv", ".tsv", ".csv.gz", ".tsv.gz", ".xlsx", ".xlsm", ".lvm"});
   const std::string name = path.filename().string();
   return std::ranges::any_of(kEndings, [&](std::string_view ending) {
     return name.size() > ending.size() &&

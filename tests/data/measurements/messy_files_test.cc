@@ -101,6 +101,7 @@ TEST(MessyFiles, WhatIsUnambiguousIsSimplyRead) {
       {"one more at the header's end", padded(1, 0)},
       {"rows of separators below", Joined(rows) + ",,,,,,\n,,,,,,\n"},
       {"a title", "Machine 7\n" + Joined(rows)},
+      {"a title as bzip2's files begin", "BZH machine\n" + Joined(rows)},
       {"names in a comment", "# " + Joined(rows)},
   };
   for (const auto& [what, text] : files) {
