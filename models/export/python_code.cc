@@ -149,11 +149,11 @@ std::string NumberText(double value) {
 
 std::string PythonWriter::Tables() const {
   std::string text;
-  for (const Cell cell : kTables) {
-    if (!program_.Uses(cell)) continue;
+  for (const ReadingTable& table : kTables) {
+    if (!program_.Uses(table.cell)) continue;
     text += fmt::format("{} = {}\n",
-                        language_.CellName(cell),
-                        ListText(TableValues(program_, cell), ""));
+                        language_.CellName(table.cell),
+                        ListText(TableValues(program_, table), ""));
   }
   for (std::size_t form = 0; form < program_.forms.size(); ++form) {
     const MatrixXd& states = program_.forms[form].states;
