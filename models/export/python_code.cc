@@ -84,15 +84,6 @@ class PythonLanguage final : public Language {
     return "";
   }
 
-  Lines Bound(const std::string& condition,
-              const std::string& to,
-              const std::string& value,
-              bool guards) const override {
-    Lines lines{"if " + condition + ":", "    " + to + " = " + value};
-    if (guards) lines.push_back("    " + Flag(kMapClipped));
-    return lines;
-  }
-
   Lines Affine(const Instruction& it, const MatrixXd& table) const override {
     const std::string to = ArrayAt(it.to, "j");
     return {
