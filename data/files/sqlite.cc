@@ -82,15 +82,9 @@ void Statement::Finalize::operator()(sqlite3_stmt* statement) const {
 Statement::Statement(sqlite3* database, std::string_view sql)
     : database_(database) {
   sqlite3_stmt* statement = nullptr;
-  const char* tail = nullptr;
   Check(sqlite3_prepare_v2(
-      database, sql.data(), static_cast<int>(sql.size()), &statement, &tail));
+      database, sql.data(), static_cast<int>(sql.size()), &statement, nullptr));
   statement_.reset(statement);
-  if (statement == nullptr) throw SqliteError("there is no statement", 0, 0);
-  const std::string_view rest(tail, sql.data() + sql.size());
-  if (rest.find_first_not_of(" \t\r\n;") != rest.npos) {
-    throw SqliteError("more than one statement", 0, 0);
-  }
 }
 
 void Statement::Check(int code) const {

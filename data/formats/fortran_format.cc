@@ -1,25 +1,15 @@
 #include "data/formats/fortran_format.h"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
+
+#include <fmt/format.h>
 
 namespace errmap::data {
 namespace {
 
-std::string RightAligned(std::string text, int width) {
-  const auto columns = static_cast<std::size_t>(width);
-  if (text.size() < columns) text.insert(0, columns - text.size(), ' ');
-  return text;
-}
-
-std::string Printed(const char* format, int precision, double value) {
-  // The longest is a double in full: 309 digits before the point.
-  std::array<char, 400> buffer{};
-  const int length =
-      std::snprintf(buffer.data(), buffer.size(), format, precision, value);
-  return {buffer.data(), static_cast<std::size_t>(length)};
+std::string RightAligned(const std::string& text, int width) {
+  return fmt::format("{:>{}}", text, width);
 }
 
 std::string NotFinite(double value) {
@@ -35,7 +25,7 @@ struct Decimal {
 };
 
 Decimal RoundedTo(int digits, double value) {
-  const std::string text = Printed("%.*e", digits - 1, std::abs(value));
+  const std::string text = fmt::format("{:.{}e}", std::abs(value), digits - 1);
   const std::size_t e = text.find('e');
   Decimal decimal{.negative = std::signbit(value),
                   .digits = text.substr(0, 1),
@@ -90,7 +80,7 @@ std::string EditI(long long value, int width) {
 
 std::string EditF(double value, int width, int decimals) {
   if (!std::isfinite(value)) return RightAligned(NotFinite(value), width);
-  std::string text = Printed("%.*f", decimals, value);
+  std::string text = fmt::format("{:.{}f}", value, decimals);
   if (decimals == 0) text += '.';
   return RightAligned(text, width);
 }

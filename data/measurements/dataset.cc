@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 #include <stdexcept>
-#include <unordered_map>
 #include <utility>
 
 #include "data/argument_name.h"
@@ -113,18 +112,10 @@ Grouping GroupByNumber(const std::string& column,
 Grouping GroupByText(const CsvTable& table,
                      const CsvColumn& column,
                      const std::vector<Eigen::Index>& rows) {
-  Grouping groups{.column = column.name, .labels = {}, .codes = {}};
-  groups.codes.reserve(rows.size());
-  std::unordered_map<std::string, Eigen::Index> code_of;
-  for (const Eigen::Index row : rows) {
-    const std::string text =
-        table.CellText(column, static_cast<std::size_t>(row));
-    const auto [found, is_new] =
-        code_of.emplace(text, static_cast<Eigen::Index>(groups.labels.size()));
-    if (is_new) groups.labels.push_back(text);
-    groups.codes.push_back(found->second);
-  }
-  return groups;
+  const auto [labels, codes] = LabelsOf(table, column, rows, kNoLimit);
+  return {.column = column.name,
+          .labels = labels,
+          .codes = {codes.begin(), codes.end()}};
 }
 
 Role RoleOf(const ColumnInfo& column) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <regex>
 #include <set>
 #include <string_view>
 
@@ -38,34 +39,12 @@ std::string NameWithoutEndings(const std::string& path) {
 
 // Of eight digits in groups of 4, 2, 2 with one separator or none between.
 std::optional<std::string> DateIn(const std::string& name) {
-  for (std::size_t at = 0; at + 8 <= name.size(); ++at) {
-    if (at > 0 && IsDigit(name[at - 1])) continue;
-    std::string digits;
-    std::size_t next = at;
-    while (next < name.size() && digits.size() < 8) {
-      const bool between = digits.size() == 4 || digits.size() == 6;
-      if (between && next > at && IsDigit(name[next - 1]) &&
-          (name[next] == '-' || name[next] == '_')) {
-        ++next;
-        continue;
-      }
-      if (!IsDigit(name[next])) break;
-      digits += name[next++];
-    }
-    if (digits.size() < 8 || (next < name.size() && IsDigit(name[next]))) {
-      continue;
-    }
-    const int month = std::stoi(digits.substr(4, 2));
-    const int day = std::stoi(digits.substr(6, 2));
-    const std::string century = digits.substr(0, 2);
-    if (month < 1 || month > 12 || day < 1 || day > 31 ||
-        (century != "19" && century != "20")) {
-      continue;
-    }
-    return digits.substr(0, 4) + "-" + digits.substr(4, 2) + "-" +
-           digits.substr(6, 2);
-  }
-  return std::nullopt;
+  static const std::regex kDate(
+      "(?:^|[^0-9])((?:19|20)[0-9]{2})[-_]?(0[1-9]|1[0-2])"
+      "[-_]?(0[1-9]|[12][0-9]|3[01])(?![0-9])");
+  std::smatch found;
+  if (!std::regex_search(name, found, kDate)) return std::nullopt;
+  return found.str(1) + "-" + found.str(2) + "-" + found.str(3);
 }
 
 // By the numbers where both have digits, else by the characters.
@@ -111,7 +90,7 @@ void PutInOrder(std::vector<std::string>* paths) {
 
 bool IsTable(const fs::path& path) {
   constexpr auto kEndings = std::to_array<std::string_view>(
-      {".csv", ".tsv", ".csv.gz", ".tsv.gz", ".xlsx"});
+      {".csv", ".tsv", ".csv.gz", ".tsv.gz", ".xlsx", ".xlsm", ".lvm"});
   const std::string name = path.filename().string();
   return std::ranges::any_of(kEndings, [&](std::string_view ending) {
     return name.size() > ending.size() &&

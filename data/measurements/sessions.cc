@@ -276,6 +276,13 @@ class SessionFinder : private RowColumns {
         rows_known.push_back(rows_[i]);
       }
     }
+    if (rows_known.empty() && !named) {
+      PassOver(false,
+               "column " + QuotedName(column.name) + " is empty",
+               "",
+               &found_.remarks);
+      return false;
+    }
     Grouping sessions = GroupByColumn(table_, column.name, rows_known);
     // Every row by itself: a number of the row, not of a run.
     if (!named && sessions.labels.size() > 1 &&

@@ -162,14 +162,14 @@ std::string CWriter::Header() const {
 // Constants of the readings, always double.
 std::string CWriter::CellTables() const {
   std::string text;
-  for (const Cell cell : kTables) {
-    if (!program_.Uses(cell)) continue;
+  for (const ReadingTable& table : kTables) {
+    if (!program_.Uses(table.cell)) continue;
     std::vector<std::string> numbers;
-    for (const double value : TableValues(program_, cell)) {
+    for (const double value : TableValues(program_, table)) {
       numbers.push_back(RealText(value));
     }
     text += fmt::format("\nstatic const double {}[{}_INPUTS] = {{\n{}}};\n",
-                        language_.CellName(cell),
+                        language_.CellName(table.cell),
                         name_,
                         Joined(Wrapped(numbers, "  "), ""));
   }

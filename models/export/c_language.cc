@@ -85,17 +85,6 @@ std::string CLanguage::Call(Function function,
   return "";
 }
 
-Lines CLanguage::Bound(const std::string& condition,
-                       const std::string& to,
-                       const std::string& value,
-                       bool guards) const {
-  Lines lines{fmt::format("if ({}) {{", condition),
-              fmt::format("  {} = {};", to, value)};
-  if (guards) lines.push_back("  " + Flag(kMapClipped));
-  lines.push_back("}");
-  return lines;
-}
-
 // Input by input, a few outputs side by side: as many sums as registers hold
 // go on at once, each still in the order of the inputs.
 Lines CLanguage::Affine(const Instruction& it, const MatrixXd& table) const {

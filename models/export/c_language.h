@@ -25,10 +25,6 @@ class CLanguage final : public Language {
   std::string Call(Function function,
                    const std::string& argument,
                    bool single) const override;
-  Lines Bound(const std::string& condition,
-              const std::string& to,
-              const std::string& value,
-              bool guards) const override;
   Lines Affine(const Instruction& it, const MatrixXd& table) const override;
   Lines Sigmoids(const Instruction& it) const override;
 

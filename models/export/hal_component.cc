@@ -301,7 +301,7 @@ class HalWriter {
   std::string Component() const;
   std::string OffsetWiring() const;
   std::string ExternalOffsetWiring() const;
-  std::string SensorComments() const;
+  std::string InputWiring() const;
   std::string StateComment() const;
 
   const MapExport& map_;
@@ -347,9 +347,14 @@ std::string HalWriter::Component() const {
                          : "");
 }
 
-std::string HalWriter::SensorComments() const {
+std::string HalWriter::InputWiring() const {
   std::string text;
   const MapProgram& program = map_.program;
+  if (PositionOf(program) >= 0) {
+    text = fmt::format("net {0}-at joint.{1}.pos-cmd => {0}.position\n",
+                       HalName(name_),
+                       options_.joint);
+  }
   for (std::size_t i = 0; i < pins_.size(); ++i) {
     if (pins_[i] == "position") continue;
     text += fmt::format("# net SENSOR{0} => {1}.{2} # {3}, {4}\n",
@@ -389,13 +394,7 @@ addf {2}-add.update-output servo-thread
       HalName(name_),
       options_.unit.symbol,
       static_cast<int>(map_.program.export_id));
-  if (PositionOf(map_.program) >= 0) {
-    text += fmt::format("net {0}-at joint.{1}.pos-cmd => {0}.position\n",
-                        HalName(name_),
-                        options_.joint);
-  }
-  text += SensorComments();
-  return text + StateComment() +
+  return text + InputWiring() + StateComment() +
          fmt::format(
              R"(
 net {0}-cmd joint.{1}.motor-pos-cmd => {0}-add.in
@@ -429,12 +428,7 @@ addf {2} servo-thread
       static_cast<char>(axis - 'a' + 'A'),
       hal,
       static_cast<int>(map_.program.export_id));
-  if (PositionOf(map_.program) >= 0) {
-    text += fmt::format(
-        "net {0}-at joint.{1}.pos-cmd => {0}.position\n", hal, options_.joint);
-  }
-  text += SensorComments();
-  return text + StateComment() +
+  return text + InputWiring() + StateComment() +
          fmt::format(
              R"(
 setp axis.{1}.eoffset-scale {2}

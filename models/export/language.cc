@@ -117,6 +117,17 @@ Lines Language::WriteOne(const MapProgram& program,
              : Set(it.to, value, narrows);
 }
 
+Lines Language::Bound(const std::string& condition,
+                      const std::string& to,
+                      const std::string& value,
+                      bool guards) const {
+  Lines lines{fmt::format(fmt::runtime(syntax_.when), condition),
+              syntax_.indent + Assign(to, value, false)};
+  if (guards) lines.push_back(syntax_.indent + Flag(kMapClipped));
+  if (*syntax_.end_when != '\0') lines.emplace_back(syntax_.end_when);
+  return lines;
+}
+
 Lines Language::Set(Operand to, const std::string& value, bool narrows) const {
   return {Assign(Place(to), value, narrows)};
 }

@@ -76,7 +76,7 @@ class Language {
   virtual Lines Bound(const std::string& condition,
                       const std::string& to,
                       const std::string& value,
-                      bool guards) const = 0;
+                      bool guards) const;
   virtual Lines Affine(const Instruction& instruction,
                        const MatrixXd& table) const = 0;
   /// kSigmoid of more than one value.

@@ -1,70 +1,55 @@
 #include "models/export/program_cost.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+
+#include "models/export/language.h"
+
 namespace errmap::models {
 namespace {
+
+constexpr ProgramCost kProduct{.additions = 1, .multiplications = 1};
+
+// In the order of Op.
+constexpr ProgramCost kCosts[] = {
+    {.copies = 1},                                         // kSet
+    {.copies = 1},                                         // kCopy
+    {.additions = 1},                                      // kSubtract
+    {.additions = 1},                                      // kShift
+    kProduct,                                              // kScale
+    {.multiplications = 1},                                // kTimes
+    kProduct,                                              // kTimesPlus
+    kProduct,                                              // kTimesPlusTerm
+    kProduct,                                              // kLinear
+    kProduct,                                              // kAccumulate
+    {.additions = 1, .divisions = 2, .exponentials = 1},   // kMeanDecay
+    {.multiplications = 1, .divisions = 1},                // kGain
+    {.additions = 2, .multiplications = 1},                // kLag
+    kProduct,                                              // kAddProduct
+    {.multiplications = 1, .sines = 1},                    // kSine
+    {.multiplications = 1, .sines = 1},                    // kCosine
+    {.comparisons = 1},                                    // kFloor
+    {.comparisons = 1},                                    // kCeiling
+    kProduct,                                              // kAffine, each
+    {.additions = 1, .divisions = 1, .exponentials = 1}};  // kSigmoid, each
+static_assert(std::size(kCosts) == static_cast<int>(Op::kSigmoid) + 1);
 
 void Count(const MapProgram& program,
            const Instruction& it,
            ProgramCost* cost) {
-  switch (it.op) {
-    case Op::kSet:
-    case Op::kCopy:
-      ++cost->copies;
-      return;
-    case Op::kSubtract:
-    case Op::kShift:
-      ++cost->additions;
-      return;
-    case Op::kTimes:
-      ++cost->multiplications;
-      return;
-    case Op::kScale:
-    case Op::kTimesPlus:
-    case Op::kTimesPlusTerm:
-    case Op::kLinear:
-    case Op::kAccumulate:
-      ++cost->additions;
-      ++cost->multiplications;
-      return;
-    case Op::kMeanDecay:
-      cost->divisions += 2;
-      ++cost->exponentials;
-      ++cost->additions;
-      return;
-    case Op::kGain:
-      ++cost->divisions;
-      ++cost->multiplications;
-      return;
-    case Op::kAddProduct:
-      ++cost->additions;
-      ++cost->multiplications;
-      return;
-    case Op::kLag:
-      cost->additions += 2;
-      ++cost->multiplications;
-      return;
-    case Op::kSine:
-    case Op::kCosine:
-      ++cost->multiplications;
-      ++cost->sines;
-      return;
-    case Op::kFloor:
-    case Op::kCeiling:
-      ++cost->comparisons;
-      return;
-    case Op::kAffine: {
-      const std::int64_t products =
-          it.count * (program.tables[it.table].cols() - 1);
-      cost->additions += products;
-      cost->multiplications += products;
-      return;
-    }
-    case Op::kSigmoid:
-      cost->additions += it.count;
-      cost->divisions += it.count;
-      cost->exponentials += it.count;
-      return;
+  const ProgramCost& one = kCosts[static_cast<std::size_t>(it.op)];
+  std::int64_t times = it.op == Op::kSigmoid ? it.count : 1;
+  if (it.op == Op::kAffine) {
+    times = it.count * (program.tables[it.table].cols() - 1);
   }
+  cost->additions += times * one.additions;
+  cost->multiplications += times * one.multiplications;
+  cost->divisions += times * one.divisions;
+  cost->exponentials += times * one.exponentials;
+  cost->sines += times * one.sines;
+  cost->comparisons += times * one.comparisons;
+  cost->copies += times * one.copies;
 }
 
 // Of an expression, `times`.
@@ -89,15 +74,7 @@ void CountExpression(const Expression& it,
     case Kind::kTimes:
       cost->multiplications += times;
       return;
-    case Kind::kNumber:
-    case Kind::kCell:
-    case Kind::kPlace:
-    case Kind::kTrained:
-    case Kind::kNot:
-    case Kind::kNegative:
-    case Kind::kAbsolute:
-    case Kind::kAnd:
-    case Kind::kOr:
+    default:
       return;
   }
 }
@@ -143,22 +120,11 @@ void CountRoutine(const MapProgram& program,
 
 ProgramCost CostOf(const MapProgram& program) {
   ProgramCost cost;
-  if (program.read.empty()) {
-    for (const Part part : {Part::kAdvance, Part::kEvaluate}) {
-      for (const Instruction& it : program.part(part)) {
-        Count(program, it, &cost);
-      }
-    }
-  }
   CountRoutine(program, program.read, &cost);
   CountRoutine(program, program.move, &cost);
-  std::int64_t kept = program.size(Space::kState);
-  for (int i = 0; i < kNumCells; ++i) {
-    const CellInfo& cell = InfoOf(static_cast<Cell>(i));
-    if (cell.kind != CellKind::kKept || !program.Uses(cell.cell)) continue;
-    kept += cell.is_array ? program.size(Space::kReading) : 1;
-  }
-  cost.state_bytes = static_cast<std::int64_t>(sizeof(double)) * kept;
+  constexpr int kBesideState = 2;  // the map's identity and the sum
+  cost.state_bytes = static_cast<std::int64_t>(sizeof(double)) *
+                     (NumSaved(program) - kBesideState);
   return cost;
 }
 

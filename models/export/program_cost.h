@@ -18,9 +18,9 @@ struct ProgramCost {
   std::int64_t state_bytes = 0;  // doubles kept from step to step
 };
 
-/// Returns the cost of a step: the arithmetic (`advance`, `evaluate`), or with
-/// a controller its routines, including checks and limits. Whatever depends on
-/// the readings is counted as if it always ran.
+/// Returns the cost of a step of a program with its controller, including
+/// checks and limits. Whatever depends on the readings is counted as if it
+/// always ran.
 ProgramCost CostOf(const MapProgram& program);
 
 }  // namespace errmap::models

@@ -12,10 +12,10 @@
 
 namespace errmap::models {
 
-/// NAME.h and NAME.c in C99: no allocation, and no library function but exp
-/// (sin and cos if the map reads angles). Every symbol begins with NAME_. With
-/// NAME_SELF_TEST defined, NAME.c has a main that checks `rows`, each within
-/// `tolerance` (target's unit).
+/// NAME.h and NAME.c in C99: no allocation, and no library function but exp and
+/// fabs (sin and cos if the map reads angles). Every symbol begins with NAME_.
+/// With NAME_SELF_TEST defined, NAME.c has a main that checks `rows`, each
+/// within `tolerance` (target's unit).
 std::vector<ExportedFile> CCode(const MapProgram& program,
                                 const std::string& name,
                                 Precision precision,
@@ -26,9 +26,9 @@ std::vector<ExportedFile> CCode(const MapProgram& program,
 /// includes math.h: no guard, no include, no self-test.
 std::string CFragment(const MapProgram& program, const std::string& name);
 
-/// NAME.py: plain Python 3 that imports only math. It has functions check and
-/// error, or for a map with a memory init, step and zero, as in C. Run as a
-/// program, it checks `rows`, each within `tolerance` (target's unit).
+/// NAME.py: plain Python 3 that imports only math. Its class Map has begin,
+/// step (read and move), zero, get_state and set_state. Run as a program, it
+/// checks `rows`, each within `tolerance` (target's unit).
 std::vector<ExportedFile> PythonCode(const MapProgram& program,
                                      const std::string& name,
                                      const std::vector<SelfTestRow>& rows,

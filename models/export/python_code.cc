@@ -84,15 +84,6 @@ class PythonLanguage final : public Language {
     return "";
   }
 
-  Lines Bound(const std::string& condition,
-              const std::string& to,
-              const std::string& value,
-              bool guards) const override {
-    Lines lines{"if " + condition + ":", "    " + to + " = " + value};
-    if (guards) lines.push_back("    " + Flag(kMapClipped));
-    return lines;
-  }
-
   Lines Affine(const Instruction& it, const MatrixXd& table) const override {
     const std::string to = ArrayAt(it.to, "j");
     return {
@@ -149,11 +140,11 @@ std::string NumberText(double value) {
 
 std::string PythonWriter::Tables() const {
   std::string text;
-  for (const Cell cell : kTables) {
-    if (!program_.Uses(cell)) continue;
+  for (const ReadingTable& table : kTables) {
+    if (!program_.Uses(table.cell)) continue;
     text += fmt::format("{} = {}\n",
-                        language_.CellName(cell),
-                        ListText(TableValues(program_, cell), ""));
+                        language_.CellName(table.cell),
+                        ListText(TableValues(program_, table), ""));
   }
   for (std::size_t form = 0; form < program_.forms.size(); ++form) {
     const MatrixXd& states = program_.forms[form].states;

@@ -293,9 +293,9 @@ void AddTables(const MapProgram& program,
     variables->push_back(
         {.name = name, .size = size, .initial = std::move(values)});
   };
-  for (const Cell cell : kTables) {
-    if (!program.Uses(cell)) continue;
-    add(language.VariableOf(cell), TableValues(program, cell));
+  for (const ReadingTable& table : kTables) {
+    if (!program.Uses(table.cell)) continue;
+    add(language.VariableOf(table.cell), TableValues(program, table));
   }
   for (std::size_t form = 0; form < program.forms.size(); ++form) {
     const MatrixXd& states = program.forms[form].states;

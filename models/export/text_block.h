@@ -32,7 +32,7 @@ struct TextSection {
   std::vector<TextVariable> variables;
 };
 
-/// A function of one real number; its body is an expression or statements.
+/// A function of one real number; its body is statements.
 struct TextFunction {
   std::string name;
   std::string argument;

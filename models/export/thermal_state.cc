@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstdio>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -107,16 +109,17 @@ GridOptions ParseGrid(const std::string& grid,
                       const std::string& over,
                       const ErrorCurve& curve) {
   GridOptions options;
-  char times = 0;
+  int length = 0;
   if (std::sscanf(grid.c_str(),
-                  "%5d%c%5d",
+                  "%5dx%5d%n",
                   &options.positions,
-                  &times,
-                  &options.columns) != 3 ||
-      times != 'x' || options.positions < 2 || options.columns < 2) {
+                  &options.columns,
+                  &length) != 2 ||
+      length != std::ssize(grid) || options.positions < 2 ||
+      options.columns < 2) {
     throw std::invalid_argument(
         data::ArgumentName("grid") +
-        " takes ROWSxCOLUMNS, both at least 2, such as 33x9");
+        " takes ROWSxCOLUMNS, both from 2 to 99999, such as 33x9");
   }
   const int position = curve.position_index();
   const std::vector<std::string> others =

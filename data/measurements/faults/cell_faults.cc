@@ -299,7 +299,7 @@ class CellFaultFinder {
     Thermometer t{.input = input,
                   .degree = DegreeIn(UnitOf(input)),
                   .wrong = std::move(wrong)};
-    const Rows rows = SoundRows(measured_, t);
+    const Rows rows = SoundRows(measured_, {&t, 1});
     const std::vector<double> values = ValuesAt(measured_, rows, input);
     t.noise = NoiseOf(values);
     if (t.noise == 0.0) return;  // it never changes

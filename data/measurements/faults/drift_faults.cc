@@ -88,22 +88,6 @@ std::vector<Index> SpreadRows(std::vector<Index> rows, Index most) {
   return spread;
 }
 
-std::vector<Index> SoundRows(const MeasuredColumns& measured,
-                             const std::vector<Thermometer>& thermometers) {
-  std::vector<bool> is_sound(
-      static_cast<std::size_t>(measured.target_values.size()), true);
-  for (const Thermometer& t : thermometers) {
-    for (const Index row : t.wrong) {
-      is_sound[static_cast<std::size_t>(row)] = false;
-    }
-  }
-  std::vector<Index> rows;
-  for (std::size_t row = 0; row < is_sound.size(); ++row) {
-    if (is_sound[row]) rows.push_back(static_cast<Index>(row));
-  }
-  return rows;
-}
-
 double Standardise(Eigen::Ref<VectorXd> values) {
   values.array() -= values.mean();
   const double length = values.norm();

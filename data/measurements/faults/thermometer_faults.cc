@@ -102,7 +102,7 @@ class ThermometerFaultFinder {
 
   void LookForSteps(const Thermometer& t) {
     const double least = std::max(kJumpNoise * t.noise, kLeastStep * t.degree);
-    const Rows rows = SoundRows(measured_, t);
+    const Rows rows = SoundRows(measured_, {&t, 1});
     const std::vector<double> values = ValuesAt(measured_, rows, t.input);
     Rows steps;
     double height = 0.0;
@@ -139,7 +139,7 @@ class ThermometerFaultFinder {
   }
 
   void LookForStuck(const Thermometer& t) {
-    const Rows sound = SoundRows(measured_, t);
+    const Rows sound = SoundRows(measured_, {&t, 1});
     const std::vector<double> values = ValuesAt(measured_, sound, t.input);
     const Run run = LongestRun(values);
     if (static_cast<Index>(run.size) < kFewestRows) return;

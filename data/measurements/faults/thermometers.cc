@@ -44,12 +44,17 @@ Index MostCells(Index num_rows) {
 }
 
 std::vector<Index> SoundRows(const MeasuredColumns& measured,
-                             const Thermometer& thermometer) {
-  std::vector<Index> rows;
-  for (Index row = 0; row < measured.target_values.size(); ++row) {
-    if (!std::ranges::binary_search(thermometer.wrong, row)) {
-      rows.push_back(row);
+                             std::span<const Thermometer> thermometers) {
+  std::vector<bool> is_sound(
+      static_cast<std::size_t>(measured.target_values.size()), true);
+  for (const Thermometer& t : thermometers) {
+    for (const Index row : t.wrong) {
+      is_sound[static_cast<std::size_t>(row)] = false;
     }
+  }
+  std::vector<Index> rows;
+  for (std::size_t row = 0; row < is_sound.size(); ++row) {
+    if (is_sound[row]) rows.push_back(static_cast<Index>(row));
   }
   return rows;
 }

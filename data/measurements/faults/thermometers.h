@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -47,9 +48,9 @@ ColumnFault MakeFault(const MeasuredColumns& measured,
 /// Largest number of wrong cells that count as single ones.
 Eigen::Index MostCells(Eigen::Index num_rows);
 
-/// Rows (from 0) whose cell is not wrong.
+/// Rows (from 0) in which no cell of these thermometers is wrong.
 std::vector<Eigen::Index> SoundRows(const MeasuredColumns& measured,
-                                    const Thermometer& thermometer);
+                                    std::span<const Thermometer> thermometers);
 
 /// The input's values in those rows.
 std::vector<double> ValuesAt(const MeasuredColumns& measured,

@@ -1,10 +1,10 @@
 #include "data/measurements/making/idle_inputs.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <set>
 
 #include "data/argument_name.h"
@@ -15,17 +15,6 @@ namespace {
 
 // The share of rows with one value from which an input is worth a word.
 constexpr Eigen::Index kIdlePercent = 90;
-
-std::uint64_t Hash(const Eigen::Ref<const Eigen::VectorXd>& values) {
-  // Multiplicative mixing by 2^64 / golden ratio; zeros of both signs agree.
-  std::uint64_t hash = 0;
-  for (const double value : values) {
-    hash ^= std::bit_cast<std::uint64_t>(value + 0.0);
-    hash *= 0x9E3779B97F4A7C15U;
-    hash ^= hash >> 32U;
-  }
-  return hash;
-}
 
 }  // namespace
 
@@ -103,7 +92,8 @@ RepeatedInputs::Found RepeatedInputs::Look(const Dataset::Parts& parts) {
                             " value for value; " +
                             ArgumentName("exclude", name) + " leaves it out");
   }
-  std::vector<Eigen::Index>& alike = inputs_by_hash_[Hash(values)];
+  std::vector<Eigen::Index>& alike =
+      inputs_by_sum_[std::accumulate(values.begin(), values.end(), 0.0)];
   for (const Eigen::Index other : alike) {
     if (parts.input_values.col(other) != values) continue;
     found.repeats = parts.inputs[static_cast<std::size_t>(other)].name;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -39,20 +38,19 @@ bool NumberEach(const Eigen::Ref<const Eigen::VectorXd>& values,
 bool HasTwoValues(const Eigen::Ref<const Eigen::VectorXd>& values);
 
 /// Finds inputs that repeat another one exactly. Columns are compared by their
-/// hash, so that many stay cheap.
+/// sums first, so that many stay cheap.
 class RepeatedInputs {
  public:
-  /// Examines the last of `parts.inputs`, with one column of
-  /// `parts.input_values` each. Remarks if it repeats the target. Returns the
-  /// name of the earlier examined input that it repeats, or "".
   struct Found {
-    std::vector<std::string> remarks;
-    std::string repeats;
+    std::vector<std::string> remarks;  // if it repeats the target
+    std::string repeats;  // name of an input examined earlier, or ""
   };
+  /// Examines the last of `parts.inputs`, with one column of
+  /// `parts.input_values` each.
   Found Look(const Dataset::Parts& parts);
 
  private:
-  std::unordered_map<std::uint64_t, std::vector<Eigen::Index>> inputs_by_hash_;
+  std::unordered_map<double, std::vector<Eigen::Index>> inputs_by_sum_;
 };
 
 }  // namespace errmap::data

@@ -33,7 +33,7 @@ Eigen::VectorXd WeightsOf(const CsvTable& table,
                           const std::vector<Eigen::Index>& rows);
 
 /// Throws InputError if the squares of `values` cannot be summed, since every
-/// statistic of a target or an input is such a sum. `role` is "target" or
+/// statistic of a target or an input is such a sum. `what` is "target" or
 /// "input"; the input is `column`, in these `rows` of the table.
 void RequireSquares(const CsvTable& table,
                     const std::vector<Eigen::Index>& rows,

@@ -70,6 +70,15 @@ std::string Gunzip(std::string_view compressed, std::size_t most) {
     stream.avail_out = static_cast<unsigned>(buffer.size());
     state = inflate(&stream, Z_NO_FLUSH);
     text.append(buffer.data(), buffer.size() - stream.avail_out);
+    if (state != Z_STREAM_END) continue;
+    // Another member, or zeros up to the end of a block.
+    std::string_view rest(compressed.data() - stream.avail_in,
+                          compressed.size() + stream.avail_in);
+    rest.remove_prefix(std::min(rest.find_first_not_of('\0'), rest.size()));
+    if (rest.empty()) break;
+    stream.avail_in = 0;
+    compressed = rest;
+    state = inflateReset(&stream);
   }
   inflateEnd(&stream);
   if (text.size() > most) throw InputError("is too long when unpacked");

@@ -13,7 +13,8 @@ bool IsGzip(std::string_view bytes);
 /// same bytes.
 std::string Gzip(std::string_view text);
 
-/// Inverse of the above. Throws InputError if the bytes are not gzip, are cut
+/// Inverse of the above, also for several files of gzip one behind the other
+/// (RFC 1952: members). Throws InputError if the bytes are not gzip, are cut
 /// off, or hold more than `most` bytes.
 std::string Gunzip(std::string_view compressed, std::size_t most);
 

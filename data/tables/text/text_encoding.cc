@@ -18,6 +18,8 @@ namespace {
 struct KnownFormat {
   std::string_view start;
   std::string_view what;
+  bool in_any_case = false;
+  std::size_t at = 0;  // where `start` stands
 };
 
 // What files of other programs begin with.
@@ -26,17 +28,19 @@ constexpr auto kFormats = std::to_array<KnownFormat>(
       "an archive or a spreadsheet other than xlsx; save it as xlsx or CSV"},
      {"\xD0\xCF\x11\xE0",
       "a spreadsheet (xls, or with a password); save it as xlsx or CSV"},
-     {"BZh", "compressed (bzip2); unpack it with bunzip2"},
+     {.start = "1AY&SY",  // of the first block; "BZh" may begin a name
+      .what = "compressed (bzip2); unpack it with bunzip2",
+      .at = 4},
      {"\xFD"
       "7zXZ",
       "compressed (xz); unpack it with unxz"},
      {"7z\xBC\xAF", "an archive (7z); unpack it"},
      {"%PDF-", "a PDF; export the table as CSV"},
-     {"<!DOCTYPE", "a web page; save the table as CSV"},
-     {"<html", "a web page; save the table as CSV"},
-     {"<?xml", "XML; export the table as CSV"},
-     {"CREATE TABLE", "SQL; export the table as CSV"},
-     {"INSERT INTO", "SQL; export the table as CSV"},
+     {"<!DOCTYPE", "a web page; save the table as CSV", true},
+     {"<html", "a web page; save the table as CSV", true},
+     {"<?xml", "XML; export the table as CSV", true},
+     {"CREATE TABLE", "SQL; export the table as CSV", true},
+     {"INSERT INTO", "SQL; export the table as CSV", true},
      {"[{", "JSON; export the table as CSV"},
      {"{", "JSON, as maps and results are; measurements are CSV or xlsx"}});
 
@@ -138,7 +142,10 @@ const char* EncodingByWords(std::string_view bytes) {
 
 EncodedText TextOfFile(std::string_view bytes, const std::string& name) {
   for (const KnownFormat& format : kFormats) {
-    if (StartsWithIgnoringCase(bytes, format.start)) {
+    const std::string_view from =
+        bytes.substr(std::min(format.at, bytes.size()));
+    if (format.in_any_case ? StartsWithIgnoringCase(from, format.start)
+                           : from.starts_with(format.start)) {
       throw InputError(PrintablePath(name) + ": this is " +
                        std::string(format.what));
     }

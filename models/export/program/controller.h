@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -78,8 +80,7 @@ double InitialValue(const MapProgram& program, Cell cell);
 inline constexpr Cell kOfSession[] = {
     Cell::kBegun, Cell::kFresh, Cell::kSettling, Cell::kLeapt};
 constexpr bool IsOfSession(Cell cell) {
-  return cell == Cell::kBegun || cell == Cell::kFresh ||
-         cell == Cell::kSettling || cell == Cell::kLeapt;
+  return std::ranges::find(kOfSession, cell) != std::end(kOfSession);
 }
 /// Up to this many sensors are written out one by one; for so few a loop takes
 /// longer.

@@ -19,29 +19,6 @@ void MapProgram::MeasureSpaces() {
   }
 }
 
-double TableValue(const ProgramReading& reading, Cell cell) {
-  switch (cell) {
-    case Cell::kFarLow:
-      return reading.far_low;
-    case Cell::kFarHigh:
-      return reading.far_high;
-    case Cell::kWeight:
-      return reading.weight;
-    case Cell::kOthersMove:
-      return reading.others_move;
-    case Cell::kFinest:
-      return reading.finest;
-    case Cell::kQuiet:
-      return reading.quiet;
-    case Cell::kJump:
-      return reading.jump;
-    case Cell::kFastest:
-      return reading.fastest;
-    default:
-      return reading.believed;
-  }
-}
-
 const Instructions& MapProgram::part(Part part, int form) const {
   const MapForm& of = forms[static_cast<std::size_t>(form)];
   switch (part) {
@@ -90,10 +67,11 @@ bool MapProgram::Uses(Op op) const {
   });
 }
 
-std::vector<double> TableValues(const MapProgram& program, Cell cell) {
+std::vector<double> TableValues(const MapProgram& program,
+                                const ReadingTable& table) {
   std::vector<double> values;
   for (const ProgramReading& reading : program.readings) {
-    values.push_back(TableValue(reading, cell));
+    values.push_back(reading.*table.value);
   }
   return values;
 }

@@ -90,16 +90,20 @@ struct ProgramReading {
 };
 
 /// The cells of CellKind::kTable, and the value of a reading in them.
-inline constexpr Cell kTables[] = {Cell::kFarLow,
-                                   Cell::kFarHigh,
-                                   Cell::kWeight,
-                                   Cell::kOthersMove,
-                                   Cell::kFinest,
-                                   Cell::kQuiet,
-                                   Cell::kJump,
-                                   Cell::kFastest,
-                                   Cell::kBelieved};
-double TableValue(const ProgramReading& reading, Cell cell);
+struct ReadingTable {
+  Cell cell;
+  double ProgramReading::*value;
+};
+inline constexpr ReadingTable kTables[] = {
+    {Cell::kFarLow, &ProgramReading::far_low},
+    {Cell::kFarHigh, &ProgramReading::far_high},
+    {Cell::kWeight, &ProgramReading::weight},
+    {Cell::kOthersMove, &ProgramReading::others_move},
+    {Cell::kFinest, &ProgramReading::finest},
+    {Cell::kQuiet, &ProgramReading::quiet},
+    {Cell::kJump, &ProgramReading::jump},
+    {Cell::kFastest, &ProgramReading::fastest},
+    {Cell::kBelieved, &ProgramReading::believed}};
 
 /// The limits of the output error, for any readings.
 struct ControllerLimits {
@@ -194,8 +198,9 @@ struct MapProgram {
   bool Uses(Op op) const;
 };
 
-/// Returns the value of each reading in a cell of kTables.
-std::vector<double> TableValues(const MapProgram& program, Cell cell);
+/// Returns the value of each reading in a table.
+std::vector<double> TableValues(const MapProgram& program,
+                                const ReadingTable& table);
 
 /// Returns the trained means of all readings.
 VectorXd MeanReadings(const MapProgram& program);

@@ -6,8 +6,8 @@
 
 // A small language of numbers, conditions and loops over the readings. It
 // describes once what a controller does around a map's arithmetic
-// (controller.cc). C, Python and structured text print it; ControllerRun runs
-// it.
+// (controller_routines.cc). C, Python and structured text print it;
+// ControllerRun runs it.
 
 namespace errmap::models {
 

@@ -141,11 +141,8 @@ ControllerRun::ControllerRun(const MapProgram& program, Precision precision)
     values_[static_cast<std::size_t>(i)].assign(
         is_array ? count : 1, InitialValue(program, static_cast<Cell>(i)));
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto at = static_cast<int>(i);
-    for (const Cell cell : kTables) {
-      Value(cell, at) = TableValue(program.readings[i], cell);
-    }
+  for (const ReadingTable& table : kTables) {
+    values_[static_cast<std::size_t>(table.cell)] = TableValues(program, table);
   }
 }
 

@@ -68,7 +68,7 @@ double ExportId(const MapProgram& program,
   hash.Add(program.limits.max_rate);
   for (const ProgramReading& reading : program.readings) {
     hash.Add(reading.column.name);
-    for (const Cell cell : kTables) hash.Add(TableValue(reading, cell));
+    for (const ReadingTable& table : kTables) hash.Add(reading.*table.value);
     hash.Add(reading.slope);
   }
   return hash.Number();

@@ -63,13 +63,20 @@ class InFolder : public ::testing::Test {
 };
 
 TEST_F(InFolder, TheTablesOfOneComponentAreItsDays) {
-  for (const char* name :
-       {"x_mon_10.csv", "x_tue_9.csv", "notes.txt", ".x.csv"}) {
+  for (const char* name : {"x_mon_10.csv",
+                           "x_tue_9.csv",
+                           "x_wed.lvm",
+                           "x_thu.XLSM",
+                           "notes.txt",
+                           ".x.csv"}) {
     Touch(name);
   }
   const MeasuredFiles found = FindFiles({folder_});
   EXPECT_THAT(found.paths,
-              ElementsAre(folder_ + "/x_mon_10.csv", folder_ + "/x_tue_9.csv"));
+              ElementsAre(folder_ + "/x_mon_10.csv",
+                          folder_ + "/x_thu.XLSM",
+                          folder_ + "/x_tue_9.csv",
+                          folder_ + "/x_wed.lvm"));
   EXPECT_THAT(found.remarks,
               ElementsAre(HasSubstr("left out, since they are no")));
 }

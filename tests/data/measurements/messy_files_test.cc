@@ -91,6 +91,9 @@ TEST(MessyFiles, WhatIsUnambiguousIsSimplyRead) {
       {"UTF-16, other order", InUtf16(Joined(rows), false, true)},
       {"UTF-16 without a mark", InUtf16(Joined(rows), true, false)},
       {"packed by gzip", Gzip(Joined(rows))},
+      {"packed by gzip in two parts and a block of zeros",
+       Gzip(Joined(rows).substr(0, 99)) + Gzip(Joined(rows).substr(99)) +
+           std::string(512, '\0')},
       {"UTF-8 with a mark", "\xEF\xBB\xBF" + Joined(rows)},
       {"lone CR", Joined(rows, ",", "\r")},
       {"separators at each end", padded(3, 3)},
@@ -98,6 +101,7 @@ TEST(MessyFiles, WhatIsUnambiguousIsSimplyRead) {
       {"one more at the header's end", padded(1, 0)},
       {"rows of separators below", Joined(rows) + ",,,,,,\n,,,,,,\n"},
       {"a title", "Machine 7\n" + Joined(rows)},
+      {"a title as bzip2's files begin", "BZH machine\n" + Joined(rows)},
       {"names in a comment", "# " + Joined(rows)},
   };
   for (const auto& [what, text] : files) {
@@ -242,6 +246,8 @@ TEST(MessyFiles, AllElseIsOneLineThatSaysWhatToDo) {
       {"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"s,
        "(xls, or with a password); save it as xlsx or CSV"},
       {"\x1F\x8B\x08\0"s, "is no gzip, or is cut off"},
+      {Gzip(text) + Gzip(text).substr(0, 99), "is no gzip, or is cut off"},
+      {"BZh91AY&SY\x1D"s, "compressed (bzip2)"},
       {"%PDF-1.4\n", "PDF"},
       {"<!doctype html><table></table>\n", "web page"},
       {"{\n \"schema\": \"errmap-model-1\"}\n", "this is JSON"},

@@ -243,6 +243,19 @@ TEST(Sessions, SayWhereACellIsMissing) {
               Refuses("column 'day': empty cell"));
 }
 
+TEST(Sessions, OfAnEmptyColumnAreRefusedOnlyWhereItIsNamed) {
+  const std::string text = "day,run,x\n,1,1\n,1,2\n,2,3\n";
+  const FoundSessions found = Find(text, {.missing = MissingPolicy::kDropRows});
+  EXPECT_EQ(found.sessions.column, "run");
+  EXPECT_THAT(found.known, Each(true));
+  EXPECT_THAT(found.remarks, Contains(HasSubstr("column 'day' is empty; the")));
+  EXPECT_THAT(
+      [&] {
+        Find(text, {.session = "day", .missing = MissingPolicy::kDropRows});
+      },
+      Refuses("column 'day' names no session in any row"));
+}
+
 TEST(Sessions, AskWhichOfSeveralTimesIsMeant) {
   EXPECT_THAT(Find("time_s,time_h\n0,1\n1,2\n").remarks,
               Contains(HasSubstr("name one with time")));

@@ -381,10 +381,13 @@ TEST_F(CliExportTables, RefusesWhatIsNoTable) {
       RefusalOf(Run({"export", "--linuxcnc", "up.json", "-o", "no/x.txt"}),
                 kFailure),
       HasSubstr("no/x.txt"));
-  EXPECT_THAT(
-      RefusalOf(Run({"export", "up.json", "--table", "-o", ".", "--grid", "9"}),
-                kWrongCommandLine),
-      HasSubstr("--grid takes ROWSxCOLUMNS"));
+  for (const char* grid : {"9", "1x9", "3x4abc", "33x123456"}) {
+    EXPECT_THAT(
+        RefusalOf(
+            Run({"export", "up.json", "--table", "-o", ".", "--grid", grid}),
+            kWrongCommandLine),
+        HasSubstr("--grid takes ROWSxCOLUMNS"));
+  }
   Json angle = Json::parse(Read("up.json"));
   angle["target"] = {{"name", "error_urad"}, {"unit", "urad"}};
   WriteMapFile("angle.json", angle);
