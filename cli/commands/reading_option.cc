@@ -36,7 +36,9 @@ void TakeReading(const std::string& path, data::DatasetSelection* selection) {
     selection->inputs.insert(
         selection->inputs.end(), columns->begin(), columns->end());
   }
-  if (reading.direction.by == "column") {
+  if (!reading.direction.chosen.empty()) {
+    selection->direction = reading.direction.chosen;
+  } else if (reading.direction.by == "column") {
     selection->direction = *reading.direction.column;
   }
   // "Datum + Uhrzeit" is found again as it was.

@@ -7,8 +7,11 @@
 
 #include "data/argument_name.h"
 #include "data/column_header.h"
+#include "data/columns.h"
 #include "data/measurements/clock/digit_dates.h"
 #include "data/measurements/column_checks.h"
+#include "data/measurements/column_roles.h"
+#include "data/measurements/reading/base_rows.h"
 #include "data/measurements/reading/derived_columns.h"
 #include "data/measurements/reading/merged_cells.h"
 #include "data/text.h"
@@ -162,6 +165,40 @@ void NameLike(const std::string& name, CsvTable* table) {
   if (found != table->columns.end()) found->name = name;
 }
 
+namespace {
+
+// Rows of totals and remarks, in which a map predicts nothing.
+void TakeOutTotals(TableForMap* result) {
+  CsvTable& table = result->table;
+  std::vector<bool> passes(table.num_rows, true);
+  if (LeaveOutTotals(
+          table, CycleColumn(table), MissingPolicy::kDropRows, &passes)
+          .empty()) {
+    return;
+  }
+  std::vector<std::ptrdiff_t> kept;
+  for (std::size_t row = 0; row < passes.size(); ++row) {
+    if (passes[row]) kept.push_back(static_cast<std::ptrdiff_t>(row));
+  }
+  const auto first = static_cast<std::size_t>(std::ranges::find(passes, false) -
+                                              passes.begin());
+  result->remarks.push_back("rows of totals or remarks are left out: " +
+                            std::to_string(passes.size() - kept.size()) +
+                            ", the first on line " +
+                            std::to_string(table.LineOfRow(first)));
+  auto parts = table.parts;
+  for (auto& part : parts) {
+    part.first = static_cast<std::size_t>(
+        std::count(passes.begin(),
+                   passes.begin() + static_cast<std::ptrdiff_t>(part.first),
+                   true));
+  }
+  table = TakeRows(table, kept);
+  table.parts = std::move(parts);
+}
+
+}  // namespace
+
 TableForMap InMapUnits(CsvTable table,
                        const std::vector<ColumnInfo>& inputs,
                        const TargetOfMap* target) {
@@ -170,6 +207,7 @@ TableForMap InMapUnits(CsvTable table,
   WriteDates(FindDigitDates(result.table), &result.table);
   // Told here, and to nobody again.
   result.remarks = std::exchange(result.table.remarks, {});
+  TakeOutTotals(&result);
   for (const ColumnInfo& wanted : inputs) {
     TakeAs(MatchColumn(result.table, wanted), &result);
   }

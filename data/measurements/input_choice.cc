@@ -166,10 +166,14 @@ class InputChooser {
         (one ? " and is" : " and are") + " left out" + behind);
   }
 
-  // Why a column in a unit of time is no sensor. Another clock goes mostly not
-  // back: rows may be many in its step, and it may begin anew with each pass.
+  // Why a column in a unit of time, or of hours by its name
+  // ("Betriebsstunden"), is no sensor. Another clock goes mostly not back: rows
+  // may be many in its step, and it may begin anew with each pass.
   static std::string_view WhatItTimes(const CsvColumn& column) {
-    if (UnitOfColumn(column.name).quantity != Quantity::kTime) return "";
+    if (UnitOfColumn(column.name).quantity != Quantity::kTime &&
+        StatedUnit(column.name) != FindTimeUnit("h")) {
+      return "";
+    }
     const Steps steps = StepsOf(column.values);
     return steps.on > 2 * steps.back ? "is another clock" : "is a duration";
   }
@@ -208,10 +212,12 @@ class InputChooser {
     const CsvColumn& column = table_.At(i);
     const bool is_axis = column.name == selection_.position;
     if (!is_axis && CountsRows(column)) return "counts the rows";
+    if (!is_axis && IsOfStatistics(column.name)) {
+      return "tells how readings scatter";
+    }
     const std::string_view timed = WhatItTimes(column);
     if (!timed.empty()) return timed;
     if (is_axis) return "";
-    if (IsOfStatistics(column.name)) return "tells how readings scatter";
     if (IsCalled(column.name, Word::kPart)) {
       chosen_.words.push_back(i);
       return "tells which one, and measures nothing";

@@ -124,7 +124,7 @@ void ReadMembers(const ModelJsonNode& node,
           member = std::move(read);
         }
       } else {
-        ReadMembers(node.At(key), &member);
+        ReadMembers(node.At(key), &member, {}, may_lack);
       }
     });
   } else if constexpr (std::is_floating_point_v<T>) {

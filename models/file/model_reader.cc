@@ -431,8 +431,8 @@ FittedModel ReadModel(const Node& root) {
   }
   if (const auto reading = root.Find("reading")) {
     auto read = std::make_shared<data::Reading>();
-    ReadMembers(*reading, read.get(), {"sessions"});
-    ReadMembers(reading->At("sessions"), &read->sessions, {}, {"counter"});
+    ReadMembers(
+        *reading, read.get(), {}, {"counter", "chosen", "rows_filtered"});
     fitted.reading = std::move(read);
   }
   if (fitted.model->num_parameters() != parameters.Count()) {

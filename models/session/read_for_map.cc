@@ -43,10 +43,11 @@ double WaysOf(const data::Reading& reading) {
   return reading.direction.values.size() == 2 ? 2.0 : 1.0;
 }
 
+// Of both ways, also where a map is of one.
 double RowsPerCycle(const data::Reading& reading) {
   return reading.cycles.count == 0
              ? 0.0
-             : static_cast<double>(reading.rows) /
+             : static_cast<double>(reading.rows + reading.rows_filtered) /
                    static_cast<double>(reading.cycles.count);
 }
 

@@ -31,7 +31,9 @@ struct ReadArguments {
 // The rows that are used, in the order in which they were read, to be read
 // again as they were: with the columns that were found in the others, session
 // and time_s, which takes the place of a clock that is no date.
-std::string CleanCsv(const data::CsvTable& table, const data::ReadTable& read) {
+std::string CleanCsv(const data::CsvTable& table,
+                     const data::ReadTable& read,
+                     const std::vector<Index>& in_use) {
   const data::FoundSessions& found = read.found;
   const bool add_session = found.sessions.column.empty() &&
                            found.sessions.labels.size() > 1 &&
@@ -54,6 +56,7 @@ std::string CleanCsv(const data::CsvTable& table, const data::ReadTable& read) {
   text += add_session ? ",session" : "";
   text += add_time ? ",time_s\n" : "\n";
   for (std::size_t i = 0; i < read.log_rows.size(); ++i) {
+    if (!std::ranges::binary_search(in_use, read.log_rows[i])) continue;
     const auto row = static_cast<std::size_t>(read.log_rows[i]);
     std::string line;
     for (const std::size_t column : kept) {
@@ -121,9 +124,9 @@ std::string Described(const data::Reading& reading) {
       reading.position.column ? InUnit({*reading.position.column}) : "none",
       Why(reading.position.evidence, reading.position.sure),
       "--position");
-  std::string ways;
-  for (const std::string& value : reading.direction.values) {
-    ways += (ways.empty() ? "" : ", ") + value;
+  std::string ways = data::JoinWords(reading.direction.values, ", ");
+  if (const std::string& chosen = reading.direction.chosen; !chosen.empty()) {
+    ways = fmt::format("{} of {}", chosen, ways);
   }
   row("direction",
       ways.empty() ? "none" : ways,
@@ -195,13 +198,15 @@ int RunRead(const ReadArguments& arguments) {
     const data::ReadTable read =
         data::ReadRoles(joined.table, arguments.data.selection);
     reading = read.reading;
+    const data::PreparedDataset prepared =
+        data::MakeDataset(joined.table, arguments.data.selection);
     if (!arguments.out.empty()) {
       data::WriteFileAtomically(
           arguments.out,
-          CleanCsv(read.table ? *read.table : joined.table, read));
+          CleanCsv(read.table ? *read.table : joined.table,
+                   read,
+                   prepared.dataset.rows()));
     }
-    const data::PreparedDataset prepared =
-        data::MakeDataset(joined.table, arguments.data.selection);
     reading = prepared.reading;
     reading.remarks.insert(
         reading.remarks.begin(), of_files.begin(), of_files.end());

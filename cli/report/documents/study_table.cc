@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -299,16 +301,26 @@ void AddPart(const RecordPart& part, const Terminal& terminal, Screen* screen) {
   }
 }
 
-// How the one file was read that all components are of; else nothing.
+// How the one file was read that all components are of, each of some of its
+// rows, with the ways of all; else nothing.
 std::vector<std::string> SharedReading(const models::StudyRecord& record) {
   std::vector<std::string> shared;
+  std::set<std::string> ways;
+  data::Reading reading;
   for (const models::ComponentRecord& component : record.components) {
-    if (component.data.reading.rows == 0) return {};
-    std::vector<std::string> lines = data::ReadingLines(component.data.reading);
+    reading = component.data.reading;
+    if (reading.rows == 0) return {};
+    reading.rows += reading.rows_filtered;
+    reading.direction.chosen.clear();
+    ways.insert(reading.direction.values.begin(),
+                reading.direction.values.end());
+    reading.direction.values.clear();
+    std::vector<std::string> lines = data::ReadingLines(reading);
     if (!shared.empty() && lines != shared) return {};
     shared = std::move(lines);
   }
-  return shared;
+  reading.direction.values.assign(ways.begin(), ways.end());
+  return shared.empty() ? shared : data::ReadingLines(reading);
 }
 
 std::string WhereMapsAre(const StudyTableOptions& options) {

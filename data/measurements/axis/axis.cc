@@ -102,12 +102,8 @@ class AxisFinder {
                selection_.exclude.end();
   }
 
-  Candidate Look(std::size_t column, std::size_t most_rows) const {
-    Candidate candidate{.column = column};
-    const std::vector<std::string> words = WordsOf(Name(column));
-    candidate.named = IsCalledPosition(Name(column));
-    candidate.nominal = SayAny(words, Word::kNominal);
-    candidate.measured = SayAny(words, Word::kMeasured);
+  std::vector<double> ValuesInRows(std::size_t column,
+                                   std::size_t most_rows) const {
     std::vector<double> values;
     const std::size_t n = std::min(most_rows, rows_.size());
     values.reserve(n);
@@ -115,7 +111,16 @@ class AxisFinder {
       values.push_back(
           table_.columns[column].values[static_cast<std::size_t>(rows_[i])]);
     }
-    candidate.levels = LevelsOf(values);
+    return values;
+  }
+
+  Candidate Look(std::size_t column, std::size_t most_rows) const {
+    Candidate candidate{.column = column};
+    const std::vector<std::string> words = WordsOf(Name(column));
+    candidate.named = IsCalledPosition(Name(column));
+    candidate.nominal = SayAny(words, Word::kNominal);
+    candidate.measured = SayAny(words, Word::kMeasured);
+    candidate.levels = LevelsOf(ValuesInRows(column, most_rows));
     candidate.motion = MotionThrough(candidate.levels);
     candidate.constant = candidate.levels.centers.size() <= 1;
     candidate.numbers =
@@ -361,6 +366,11 @@ class AxisFinder {
     axis_.column = static_cast<std::ptrdiff_t>(candidate.column);
     axis_.levels = std::move(candidate.levels);
     axis_.motion = std::move(candidate.motion);
+    if (axis_.motion.is_commanded || axis_.motion.is_sorted) return;
+    // To and fro without a stop: its passes, if it has any.
+    Motion swept = MotionThrough(
+        PartsOfRange(ValuesInRows(candidate.column, rows_.size())));
+    if (swept.is_commanded) axis_.motion = std::move(swept);
   }
 
   void AddNamed() {

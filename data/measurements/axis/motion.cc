@@ -205,6 +205,30 @@ Levels LevelsOf(std::span<const double> values) {
   return levels;
 }
 
+Levels PartsOfRange(std::span<const double> values) {
+  constexpr Index kParts = 12;
+  constexpr double kReach = 0.7;  // of a part's width, from its middle
+  const std::vector<Value> distinct = Distinct(values);
+  Levels parts;
+  if (distinct.size() < 2) return parts;
+  const double low = distinct.front().value;
+  const double width = (distinct.back().value - low) / kParts;
+  for (Index i = 0; i < kParts; ++i) {
+    parts.centers.push_back(low + (static_cast<double>(i) + 0.5) * width);
+  }
+  Index now = -1;
+  for (const double value : values) {
+    if (std::isfinite(value) &&
+        (now < 0 ||
+         std::abs(value - parts.centers[static_cast<std::size_t>(now)]) >
+             kReach * width)) {
+      now = std::min(kParts - 1, static_cast<Index>((value - low) / width));
+    }
+    parts.codes.push_back(std::isfinite(value) ? now : -1);
+  }
+  return parts;
+}
+
 Motion MotionThrough(const Levels& levels) {
   const std::size_t n = levels.codes.size();
   const Index num_levels = std::ssize(levels.centers);

@@ -20,6 +20,10 @@ struct Levels {
 /// return, each is a level.
 Levels LevelsOf(std::span<const double> values);
 
+/// Equal parts of the range in place of levels, for a position read on the way.
+/// A reading that hovers between two parts stays in one.
+Levels PartsOfRange(std::span<const double> values);
+
 /// The path of successive rows through levels.
 struct Motion {
   /// (rows) 1: towards higher positions, -1: lower, 0: unknown.

@@ -138,15 +138,27 @@ class ClockFinder : private RowColumns {
     HoldLast(clock_.known, &clock_.time);
   }
 
-  // Minutes and seconds that begin again after the 60th minute, as spreadsheets
-  // show a clock (59:58.1, 00:03.1): how many hours passed, nobody can tell.
+  // Minutes and seconds that begin again after the 60th minute, or elsewhere
+  // than at their least, as spreadsheets show a clock (59:58.1, 00:03.1; then
+  // 17:20.4): how many hours passed, nobody can tell.
   void RefuseMinutesAlone(const CsvColumn& column,
                           const std::vector<double>& values) const {
     constexpr double kHour = 3600.0;
     constexpr double kNearTheEnd = 300.0;
+    constexpr double kMinute = 60.0;
+    constexpr std::size_t kSeldom = 4;  // more often: rows in no order
     const Pace pace = PaceOf(values);
-    if (pace.most >= kHour || pace.most < kHour - kNearTheEnd ||
-        pace.least > kNearTheEnd) {
+    if (pace.most >= kHour) return;
+    const bool is_full =
+        pace.most >= kHour - kNearTheEnd && pace.least <= kNearTheEnd;
+    double last_begin = values.front();
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      if (values[i] < values[i - 1]) {
+        last_begin = std::max(last_begin, values[i]);
+      }
+    }
+    if (!is_full && (last_begin - pace.least <= kMinute ||
+                     kSeldom * StepsOf(values).back > values.size())) {
       return;
     }
     for (std::size_t i = 1; i < values.size(); ++i) {

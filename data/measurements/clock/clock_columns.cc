@@ -91,8 +91,9 @@ class ClockColumns : private RowColumns {
         });
   }
 
-  // Whether the days are known, and within them the column stays, and goes back
-  // a third as often as on or more: "Cycle time [s]" is how long a cycle takes.
+  // Whether the days are known, and within them the column goes back a third as
+  // often as on or more, which of rows in no order a clock does, too: but it
+  // neither stays, as "Cycle time [s]" does, nor has more in its name.
   bool IsDuration(const CsvColumn& column) const {
     if (dates_ < 0) return false;
     const CsvColumn& dates = table_.At(dates_);
@@ -107,7 +108,16 @@ class ClockColumns : private RowColumns {
       stays += values[i] == values[i - 1] ? 1 : 0;
     }
     constexpr std::size_t kOften = 3;
-    return stays > 0 && back > 1 && kOften * back >= on;
+    return (stays > 0 || NamesMoreThanTime(column.name)) && back > 1 &&
+           kOften * back >= on;
+  }
+
+  // "Settling time", and neither "Elapsed time" nor "t".
+  static bool NamesMoreThanTime(std::string_view name) {
+    return std::ranges::any_of(WordsOf(name), [](const std::string& word) {
+      return word.size() > 1 && !IsWord(word, Word::kTime) &&
+             !IsWord(word, Word::kDate);
+    });
   }
 
   // Of a name that says a time or a date somewhere: in a unit of time, or by

@@ -522,8 +522,7 @@ class DatasetBuilder {
   // The reading, with what the values of the columns in use added.
   Reading DescribedReading() {
     Reading reading = std::move(read_.reading);
-    // Less rows that were dropped for their cells.
-    reading.rows -= std::ranges::count(passes_, true) - std::ssize(parts_.rows);
+    reading.rows = std::ssize(parts_.rows);
     reading.remarks = remarks_;
     for (const DroppedColumn& column : dropped_) {
       reading.left_out.push_back({.column = column.column, .why = column.why});

@@ -21,18 +21,9 @@ bool IsDerived(const CsvTable& given, const ColumnFilter& filter) {
   return filter.column == kDirectionColumn && given.Find(kDirectionColumn) < 0;
 }
 
-// Rows of totals and remarks.
 void LeaveOutWords(TableInReading* in, std::vector<bool>* passes) {
-  std::vector<bool> numbering;
-  for (const CsvColumn& column : in->table().columns) {
-    numbering.push_back(KeepsRecord(column.name) ||
-                        IsCalled(column.name, Word::kTime));
-  }
-  if (in->read.roles.group != kNoColumn) {
-    numbering[static_cast<std::size_t>(in->read.roles.group)] = true;
-  }
-  const std::vector<Index> left_out = LeaveOutRowsOfWords(
-      in->table(), numbering, in->selection.missing, passes);
+  const std::vector<Index> left_out = LeaveOutTotals(
+      in->table(), in->read.roles.group, in->selection.missing, passes);
   if (left_out.empty()) return;
   std::vector<Index> kept = AllRows(in->table().num_rows);
   for (const Index row : left_out) {
@@ -47,6 +38,19 @@ void LeaveOutWords(TableInReading* in, std::vector<bool>* passes) {
 }
 
 }  // namespace
+
+std::vector<Index> LeaveOutTotals(const CsvTable& table,
+                                  std::ptrdiff_t group,
+                                  MissingPolicy missing,
+                                  std::vector<bool>* passes) {
+  std::vector<bool> numbering;
+  for (const CsvColumn& column : table.columns) {
+    numbering.push_back(KeepsRecord(column.name) ||
+                        IsCalled(column.name, Word::kTime));
+  }
+  if (group != kNoColumn) numbering[static_cast<std::size_t>(group)] = true;
+  return LeaveOutRowsOfWords(table, numbering, missing, passes);
+}
 
 void ChooseBaseRows(TableInReading* in) {
   std::vector<ColumnFilter> filters;

@@ -1,8 +1,22 @@
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/measurements/dataset.h"
 #include "data/measurements/reading/table_in_reading.h"
 
 namespace errmap::data {
+
+/// Clears the flags of rows that pass but hold totals or remarks, and returns
+/// these rows. `group` is the column of cycles. Throws InputError if there is
+/// one that must not be left out.
+std::vector<Eigen::Index> LeaveOutTotals(const CsvTable& table,
+                                         std::ptrdiff_t group,
+                                         MissingPolicy missing,
+                                         std::vector<bool>* passes);
 
 /// Chooses the rows that pass the filters, without those of totals and remarks.
 /// Throws InputError if such a row must not be left out.

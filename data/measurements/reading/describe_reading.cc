@@ -8,6 +8,7 @@
 
 #include "data/column_header.h"
 #include "data/files/shown_path.h"
+#include "data/measurements/axis/directions.h"
 #include "data/measurements/clock/time_units.h"
 
 namespace errmap::data {
@@ -130,6 +131,17 @@ void DescribeTime(const TableInReading& in,
   if (std::isfinite(step)) time->step_s = step;
 }
 
+// The way whose rows the filters keep.
+void ChooseWay(const std::vector<ColumnFilter>& filters,
+               Reading::Direction* direction) {
+  if (direction->values.size() != 2) return;
+  for (const ColumnFilter& filter : filters) {
+    if (filter.column != direction->column) continue;
+    const auto place = PlaceOfWay(*direction, ValueText(filter));
+    if (place) direction->chosen = direction->values[*place];
+  }
+}
+
 }  // namespace
 
 void DescribeReading(TableInReading* in) {
@@ -164,6 +176,12 @@ void DescribeReading(TableInReading* in) {
   if (selection.faults == FaultPolicy::kDropRows) {
     reading.rows -= std::ssize(read->repeated_rows);
   }
+  if (!read->passes.empty()) {  // as those for a map in use are
+    const std::int64_t in_use = std::ranges::count(read->passes, true);
+    reading.rows_filtered = reading.rows - in_use;
+    reading.rows = in_use;
+  }
+  ChooseWay(read->where, &reading.direction);
   for (const Index row : read->repeated_rows) {
     reading.rows_left_out.push_back(
         {.row = row, .why = "repeats another value for value"});

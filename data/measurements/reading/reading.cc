@@ -50,6 +50,7 @@ std::string AxisText(const Reading& reading) {
   if (!reading.position.column) return "no axis";
   std::string text = "axis " + NameInRemark(*reading.position.column);
   const Reading::Direction& direction = reading.direction;
+  if (!direction.chosen.empty()) return text + ", " + direction.chosen + "ward";
   if (direction.values.size() == 2) return text + ", both ways";
   if (direction.values.size() == 1) text += ", " + direction.values[0] + "ward";
   return text;

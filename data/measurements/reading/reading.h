@@ -39,6 +39,7 @@ struct Reading {
     std::string by;                   // "column", "position", ""
     std::vector<std::string> values;  // "up", "down" of the position
     std::vector<std::string> labels;  // the column's words for them
+    std::string chosen = {};          // the only one of these in use; "": all
     Evidence evidence = Evidence::kNone;
     bool sure = false;
   };
@@ -88,7 +89,8 @@ struct Reading {
   };
 
   std::string schema = "errmap-reading-1";
-  std::int64_t rows = 0;
+  std::int64_t rows = 0;           // in use
+  std::int64_t rows_filtered = 0;  // left out by filters, the way among them
   std::vector<std::string> files;
   Target target;
   Position position;

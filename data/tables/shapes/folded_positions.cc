@@ -45,6 +45,10 @@ const CsvColumn* ErrorBeside(const CsvTable& table, const Fold& fold) {
   return found == fold.kept.end() ? nullptr : &table.columns[*found];
 }
 
+bool MeasuresError(const std::string& name) {
+  return ErrorSign(name) != 0 || IsUnitOfErrors(UnitOfColumn(name));
+}
+
 bool HasPositionBeside(const CsvTable& table, const Fold& fold) {
   return std::ranges::any_of(fold.kept, [&](std::size_t i) {
     return IsCalledPosition(table.columns[i].name);
@@ -78,8 +82,13 @@ std::optional<Fold> FindPositions(const CsvTable& table) {
     const Header header = ReadHeader(of.first);
     return header.unit.symbol.empty() || IsLengthOrAngle(header.unit);
   });
+  // "error_um@50mm" says it all, of however few positions.
+  const bool are_errors_at =
+      are_marked && !unit->empty() && places.size() == 1 &&
+      MeasuresError(places.begin()->first) &&
+      ErrorBeside(table, fold) == nullptr && !HasPositionBeside(table, fold);
   if (!any_errors || !are_alike || distinct.size() != positions.size() ||
-      positions.size() < kFewestPositions ||
+      (positions.size() < kFewestPositions && !are_errors_at) ||
       (!are_marked && ErrorBeside(table, fold) != nullptr) ||
       (unit->empty() &&
        (!AreSpacedPositions(positions) || HasPositionBeside(table, fold)))) {
@@ -90,8 +99,9 @@ std::optional<Fold> FindPositions(const CsvTable& table) {
   fold.backwards.assign(fold.slots, false);
   fold.labels.push_back(NumberColumn("position_" + shown, positions));
   fold.what = "a column for each of " + std::to_string(fold.slots) +
-              " positions (" + CsvNumber(*distinct.begin()) + " to " +
-              CsvNumber(*distinct.rbegin()) +
+              (fold.slots == 1 ? " position (" : " positions (") +
+              CsvNumber(*distinct.begin()) +
+              (fold.slots == 1 ? "" : " to " + CsvNumber(*distinct.rbegin())) +
               (unit->empty() ? ", taken as " : " ") + shown + ")";
   return fold;
 }
@@ -123,10 +133,6 @@ bool PositionsDescend(const CsvTable& table,
     }
   }
   return false;
-}
-
-bool MeasuresError(const std::string& name) {
-  return ErrorSign(name) != 0 || IsUnitOfErrors(UnitOfColumn(name));
 }
 
 // After how many rows the positions come again, all of them and as often as

@@ -225,12 +225,15 @@ def open_cells(seed, draw):
                         "n.a.", "#N/A"))
     at = names["header"].index(names["sensors"][1])
     lines = text.splitlines()
-    for i in draw.sample(range(1, len(lines)), 7):
+    dropped = draw.sample(range(1, len(lines)), 7)
+    for i in dropped:
         cells = lines[i].split(",")
         cells[at] = word
         lines[i] = ",".join(cells)
+    keeps = [i for i in range(len(log)) if i + 1 not in dropped]
     return File("\n".join(lines) + "\n", log, names,
-                words=("--missing", "drop-rows"), rows=None, cycles=None)
+                words=("--missing", "drop-rows"), rows=len(keeps), keeps=keeps,
+                cycles=None)
 
 
 def both_ways(seed, draw):

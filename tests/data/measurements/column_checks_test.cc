@@ -180,7 +180,8 @@ TEST(ColumnChecks, MissingCellsAreCountedAmongTheRowsAskedFor) {
       {.missing = MissingPolicy::kDropRows, .where = {{"direction", "up"}}});
   EXPECT_THAT(prepared.dataset.rows(), ElementsAre(3, 5));
   EXPECT_THAT(prepared.remarks, Contains(HasSubstr("1 of 3 rows is dropped")));
-  EXPECT_EQ(prepared.reading.rows, 5);
+  EXPECT_EQ(prepared.reading.rows, 2);
+  EXPECT_EQ(prepared.reading.rows_filtered, 3);
 }
 
 TEST(ColumnChecks, RefusesUnknownUnitsInBracketsAndOnTheTarget) {

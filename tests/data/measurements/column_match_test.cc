@@ -113,5 +113,19 @@ TEST(InMapUnits, WritesDatesAndFillsMergedCells) {
   EXPECT_EQ(read.table.columns[3].values[2], 1.0);
 }
 
+TEST(InMapUnits, LeavesOutRowsOfTotals) {
+  std::string text = "cycle,x,error_um\n";
+  for (int i = 0; i < 12; ++i) text += std::to_string(i / 6 + 1) + ",5,6\n";
+  const std::string total = "Mean,5,6\n";
+  text.insert(text.find("2,5"), total);
+  const TableForMap read =
+      InMapUnits(ParseCsv(text + total, "f.csv"), {Column("x")});
+  EXPECT_EQ(read.table.num_rows, 12U);
+  EXPECT_EQ(read.table.LineOfRow(6), 9U);
+  EXPECT_THAT(read.remarks,
+              ::testing::ElementsAre("rows of totals or remarks are left out: "
+                                     "2, the first on line 8"));
+}
+
 }  // namespace
 }  // namespace errmap::data

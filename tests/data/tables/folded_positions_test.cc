@@ -304,6 +304,23 @@ TEST(FoldedPositions, BecomeARowForEachReading) {
                                     "rows, of 'error_um'")));
 }
 
+TEST(FoldedPositions, MayBeOneOnlyWhereTheNameSaysErrorAndPlace) {
+  const CsvTable table = ParseCsv("day,error_um@-50mm,t_degC\n1,2,20\n", "f");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("day", "t_degC", "position_mm", "error_um"));
+  EXPECT_EQ(table.columns[2].values[0], -50.0);
+  EXPECT_THAT(table.remarks,
+              ElementsAre(HasSubstr("each of 1 position (-50 mm)")));
+  for (const std::string alone : {"t@50mm,error_um",
+                                  "err_50,day",
+                                  "position_mm,error_um@50mm",
+                                  "error_um@50mm,error_um"}) {
+    const std::vector<std::string> names =
+        NamesIn(ParseCsv(alone + "\n1,2\n", "f"));
+    EXPECT_EQ(names.size(), 2U) << alone;
+  }
+}
+
 TEST(FoldedPositions, AreSeveralQuantitiesOrNoneByTheirPositions) {
   EXPECT_THAT(
       NamesIn(ParseCsv("ex@1 mm [um],ex@2 mm [um],ex@3 mm [um],ey@1 mm [um],"

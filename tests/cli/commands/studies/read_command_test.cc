@@ -83,6 +83,48 @@ TEST_F(ReadCommand, AReadingIsUsedAgain) {
   EXPECT_EQ(other["components"][0]["data"]["inputs"].size(), 1);
 }
 
+TEST_F(ReadCommand, WritesTheRowsInUse) {
+  std::string text = Read("log.csv");
+  text.replace(text.find("comp_um"), 7, "error_um");
+  const std::size_t at = text.find(",-");
+  text.replace(at, text.find(",7", at) - at, ",");
+  Write("gap.csv", text + "Mean,,100,22.5,-6,7\n");
+  std::vector<std::string> words = {"read", "gap.csv", "-o", "clean.csv"};
+  EXPECT_EQ(Run(words).status, kUnusable);
+  EXPECT_FALSE(Exists("clean.csv"));
+  words.insert(words.end(), {"--missing", "drop-rows"});
+  EXPECT_THAT(Run(words).out, HasSubstr("Read: 59 rows"));
+  EXPECT_EQ(Records(Read("clean.csv")).size(), 59U);
+  EXPECT_THAT(Run({"read", "clean.csv"}).out,
+              HasSubstr("Read: 59 rows in 3 sessions (by day) of 4 cycles"));
+}
+
+TEST_F(ReadCommand, CountsTheRowsOfTheWayInUse) {
+  std::string text = "day,where,heat_degC,error_um\n";
+  for (int i = 0; i < 120; ++i) {
+    const int place = i % 10 < 5 ? i % 10 : 9 - i % 10;
+    const double heat = 20.0 + 0.03 * i;
+    text += fmt::format("{},{},{:.2f},{:.3f}\n",
+                        1 + i / 40,
+                        50 * place,
+                        heat,
+                        0.5 * place + heat - 20.0 + (i % 10 < 5 ? 1.0 : 0.0));
+  }
+  Write("ways.csv", text);
+  EXPECT_THAT(Run({"read", "ways.csv"}).out,
+              HasSubstr("Read: 120 rows in 3 sessions (by day) of 4 cycles; "
+                        "axis where, both ways"));
+  EXPECT_THAT(Run({"read", "ways.csv", "--direction", "down"}).out,
+              AllOf(HasSubstr("Read: 60 rows in 3 sessions (by day) of 4 "
+                              "cycles; axis where, downward"),
+                    HasSubstr("down of up, down")));
+  const Json reading =
+      RunJson({"read", "ways.csv", "--direction", "up", "--format", "json"});
+  EXPECT_EQ(reading["rows"], 60);
+  EXPECT_EQ(reading["rows_filtered"], 60);
+  EXPECT_EQ(reading["direction"]["chosen"], "up");
+}
+
 TEST_F(ReadCommand, WhatIsNoReadingSaysWhatWritesOne) {
   Write("other.json", "{\"schema\": \"errmap-map-2\"}");
   EXPECT_THAT(

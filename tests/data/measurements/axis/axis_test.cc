@@ -2,6 +2,7 @@
 // directions.h, by MakeDataset.
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -188,6 +189,23 @@ TEST(Motion, BeginsAPassAnewAfterOneThatWasBrokenOff) {
     EXPECT_EQ(motion.num_passes, 5) << broken_off;
     EXPECT_EQ(std::ranges::count(motion.directions, 1), std::ssize(positions));
   }
+}
+
+// Sampled in motion, no position comes again.
+TEST(Axis, IsSweptToAndFroWithoutAStop) {
+  std::string text = "time_s,position_mm,t1_degC,error_um\n";
+  for (int i = 0; i < 900; ++i) {
+    const double phase = std::fmod(i / 187.3, 1.0);
+    const double x = 1000.0 * std::min(phase, 1.0 - phase);
+    const double noise = 0.5 * std::sin(i * i);
+    text += std::to_string(i) + "," + CsvNumber(x + noise) + "," +
+            CsvNumber(20.0 + 0.002 * i) + "," +
+            CsvNumber(0.01 * x + (phase < 0.5 ? 1.0 : 0.0)) + "\n";
+  }
+  const Reading reading = MakeDataset(ParseCsv(text, "f.csv"), {}).reading;
+  EXPECT_EQ(reading.position.column, "position_mm");
+  EXPECT_THAT(reading.direction.values, ElementsAre("up", "down"));
+  EXPECT_EQ(reading.cycles.count, 5);
 }
 
 }  // namespace

@@ -128,6 +128,47 @@ TEST(Clock, IsRefusedWithoutItsHours) {
   }
 }
 
+// Hours that are lost behind a pause, too; what begins anew begins as before.
+TEST(Clock, IsRefusedWhereItBeginsElsewhere) {
+  const auto shown = [](int pause) {
+    return [pause](int i, double /*warm*/) {
+      const int seconds = 20 * (i % 40) + pause * (i / 40);
+      return TwoDigits(seconds / 60 % 60) + ":" + TwoDigits(seconds % 60) +
+             ".0";
+    };
+  };
+  EXPECT_EQ(MadeOf(Days("Time", shown(0))).reading.sessions.count, 3);
+  try {
+    MadeOf(Days("Time", shown(2500)));
+    ADD_FAILURE() << "hours are guessed";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the hours are missing"));
+  }
+}
+
+TEST(Clock, IsNoDurationBesideADate) {
+  const Reading reading =
+      MadeOf(Days("Date,Settling time (s)", [](int i, double /*warm*/) {
+        return "2024-03-1" + std::to_string(i / 40) + "," +
+               CsvNumber(2.0 + 0.01 * (i * 37 % 101));
+      })).reading;
+  EXPECT_EQ(reading.time.column, std::nullopt);
+  EXPECT_EQ(reading.sessions.by, "dates");
+  EXPECT_EQ(reading.sessions.count, 3);
+}
+
+// Of a machine: they are no temperature.
+TEST(Clock, IsWhatHoursByTheirNameAre) {
+  const PreparedDataset made =
+      MadeOf(Days("Zeit,Betriebsstunden,T1 [degC]", [](int i, double warm) {
+        const int minutes = 5 * (i % 40);
+        return "2024-03-1" + std::to_string(i / 40) + " " + HourOf(minutes) +
+               ":00," + CsvNumber(5120.0 + 24 * (i / 40) + minutes / 60) + "," +
+               CsvNumber(warm + 0.01 * (i % 7));
+      }));
+  EXPECT_THAT(made.reading.sensors, ElementsAre("T1 [degC]"));
+}
+
 // Whole seconds with nights between them are a clock; numbers of rows have no
 // pauses.
 TEST(Clock, HasPausesWhateverItIsCalled) {
