@@ -328,6 +328,43 @@ void JudgeState(const FittedModel& fitted,
       Outside::kLeverage, found.leverage[row], trained.leverage_limit, worst);
 }
 
+// The columns of a thermal state: all inputs that are no positions.
+struct StateColumns {
+  std::vector<Index> of_map;
+  std::vector<Index> of_training;  // the same
+};
+
+StateColumns StateColumnsOf(const FittedModel& fitted,
+                            const data::Dataset& training) {
+  StateColumns columns;
+  for (std::size_t i = 0; i < fitted.inputs.size(); ++i) {
+    const data::ColumnInfo& column = fitted.inputs[i].column;
+    if (data::IsPosition(column)) continue;
+    columns.of_map.push_back(static_cast<Index>(i));
+    columns.of_training.push_back(training.FindInput(column.name));
+  }
+  return columns;
+}
+
+// All that FlagRows asks for.
+std::optional<Applicability> LimitsOf(const FittedModel& fitted,
+                                      const data::Dataset& training,
+                                      const StateColumns& columns) {
+  constexpr Index kFewestRows = 3;
+  if (columns.of_map.empty() || training.num_rows() < kFewestRows) {
+    return std::nullopt;
+  }
+  const data::Dataset rows = training.SelectRows(
+      stats::SpreadSample(training.num_rows(), kMostRowsKept));
+  const MatrixXd states = rows.input_values()(Eigen::all, columns.of_training);
+  Applicability trained = FitStates(states, fitted.inputs, columns.of_map);
+  trained.derived = DerivedRanges(fitted, training);
+  const InnerFolds inner = MakeInnerFolds(rows, {});
+  SetLimits(states, inner.folds, fitted.inputs, &trained);
+  if (trained.sessions) trained.sessions->units = inner.units;
+  return trained;
+}
+
 }  // namespace
 
 std::string_view ToString(Outside outside) {
@@ -361,34 +398,15 @@ StateMeasures MeasureStates(const Applicability& trained,
 
 std::optional<Applicability> MakeApplicability(const FittedModel& fitted,
                                                const data::Dataset& training) {
-  constexpr Index kFewestRows = 3;
-  std::vector<Index> columns;      // of the map
-  std::vector<Index> of_training;  // the same
-  MatrixXd inputs(training.num_rows(),
-                  static_cast<Index>(fitted.inputs.size()));
-  for (std::size_t i = 0; i < fitted.inputs.size(); ++i) {
-    const data::ColumnInfo& column = fitted.inputs[i].column;
-    inputs.col(static_cast<Index>(i)) =
-        training.input_values().col(training.FindInput(column.name));
-    if (data::IsPosition(column)) continue;
-    columns.push_back(static_cast<Index>(i));
-    of_training.push_back(training.FindInput(column.name));
-  }
-  if (columns.empty() || training.num_rows() < kFewestRows) return std::nullopt;
-  const std::vector<Index> chosen =
-      stats::SpreadSample(training.num_rows(), kMostRowsKept);
-  const data::Dataset rows = training.SelectRows(chosen);
-  const MatrixXd all_states = StatesOf(inputs, columns);
-  const MatrixXd states = all_states(chosen, Eigen::all);
-  Applicability trained = FitStates(states, fitted.inputs, columns);
-  trained.derived = DerivedRanges(fitted, training);
-  trained.repeats = RepeatsOf(training, all_states);
-  trained.standing = LearnStandingStill(training, of_training);
-  const InnerFolds inner = MakeInnerFolds(rows, {});
-  SetLimits(states, inner.folds, fitted.inputs, &trained);
-  if (trained.sessions) {
-    trained.sessions->units = inner.units;
-    trained.sessions->starts = StartsOf(training, trained, all_states);
+  const StateColumns columns = StateColumnsOf(fitted, training);
+  std::optional<Applicability> trained = LimitsOf(fitted, training, columns);
+  if (!trained) return trained;
+  const MatrixXd states =
+      training.input_values()(Eigen::all, columns.of_training);
+  trained->repeats = RepeatsOf(training, states);
+  trained->standing = LearnStandingStill(training, columns.of_training);
+  if (trained->sessions) {
+    trained->sessions->starts = StartsOf(training, *trained, states);
   }
   return trained;
 }
@@ -451,7 +469,8 @@ std::vector<bool> InsideOfFolds(const FittedModel& fitted,
     FittedModel of_fold = fitted;
     of_fold.inputs = DescribeInputs(training, columns);
     of_fold.applicability = nullptr;
-    if (auto trained = MakeApplicability(of_fold, training)) {
+    if (auto trained =
+            LimitsOf(of_fold, training, StateColumnsOf(of_fold, training))) {
       of_fold.applicability =
           std::make_shared<const Applicability>(std::move(*trained));
     }

@@ -19,28 +19,29 @@ double MiddleOf(std::vector<double> values) {
   return values.empty() ? 0.0 : stats::UpperMedian(std::move(values));
 }
 
-double RangeOf(const VectorXd& values) {
-  return values.size() > 0 ? values.maxCoeff() - values.minCoeff() : 0.0;
+VectorXd RangesOf(const MatrixXd& states) {
+  if (states.rows() == 0) return VectorXd::Zero(states.cols());
+  return states.colwise().maxCoeff() - states.colwise().minCoeff();
 }
 
-// Thermometers that moved as others did; columns of `states`.
+// Thermometers that moved as others did: places in `columns`.
 std::vector<Index> Watched(const data::Dataset& training,
                            const std::vector<Index>& columns,
-                           const MatrixXd& states) {
+                           const VectorXd& ranges) {
   constexpr double kLeastShare = 0.25;
   const auto unit = [&](Index i) -> const data::Unit& {
     const Index column = columns[static_cast<std::size_t>(i)];
     return training.inputs()[static_cast<std::size_t>(column)].unit;
   };
   std::vector<Index> watched;
-  for (Index i = 0; i < states.cols(); ++i) {
+  for (Index i = 0; i < ranges.size(); ++i) {
     if (unit(i).quantity != data::Quantity::kTemperature) continue;
     std::vector<double> alike;
-    for (Index k = 0; k < states.cols(); ++k) {
-      if (unit(k) == unit(i)) alike.push_back(RangeOf(states.col(k)));
+    for (Index k = 0; k < ranges.size(); ++k) {
+      if (unit(k) == unit(i)) alike.push_back(ranges[k]);
     }
-    const double range = RangeOf(states.col(i));
-    if (range > 0.0 && range >= kLeastShare * MiddleOf(std::move(alike))) {
+    if (ranges[i] > 0.0 &&
+        ranges[i] >= kLeastShare * MiddleOf(std::move(alike))) {
       watched.push_back(i);
     }
   }
@@ -183,12 +184,13 @@ StandingStill LearnStandingStill(const data::Dataset& training,
                        .quiet = none,
                        .jump = none,
                        .pace = none};
-  const std::vector<Index> watched = Watched(training, columns, states);
+  const VectorXd ranges = RangesOf(states);
+  const std::vector<Index> watched = Watched(training, columns, ranges);
   if (watched.empty()) return learnt;
   const auto others = std::max(1.0, static_cast<double>(watched.size()) - 1.0);
   VectorXd common = VectorXd::Zero(states.rows());
   for (const Index i : watched) {
-    common += states.col(i) / (RangeOf(states.col(i)) * others);
+    common += states.col(i) / (ranges[i] * others);
   }
   const std::vector<Index> first = FirstRowsOf(training);
   double typical = 0.0;
@@ -198,7 +200,7 @@ StandingStill LearnStandingStill(const data::Dataset& training,
   const double ten_rows = kRows * typical;
   for (const Index i : watched) {
     const VectorXd column = states.col(i);
-    const double range = RangeOf(column);
+    const double range = ranges[i];
     learnt.resolution[i] = Resolution(column) / range;
     const double five_steps = kSteps * learnt.resolution[i];
     learnt.others_move[i] = std::max(

@@ -23,6 +23,8 @@ double MemoryOf(const Eigen::Ref<const VectorXd>& series, double margin);
 /// sessions cannot show their memory, and with its upper bound ten sessions
 /// would never prove anything.
 inline constexpr double kSessionMemory = 0.5;
+/// The same for a PointOptimalTest: with 0.5 its level there would be just 5 %.
+inline constexpr double kSessionMemoryInTurn = 0.55;
 
 /// ShownMemory returns MemoryOf with kLikelyMemory if the estimate is more than
 /// `above` standard errors above 0, else 0. With kShows, a fifth of series

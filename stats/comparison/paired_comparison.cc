@@ -5,6 +5,7 @@
 #include <string>
 
 #include "stats/comparison/holm.h"
+#include "stats/comparison/point_optimal.h"
 #include "stats/not_a_number.h"
 #include "stats/randomness.h"
 #include "stats/require.h"
@@ -149,10 +150,12 @@ double OneSided(double two_sided, const PairComparison& pair, Index first) {
   return better ? 0.5 * two_sided : 1.0 - 0.5 * two_sided;
 }
 
-void AdjustInTurn(Index first, PairComparison* pair, Gates* gates) {
+void AdjustInTurn(Index first,
+                  double p_memory,
+                  PairComparison* pair,
+                  Gates* gates) {
   gates->p = std::max(OneSided(pair->p, *pair, first), gates->p);
-  gates->p_memory =
-      std::max(OneSided(pair->memory.test.p, *pair, first), gates->p_memory);
+  gates->p_memory = std::max(p_memory, gates->p_memory);
   pair->p_holm = gates->p;
   pair->p_memory_holm = gates->p_memory;
   pair->num_adjusted = 1;
@@ -176,17 +179,63 @@ void AdjustTogether(const std::vector<PairComparison*>& pairs,
   }
 }
 
-void AdjustInOrder(const ComparisonOptions& options, Comparison* comparison) {
+// One-sided p (yardsticks) that `first` is better, with the memory that cannot
+// be excluded.
+std::vector<double> MemoryPsInTurn(const UnitLosses& losses,
+                                   const ComparisonOptions& options,
+                                   const std::vector<Index>& yardsticks,
+                                   const Comparison& comparison) {
+  // Different from the draws of the sign flips.
+  constexpr std::uint64_t kOwnSequence = 0xd1b54a32d192ed03U;
+  std::vector<double> p;
+  if (yardsticks.empty()) return p;
+  const Index first = *options.first;
+  if (!options.separate_units || losses.num_units() < 2) {
+    for (const Index yardstick : yardsticks) {
+      const PairComparison& pair = comparison.Pair(first, yardstick);
+      p.push_back(OneSided(pair.memory.test.p, pair, first));
+    }
+    return p;
+  }
+  const PointOptimalTest test(losses.num_units(),
+                              kSessionMemoryInTurn,
+                              options.flips,
+                              options.seed ^ kOwnSequence);
+  const MatrixXd errors = InfluenceOnRmse(losses, comparison.rmse).rowwise() +
+                          comparison.rmse.transpose();
+  for (const Index yardstick : yardsticks) {
+    p.push_back(test.P(errors.col(yardstick) - errors.col(first)));
+  }
+  return p;
+}
+
+// Those that have a turn, the one of lowest error first.
+std::vector<Index> YardsticksInTurn(const ComparisonOptions& options,
+                                    const Comparison& comparison) {
+  if (!options.first) return {};
+  std::vector<Index> yardsticks = options.yardsticks;
+  std::erase(yardsticks, *options.first);
+  std::ranges::stable_sort(yardsticks, {}, [&](Index yardstick) {
+    return comparison.rmse[yardstick];
+  });
+  return yardsticks;
+}
+
+void AdjustInOrder(const UnitLosses& losses,
+                   const ComparisonOptions& options,
+                   Comparison* comparison) {
   std::vector<PairComparison*> rest;
   for (PairComparison& pair : comparison->pairs) rest.push_back(&pair);
   Gates gates;
-  for (const Index yardstick : options.yardsticks) {
-    if (!options.first || yardstick == *options.first) continue;
-    const auto [a, b] = std::minmax(*options.first, yardstick);
+  const std::vector<Index> yardsticks = YardsticksInTurn(options, *comparison);
+  const std::vector<double> p_memory =
+      MemoryPsInTurn(losses, options, yardsticks, *comparison);
+  for (std::size_t i = 0; i < yardsticks.size(); ++i) {
+    const auto [a, b] = std::minmax(*options.first, yardsticks[i]);
     PairComparison& pair = comparison->pairs[static_cast<std::size_t>(
         PairIndex(a, b, comparison->rmse.size()))];
     std::erase(rest, &pair);
-    if (!pair.tied) AdjustInTurn(*options.first, &pair, &gates);
+    if (!pair.tied) AdjustInTurn(*options.first, p_memory[i], &pair, &gates);
   }
   const auto is_yardstick = [&](Index model) {
     return std::ranges::find(options.yardsticks, model) !=
@@ -311,7 +360,7 @@ Comparison CompareModels(const UnitLosses& losses,
   }
   TestUnits(losses, options, &comparison.pairs);
   BoundErrors(losses, options, &comparison);
-  AdjustInOrder(options, &comparison);
+  AdjustInOrder(losses, options, &comparison);
   if (folds != nullptr) TestFolds(*folds, &comparison.pairs);
   for (PairComparison& pair : comparison.pairs) {
     if (pair.tied) ForgetTests(&pair);

@@ -38,15 +38,21 @@ struct ComparisonOptions {
   Margin margin = {};      // between tiers
   /// True if the units are known to be separate sessions. `p` then allows for
   /// memory between them only if it exceeds chance. The `memory` test uses
-  /// kSessionMemory instead of the upper bound of the memory.
+  /// kSessionMemory instead of the upper bound of the memory, a pair tested in
+  /// turn the PointOptimalTest with kSessionMemoryInTurn.
   bool separate_units = false;
   /// `first` is the model of interest, `yardsticks` the models that it must
-  /// beat, in order (columns of the losses), chosen before the losses are seen.
-  /// These pairs are tested in turn, each at the full level and in that
-  /// direction only, until one fails. All other pairs follow, with Holm's
-  /// correction. The chance of any false rejection among all pairs is at most
-  /// the level (a fixed sequence, then a gate: Maurer, Hothorn & Lehmacher
-  /// 1995). If unset, all pairs are adjusted together.
+  /// beat (columns of the losses), chosen before the losses are seen. These
+  /// pairs are tested in turn, the yardstick of lowest measured error first,
+  /// each at the full level and in that direction only, until one fails. All
+  /// other pairs follow, with Holm's correction.
+  ///
+  /// The chance of any false rejection among all pairs is at most the level.
+  /// Of the yardsticks that are truly no worse, the first in turn shows the
+  /// smallest gain. Where that gain is significant, the gain over the one of
+  /// them whose errors scatter least is, too: one fixed test. (A sequence, then
+  /// a gate: Maurer, Hothorn & Lehmacher 1995.) If unset, all pairs are
+  /// adjusted together.
   std::optional<Index> first = {};
   std::vector<Index> yardsticks = {};
 
@@ -80,8 +86,10 @@ struct PairComparison {
   /// Number of pairs in its Holm correction; 1 if it was tested in turn.
   Index num_adjusted = 0;
   /// t test of `difference` with the upper bound of the memory between units
-  /// (or kSessionMemory), and its p adjusted like `p_holm`.
+  /// (or kSessionMemory).
   MemoryTest memory;
+  /// p of that test, or of the PointOptimalTest (see separate_units), adjusted
+  /// like `p_holm`.
   double p_memory_holm = 1.0;
   /// Corrected resampled t test of d on kBlocksOfUnits runs of neighbouring
   /// units, as if each run were held out in turn, whatever the hold-out was. It

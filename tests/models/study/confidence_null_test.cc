@@ -90,6 +90,19 @@ TEST(ConfidenceNull, KeepsThatOfAMapInItsTurn) {
   }
 }
 
+// The lowest of several errors shows the smallest gain.
+TEST(ConfidenceNull, KeepsThatOfAMapAgainstSeveralBaselines) {
+  for (const Tails tails : {Tails::kNormal, Tails::kT3}) {
+    EXPECT_LE(FalseShare({.units = 8,
+                          .models = 4,
+                          .memory = 0.5,
+                          .tails = tails,
+                          .separate_sessions = true,
+                          .in_turn = true}),
+              0.4 * kMostFalse);
+  }
+}
+
 // No cure by never establishing.
 TEST(ConfidenceNull, FindsAGainOfTwoStandardDeviationsInSixSessions) {
   EXPECT_GE(EstablishedDifferent({.units = 6,

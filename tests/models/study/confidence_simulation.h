@@ -36,7 +36,8 @@ struct World {
   /// By how many standard deviations of the loss difference of two models the
   /// second is worse (kLosses), or the ratio of its RMSE less 1 (kBiases).
   double worse = 0.0;
-  /// The first model is what the comparison is about, the second a yardstick.
+  /// The first model is what the comparison is about, all others are
+  /// yardsticks.
   bool in_turn = false;
 };
 
@@ -68,7 +69,9 @@ class Simulation {
         .separate_units = world_.separate_sessions};
     if (world_.in_turn) {
       options.first = 0;
-      options.yardsticks = {1};
+      for (Eigen::Index other = 1; other < world_.models; ++other) {
+        options.yardsticks.push_back(other);
+      }
     }
     return stats::CompareModels(Draw(), nullptr, options);
   }

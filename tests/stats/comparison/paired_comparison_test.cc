@@ -220,14 +220,16 @@ TEST(CompareModels, TestsNothingBetweenMapsThatDifferByRounding) {
   EXPECT_EQ(found.tiers, (std::vector<std::vector<Index>>{{0, 2}, {1}}));
 }
 
-// Two pairs in turn, then Holm's adjustment of all others.
+// Two pairs in turn, the lower error first, then Holm's adjustment of all
+// others.
 TEST(CompareModels, TestsWhatItIsAboutAgainstEachYardstickBeforeAllElse) {
   const UnitLosses losses =
       MakeLossesInPairedComparison(12, VectorXd{{1.0, 1.5, 2.0, 1.4, 1.6}});
   const Comparison found =
       CompareModels(losses, nullptr, {.first = 0, .yardsticks = {4, 3}});
-  const PairComparison& one = found.Pair(0, 4);
-  const PairComparison& two = found.Pair(0, 3);
+  const PairComparison& one = found.Pair(0, 3);
+  const PairComparison& two = found.Pair(0, 4);
+  ASSERT_LT(found.rmse[3], found.rmse[4]);
   // In one direction: that the first is better.
   EXPECT_EQ(one.p_holm, 0.5 * one.p);
   EXPECT_TRUE(one.one_sided);
@@ -263,15 +265,26 @@ TEST(CompareModels, ShowsNothingBehindAYardstickThatIsNotBeaten) {
       MakeLossesInPairedComparison(20, VectorXd{{1.0, 9.0, 1.0, 0.1}}),
       nullptr,
       {.first = 0, .yardsticks = {1, 2, 3}});
-  EXPECT_LE(found.Pair(0, 1).p_holm, kSignificance);
-  const double not_beaten = found.Pair(0, 2).p_holm;
-  ASSERT_GT(not_beaten, kSignificance);
   EXPECT_LE(found.Pair(0, 3).p, kSignificance);
-  for (const auto& [a, b] : {std::pair(0, 3), {1, 3}, {1, 2}, {2, 3}}) {
+  // That the yardstick is the better one was not asked.
+  const double not_beaten = found.Pair(0, 3).p_holm;
+  EXPECT_GT(not_beaten, 1.0 - kSignificance);
+  for (const auto& [a, b] : {std::pair(0, 1), {0, 2}, {1, 2}, {1, 3}, {2, 3}}) {
     EXPECT_GE(found.Pair(a, b).p_holm, not_beaten);
   }
-  // That the yardstick is the better one was not asked.
-  EXPECT_GT(found.Pair(0, 3).p_holm, 1.0 - kSignificance);
+}
+
+// A gain over a distant yardstick that differs much from unit to unit does not
+// hide the one over the yardstick that matters.
+TEST(CompareModels, ShowsTheGainOverTheBestYardstickWhateverADistantOneHides) {
+  UnitLosses losses =
+      MakeLossesInPairedComparison(8, VectorXd{{1.0, 1.0, 2.0}});
+  losses.mean_squares.col(1).setConstant(0.1);
+  losses.mean_squares(3, 1) = 300.0;
+  const Comparison found =
+      CompareModels(losses, nullptr, {.first = 0, .yardsticks = {1, 2}});
+  EXPECT_GT(found.Pair(0, 1).p_holm, kSignificance);
+  EXPECT_LE(found.Pair(0, 2).p_holm, kSignificance);
 }
 
 // A yardstick that is the first model itself but for rounding has no turn.
