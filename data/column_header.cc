@@ -252,7 +252,12 @@ Header ReadHeader(std::string_view name) {
     // Braces and angle brackets hold other things, too.
     const bool is_for_units = name[open] == '[' || name[open] == '(';
     if (const auto unit = ReadUnit(header.unit_text, UnitPlace::kBracketed)) {
-      header.unit = *unit;
+      // A thermometer's degrees are no angle: "Temp. [°]".
+      const Unit assumed = AssumedUnit(header.base);
+      header.unit =
+          unit->symbol == "deg" && assumed.quantity == Quantity::kTemperature
+              ? assumed
+              : *unit;
       header.source = UnitSource::kStated;
       return header;
     }

@@ -150,6 +150,13 @@ TEST(ReadHeader, TakesBareLettersForNames) {
   EXPECT_EQ(ReadHeader("temp_in").unit.symbol, "degC");
 }
 
+TEST(ReadHeader, TakesDegreesOfAThermometerForNoAngle) {
+  EXPECT_EQ(UnitOfColumn("Temp. [\u00b0]").symbol, "degC");
+  EXPECT_EQ(UnitOfColumn("T2 (deg)").symbol, "degC");
+  EXPECT_EQ(UnitOfColumn("C [\u00b0]").symbol, "deg");
+  EXPECT_EQ(UnitOfColumn("angle [deg]").symbol, "deg");
+}
+
 TEST(ReadHeader, TakesBareDegreesBehindTheNameOfATemperature) {
   for (const char* name : {"temp_C", "T1_C", "tc03 C", "T_bed_C"}) {
     EXPECT_EQ(ReadHeader(name).unit.symbol, "degC") << name;

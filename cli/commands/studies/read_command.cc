@@ -209,7 +209,7 @@ int RunRead(const ReadArguments& arguments) {
     }
     reading = prepared.reading;
     reading.remarks.insert(
-        reading.remarks.begin(), of_files.begin(), of_files.end());
+        reading.remarks.begin(), joined.remarks.begin(), joined.remarks.end());
     for (std::string& line : report::FaultLines(prepared,
                                                 arguments.data.selection.faults,
                                                 report::FaultUse::kFit)) {

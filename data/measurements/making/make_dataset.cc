@@ -592,8 +592,10 @@ PreparedDataset MakeDataset(const CsvTable& table,
   const CsvTable& used = as_read ? *as_read : table;
   PreparedDataset prepared =
       DatasetBuilder(used, selection, std::move(read)).Build();
-  prepared.remarks.insert(
-      prepared.remarks.begin(), used.remarks.begin(), used.remarks.end());
+  for (std::vector<std::string>* const remarks :
+       {&prepared.remarks, &prepared.reading.remarks}) {
+    remarks->insert(remarks->begin(), used.remarks.begin(), used.remarks.end());
+  }
   return prepared;
 }
 
