@@ -132,13 +132,6 @@ std::vector<std::string> CommandNames(const CLI::App& app) {
   return names;
 }
 
-// "did you mean 'compare'? "
-std::string Suggestion(const std::string& word,
-                       const std::vector<std::string>& known) {
-  const std::string nearest = data::NearestName(word, known);
-  return nearest.empty() ? "" : "did you mean '" + nearest + "'? ";
-}
-
 std::vector<std::string> OptionNames(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options()) {
@@ -161,7 +154,7 @@ void RequireKnownCommand(const CLI::App& app, const std::string& word) {
   meant.insert(meant.begin(), known.begin(), known.end());
   throw UsageError(fmt::format("no command '{}'; {}there are {}",
                                word,
-                               Suggestion(word, meant),
+                               data::DidYouMean(word, meant),
                                data::JoinWords(known, ", ")));
 }
 
@@ -198,7 +191,7 @@ std::string WithSuggestion(const CLI::App& app,
     const bool is_word = flag.size() > 2;
     return fmt::format("no option '{}'; {}{}",
                        flag,
-                       is_word ? Suggestion(flag, known) : "",
+                       is_word ? data::DidYouMean(flag, known) : "",
                        help);
   }
   // "--format: tabel not in {table,json}"
@@ -212,7 +205,7 @@ std::string WithSuggestion(const CLI::App& app,
                        text.substr(0, begin),
                        data::JoinWords(known, ", "),
                        found,
-                       Suggestion(found, known),
+                       data::DidYouMean(found, known),
                        help);
   }
   return text + "; " + help;
@@ -285,7 +278,7 @@ void PrintHelp(const CLI::App& app, const std::string& name, bool all) {
   known.insert(known.end(), topics.begin(), topics.end());
   throw UsageError(fmt::format("no command or topic '{}'; {}there are {}",
                                name,
-                               Suggestion(name, known),
+                               data::DidYouMean(name, known),
                                data::JoinWords(known, ", ")));
 }
 

@@ -9,6 +9,7 @@
 namespace errmap::desk {
 namespace {
 
+#include "data/text.h"
 using data::QuotedName;
 using data::QuotedText;
 
@@ -29,13 +30,6 @@ std::string Found(const toml::node& node) {
     default:
       return "a date or time";
   }
-}
-
-// "did you mean 'target'? "
-std::string Suggestion(std::string_view name,
-                       const std::vector<std::string>& known) {
-  const std::string nearest = data::NearestName(name, known);
-  return nearest.empty() ? "" : "did you mean '" + nearest + "'? ";
 }
 
 }  // namespace
@@ -102,7 +96,7 @@ void Keys::AllowOnly(const std::vector<std::string>& known) const {
            fmt::format("unknown key {} in {}; {}allowed are {}",
                        QuotedName(key.str()),
                        where_,
-                       Suggestion(key.str(), known),
+                       data::DidYouMean(key.str(), known),
                        data::JoinWords(known, ", ")));
   }
 }

@@ -196,13 +196,12 @@ std::string DeployedText(const fleet::StorePaths& paths,
                          const std::vector<Deployed>& all) {
   if (all.size() == 1) {
     const fleet::Deployment& deployment = all.front().deployment;
-    return fmt::format(
-        "{}: {} since {}, promised {}; its file: {}\n",
-        data::Printable(deployment.component, deployment.component.size()),
-        deployment.model,
-        deployment.since,
-        all.front().promised,
-        data::PrintablePath(paths.Map(deployment.map)));
+    return fmt::format("{}: {} since {}, promised {}; its file: {}\n",
+                       data::Printable(deployment.component),
+                       deployment.model,
+                       deployment.since,
+                       all.front().promised,
+                       data::PrintablePath(paths.Map(deployment.map)));
   }
   return fmt::format(
       "{} deployed since {}; their files: {}\n",

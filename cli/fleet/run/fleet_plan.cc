@@ -46,9 +46,8 @@ FleetPlan PlanFleet(const desk::StudyConfig& config) {
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
-      plan.unusable.push_back(
-          data::Printable(component.name, component.name.size()) + ": " +
-          error.what());
+      plan.unusable.push_back(data::Printable(component.name) + ": " +
+                              error.what());
     }
   }
   const double factor =

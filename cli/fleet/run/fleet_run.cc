@@ -212,10 +212,8 @@ class FleetRunner {
       }
       if (options_.remark) {
         const std::lock_guard lock(mutex_);
-        options_.remark(
-            fmt::format("{} failed: {}",
-                        data::Printable(summary.name, summary.name.size()),
-                        *summary.why));
+        options_.remark(fmt::format(
+            "{} failed: {}", data::Printable(summary.name), *summary.why));
       }
     }
     Write(component.name, kSummaryFile, ToJsonText(std::move(summary)));

@@ -17,15 +17,13 @@ std::string MissingWords(const FleetSummaries& found) {
   constexpr std::size_t kMostNamed = 5;
   std::vector<std::string> names;
   for (const std::string& name : found.missing) {
-    if (names.size() == kMostNamed) break;
-    names.push_back(data::Printable(name, name.size()));
+    names.push_back(data::Printable(name));
   }
   return fmt::format(
-      "{} of {} components are missing: {}{}; run the shards again",
-      found.missing.size(),
+      "{} of {} components are missing: {}; run the shards again",
+      names.size(),
       found.fleet.components.size(),
-      data::JoinWords(names, "; "),
-      names.size() < found.missing.size() ? "; ..." : "");
+      data::ShortList(names, kMostNamed, "; "));
 }
 
 FleetSummaries ReadSummaries(const StorePaths& paths) {

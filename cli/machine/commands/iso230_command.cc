@@ -291,7 +291,7 @@ std::string TestText(const Approached& all, const Judged& judged) {
   const RunCount down = RunsOf(judged.before, &PositioningPoint::down);
   std::string text =
       fmt::format("ISO 230-2: {} at {}, {} runs upwards and {} downwards\n",
-                  data::Printable(all.target, all.target.size()),
+                  data::Printable(all.target),
                   report::Count(std::ssize(judged.before), "position"),
                   RunsText(up),
                   RunsText(down));
