@@ -8,6 +8,7 @@
 #include "cli/desk/plan/component_names.h"
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
+#include "data/measurements/column_checks.h"
 #include "data/tables/text/gzip.h"
 #include "data/text.h"
 #include "data/throwing_as.h"
@@ -117,6 +118,12 @@ std::string WhyNoMap(const std::string& component, const std::string& why) {
                      data::QuotedName(component),
                      why);
 }
+  if (summary && summary->ways) {
+    throw data::InputError(
+        fmt::format("{} was measured both ways; its components are {}",
+                    data::QuotedName(component),
+                    data::ListOfNames(*summary->ways)));
+  }
 
 std::optional<ComponentSummary> FindSummary(const StorePaths& paths,
                                             const std::string& component) {
