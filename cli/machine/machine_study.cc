@@ -37,6 +37,26 @@ std::string SessionColumn(const data::CsvTable& points,
       data::ArgumentName("session")));
 }
 
+// One map is asked for of each, and PlanStudy plans two where rows go both
+// ways.
+void RequireOneWay(const MachineStudy& study, const desk::StudyPlan& plan) {
+  for (const std::string& stem : study.stems) {
+    if (std::ranges::any_of(plan.config.components,
+                            [&](const desk::ComponentConfig& component) {
+                              return component.name == stem;
+                            })) {
+      continue;
+    }
+    throw data::InputError(fmt::format(
+        "{}: its rows go both ways, and {} asks for one map of them, {}.json; "
+        "make a file of each way, and name both maps there: {{ forward = ..., "
+        "reverse = ... }}",
+        data::PrintablePath(study.FileNamed(stem + ".csv")),
+        data::PrintablePath(study.path),
+        data::PrintablePath(stem)));
+  }
+}
+
 // Better refused before the fits than after them.
 void RequireQuantities(const MachineStudy& study, const desk::StudyPlan& plan) {
   const models::Machine& machine = study.file.machine;
@@ -167,6 +187,7 @@ desk::StudyPlan PlanOfMachine(const MachineStudy& study,
   desk::StudyPlan plan = desk::PlanStudy(config, remark);
   RequireQuantities(study, plan);
   RequireSharedSessions(study, plan);
+  RequireOneWay(study, plan);
   plan.inputs.push_back(desk::HashInput(study.path));
   plan.inputs.push_back(desk::HashInput(study.points.file));
   if (study.diagonals) {

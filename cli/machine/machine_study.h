@@ -42,7 +42,8 @@ MachineStudy ReadMachineStudy(const std::string& machine,
 /// Returns the plan of `config` with a component for each stem, without the
 /// later sessions. Throws as PlanStudy. Throws data::InputError if a
 /// component's target is not an error of its link, or is a length for an angle.
-/// Also if it shares no session with the points.
+/// Also if its rows go both ways along the axis, or if it shares no session
+/// with the points.
 desk::StudyPlan PlanOfMachine(const MachineStudy& study,
                               desk::StudyConfig config = {},
                               const desk::Remark& remark = {});
