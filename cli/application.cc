@@ -320,8 +320,8 @@ void AdviseOwnOptions(const CLI::App& app, const std::string& command) {
 void NameStandardInput(int argc, char** argv) {
   static std::string input = "/dev/stdin";
   for (int i = 1; i < argc; ++i) {
-    const bool is_output =
-        data::IsOneOf(argv[i - 1], "-o --output --out --save-split");
+    const bool is_output = data::IsOneOf(
+        argv[i - 1], "-o --output --out --save-split --figure --figures");
     if (!is_output && std::string_view(argv[i]) == "-") argv[i] = input.data();
   }
 }

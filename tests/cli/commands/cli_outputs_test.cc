@@ -77,7 +77,9 @@ TEST_F(CliOutputs, ADashNamesNoFile) {
       {"compare", kDown, "--models", "mean", "--save-split", "-"},
       {"fit", kDown, "--model", "mean", "-o", "-"},
       {"predict", "m.json", kDown, "-o", "-"},
-      {"init", kDown, "-o", "-"}};
+      {"init", kDown, "-o", "-"},
+      {"convert", kDown, "-"},
+      {"iso230", kDown, "--figure", "-"}};
   for (const std::vector<std::string>& words : commands) {
     SCOPED_TRACE(::testing::PrintToString(words));
     EXPECT_THAT(RefusalOf(Run(words), kWrongCommandLine),
