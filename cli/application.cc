@@ -88,20 +88,17 @@ std::string ProvenanceCommandLine(int argc, char** argv) {
   std::string line = "errmap";
   for (int i = 1; i < argc; ++i) {
     const std::string word = ShownWord(argv[i]);
-    if (word == "--keep-paths" || word == "--quiet" || word == "--resume" ||
-        word == "--force" || word == "--all" || word == "--details" ||
-        word == "--no-cache") {
+    if (data::IsOneOf(word,
+                      "--keep-paths --quiet --resume --force --all --details "
+                      "--no-cache")) {
       continue;
     }
-    if (word == "--jobs" || word == "--out" || word == "--format" ||
-        word == "--shard" || word == "-o") {
-      ++i;
+    const std::string name = word.substr(0, word.find('='));
+    if (data::IsOneOf(name, "--jobs --out --output --format --shard -o")) {
+      if (name == word) ++i;
       continue;
     }
-    if (word.starts_with("--jobs=") || word.starts_with("--out=") ||
-        word.starts_with("--format=") || word.starts_with("--shard=")) {
-      continue;
-    }
+    if (word.starts_with("-o")) continue;  // -oFILE
     line += " " + report::ShellWord(word);
   }
   return line;
