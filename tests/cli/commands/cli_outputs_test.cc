@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/cli/both_ways.h"
 #include "tests/cli/cli_fixture.h"
 
 namespace errmap {
@@ -86,6 +87,21 @@ TEST_F(CliOutputs, ADashNamesNoFile) {
                 HasSubstr(": - names no file; name one"));
   }
   EXPECT_FALSE(Exists("-"));
+}
+
+TEST_F(CliOutputs, FitsThatAreRefusedLeaveNoFolder) {
+  Write("ways.csv", RowsOfBothWays());
+  EXPECT_THAT(RefusalOf(Run({"fit",
+                             "ways.csv",
+                             "--model",
+                             "mean",
+                             "-o",
+                             "maps/",
+                             "--format",
+                             "json"}),
+                        kWrongCommandLine),
+              HasSubstr("tells of one map"));
+  EXPECT_FALSE(Exists("maps"));
 }
 
 // Found out after hours of fits it would cost the page.
