@@ -98,6 +98,11 @@ void AdviseOnly(std::set<std::string, std::less<>> options) {
   own_options = std::make_shared<const Options>(std::move(options));
 }
 
+void AdviseAny() {
+  const std::lock_guard lock(options_mutex);
+  own_options = nullptr;
+}
+
 void WriteMessage(std::string_view text) {
   std::string line = WithoutControls(text);
   if (const auto options = OwnOptions()) {
