@@ -249,7 +249,7 @@ class FleetRunner {
       }
       summary = Summarise(record.components.front());
       if (summary.status == models::ModelStatus::kOk) {
-        WriteResults(run, std::move(record), &summary);
+        WriteResults(run, record, &summary);
       }
     } catch (const std::bad_alloc&) {
       throw;
@@ -282,7 +282,7 @@ class FleetRunner {
 
   // The summary last, by the caller.
   void WriteResults(const StudyRun& run,
-                    models::StudyRecord record,
+                    const models::StudyRecord& record,
                     ComponentSummary* summary) const {
     const std::string& name = summary->name;
     const std::string map = MapOf(run);
@@ -300,7 +300,7 @@ class FleetRunner {
     } else {
       Remove(name, kRelationsFile);
     }
-    Write(name, kResultsFile, PackResults(std::move(record)));
+    Write(name, kResultsFile, data::Gzip(models::ToJsonLine(record)));
   }
 
   void Count(Counted number) {
