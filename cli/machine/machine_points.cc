@@ -20,6 +20,7 @@
 #include "models/map_experience.h"
 #include "models/trained_range.h"
 #include "stats/distributions.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::machine {
 namespace {
@@ -265,7 +266,7 @@ class MachineEvaluator {
           "warning: {} has no prediction interval, so the uncertainty at the "
           "tool is not known",
           data::PrintablePath(source.file)));
-      at->half_width = std::numeric_limits<double>::quiet_NaN();
+      at->half_width = stats::kNaN;
     }
   }
 
@@ -318,8 +319,7 @@ class MachineEvaluator {
     Index column = 0;
     for (const models::TrainedInput& input : map.inputs) {
       if (data::IsPosition(input.column)) {
-        inputs.col(column++).setConstant(
-            std::numeric_limits<double>::quiet_NaN());
+        inputs.col(column++).setConstant(stats::kNaN);
       } else {
         inputs.col(column++) = ByName(*log_, input.column);
       }
