@@ -286,9 +286,6 @@ class MachineJudge {
     }
   }
 
-  static std::string StemOf(const std::string& file) {
-    return std::filesystem::path(file).replace_extension().string();
-  }
   const ComponentStudy& Component(const std::string& stem) const {
     return *std::ranges::find(run_.components, stem, &ComponentStudy::name);
   }

@@ -65,8 +65,7 @@ VectorXd ColumnIn(const data::Unit& unit,
                   const data::CsvTable& table,
                   const std::string& wanted) {
   const std::string column = ColumnOf(table, wanted);
-  VectorXd values =
-      data::NumericColumn(table, column, data::MissingPolicy::kError, nullptr);
+  VectorXd values = data::NumericColumn(table, column);
   const data::Unit found = data::UnitOfColumn(column);
   if (found.symbol.empty()) return values;
   if (!data::AreConvertible(found, unit)) {
@@ -297,8 +296,7 @@ class MachineEvaluator {
   VectorXd ByName(const data::CsvTable& table, const data::ColumnInfo& column) {
     const data::MatchedColumn match = data::MatchColumn(table, column);
     NoteConversion(table, match);
-    const VectorXd values = data::NumericColumn(
-        table, match.of_file.name, data::MissingPolicy::kError, nullptr);
+    const VectorXd values = data::NumericColumn(table, match.of_file.name);
     return values.unaryExpr(
         [&](double value) { return match.InMapUnit(value); });
   }

@@ -65,8 +65,7 @@ void RequireQuantities(const MachineStudy& study, const desk::StudyPlan& plan) {
         models::UnitOf(machine, machine.chain.errors()[k].direction);
     for (const models::ErrorSource& source : machine.errors[k].sources) {
       if (source.file.empty()) continue;
-      const std::string stem =
-          std::filesystem::path(source.file).replace_extension().string();
+      const std::string stem = StemOf(source.file);
       for (const models::ComponentPlan& component : plan.components) {
         if (component.comparison.name != stem) continue;
         const data::ColumnInfo& target =
@@ -110,6 +109,10 @@ void RequireSharedSessions(const MachineStudy& study,
 
 }  // namespace
 
+std::string StemOf(const std::string& file) {
+  return std::filesystem::path(file).replace_extension().string();
+}
+
 std::string MachineStudy::FileNamed(const std::string& name) const {
   return (std::filesystem::path(folder) / name).string();
 }
@@ -130,8 +133,7 @@ MachineStudy ReadMachineStudy(const std::string& machine,
   for (const models::MachineError& error : study.file.machine.errors) {
     for (const models::ErrorSource& source : error.sources) {
       if (source.file.empty()) continue;
-      const std::string stem =
-          std::filesystem::path(source.file).replace_extension().string();
+      const std::string stem = StemOf(source.file);
       if (std::ranges::find(study.stems, stem) == study.stems.end()) {
         study.stems.push_back(stem);
       }
@@ -185,9 +187,9 @@ desk::StudyPlan PlanOfMachine(const MachineStudy& study,
     config.components.push_back(std::move(component));
   }
   desk::StudyPlan plan = desk::PlanStudy(config, remark);
+  RequireOneWay(study, plan);
   RequireQuantities(study, plan);
   RequireSharedSessions(study, plan);
-  RequireOneWay(study, plan);
   plan.inputs.push_back(desk::HashInput(study.path));
   plan.inputs.push_back(desk::HashInput(study.points.file));
   if (study.diagonals) {

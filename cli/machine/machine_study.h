@@ -30,6 +30,9 @@ struct MachineStudy {
   std::string FileNamed(const std::string& name) const;
 };
 
+/// "x_yaw" of "x_yaw.json".
+std::string StemOf(const std::string& file);
+
 /// Reads machine and points; `later` is the number of sessions to judge by,
 /// `session` their column ("": one of kSessionColumns). Throws data::InputError
 /// if a file is missing, the points have no column of sessions, or all its

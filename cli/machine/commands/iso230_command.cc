@@ -128,8 +128,7 @@ void Take(const data::CsvTable& table,
           const Iso230Arguments& arguments,
           Approached* all) {
   const std::string& position = *reading.position.column;
-  const VectorXd positions = data::NumericColumn(
-      table, position, data::MissingPolicy::kError, nullptr)(rows);
+  const VectorXd positions = data::NumericColumn(table, position)(rows);
   if (all->target.empty()) {
     all->target = target.name;
     all->unit = target.unit;
