@@ -1,8 +1,10 @@
 #include "cli/desk/toml/study_file.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
