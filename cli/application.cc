@@ -88,20 +88,17 @@ std::string ProvenanceCommandLine(int argc, char** argv) {
   std::string line = "errmap";
   for (int i = 1; i < argc; ++i) {
     const std::string word = ShownWord(argv[i]);
-    if (word == "--keep-paths" || word == "--quiet" || word == "--resume" ||
-        word == "--force" || word == "--all" || word == "--details" ||
-        word == "--no-cache") {
+    if (data::IsOneOf(word,
+                      "--keep-paths --quiet --resume --force --all --details "
+                      "--no-cache")) {
       continue;
     }
-    if (word == "--jobs" || word == "--out" || word == "--format" ||
-        word == "--shard" || word == "-o") {
-      ++i;
+    const std::string name = word.substr(0, word.find('='));
+    if (data::IsOneOf(name, "--jobs --out --output --format --shard -o")) {
+      if (name == word) ++i;
       continue;
     }
-    if (word.starts_with("--jobs=") || word.starts_with("--out=") ||
-        word.starts_with("--format=") || word.starts_with("--shard=")) {
-      continue;
-    }
+    if (word.starts_with("-o")) continue;  // -oFILE
     line += " " + report::ShellWord(word);
   }
   return line;
@@ -132,13 +129,6 @@ std::vector<std::string> CommandNames(const CLI::App& app) {
   return names;
 }
 
-// "did you mean 'compare'? "
-std::string Suggestion(const std::string& word,
-                       const std::vector<std::string>& known) {
-  const std::string nearest = data::NearestName(word, known);
-  return nearest.empty() ? "" : "did you mean '" + nearest + "'? ";
-}
-
 std::vector<std::string> OptionNames(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options()) {
@@ -161,7 +151,7 @@ void RequireKnownCommand(const CLI::App& app, const std::string& word) {
   meant.insert(meant.begin(), known.begin(), known.end());
   throw UsageError(fmt::format("no command '{}'; {}there are {}",
                                word,
-                               Suggestion(word, meant),
+                               data::DidYouMean(word, meant),
                                data::JoinWords(known, ", ")));
 }
 
@@ -198,7 +188,7 @@ std::string WithSuggestion(const CLI::App& app,
     const bool is_word = flag.size() > 2;
     return fmt::format("no option '{}'; {}{}",
                        flag,
-                       is_word ? Suggestion(flag, known) : "",
+                       is_word ? data::DidYouMean(flag, known) : "",
                        help);
   }
   // "--format: tabel not in {table,json}"
@@ -212,7 +202,7 @@ std::string WithSuggestion(const CLI::App& app,
                        text.substr(0, begin),
                        data::JoinWords(known, ", "),
                        found,
-                       Suggestion(found, known),
+                       data::DidYouMean(found, known),
                        help);
   }
   return text + "; " + help;
@@ -285,7 +275,7 @@ void PrintHelp(const CLI::App& app, const std::string& name, bool all) {
   known.insert(known.end(), topics.begin(), topics.end());
   throw UsageError(fmt::format("no command or topic '{}'; {}there are {}",
                                name,
-                               Suggestion(name, known),
+                               data::DidYouMean(name, known),
                                data::JoinWords(known, ", ")));
 }
 
@@ -327,8 +317,8 @@ void AdviseOwnOptions(const CLI::App& app, const std::string& command) {
 void NameStandardInput(int argc, char** argv) {
   static std::string input = "/dev/stdin";
   for (int i = 1; i < argc; ++i) {
-    const bool is_output =
-        data::IsOneOf(argv[i - 1], "-o --output --out --save-split");
+    const bool is_output = data::IsOneOf(
+        argv[i - 1], "-o --output --out --save-split --figure --figures");
     if (!is_output && std::string_view(argv[i]) == "-") argv[i] = input.data();
   }
 }

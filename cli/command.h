@@ -29,8 +29,8 @@ class UsageError : public std::runtime_error {
 /// One run of the program.
 struct Run {
   /// The command line without options that change no figure (--jobs, --out, -o,
-  /// --format, --shard, --quiet, --all, --details, --resume, --no-cache,
-  /// --force, --keep-paths), quoted for a shell: for provenance.
+  /// --output, --format, --shard, --quiet, --all, --details, --resume,
+  /// --no-cache, --force, --keep-paths), quoted for a shell: for provenance.
   std::string command_line;
   int status = kDone;
 };

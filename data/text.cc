@@ -20,30 +20,6 @@ char Lower(char c) {
 
 bool IsContinuation(unsigned char byte) { return (byte & 0xC0U) == 0x80U; }
 
-// Bytes of the UTF-8 character at `text[i]`, or 0 where there is none:
-// overlong forms, surrogates and values beyond U+10FFFF are refused.
-std::size_t Utf8Length(std::string_view text, std::size_t i) {
-  const auto byte = [&](std::size_t k) {
-    return i + k < text.size() ? static_cast<unsigned char>(text[i + k])
-                               : static_cast<unsigned char>(0);
-  };
-  const unsigned char first = byte(0);
-  if (first < 0x80U) return 1;
-  if (first < 0xC2U || first > 0xF4U) return 0;
-  if (!IsContinuation(byte(1))) return 0;
-  if (first < 0xE0U) return 2;
-  if (!IsContinuation(byte(2))) return 0;
-  if (first < 0xF0U) {
-    if (first == 0xE0U && byte(1) < 0xA0U) return 0;
-    if (first == 0xEDU && byte(1) > 0x9FU) return 0;
-    return 3;
-  }
-  if (!IsContinuation(byte(3))) return 0;
-  if (first == 0xF0U && byte(1) < 0x90U) return 0;
-  if (first == 0xF4U && byte(1) > 0x8FU) return 0;
-  return 4;
-}
-
 std::string Escaped(unsigned char byte) {
   switch (byte) {
     case '\n':
@@ -84,6 +60,28 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
+
+std::size_t Utf8Length(std::string_view text, std::size_t i) {
+  const auto byte = [&](std::size_t k) {
+    return i + k < text.size() ? static_cast<unsigned char>(text[i + k])
+                               : static_cast<unsigned char>(0);
+  };
+  const unsigned char first = byte(0);
+  if (first < 0x80U) return 1;
+  if (first < 0xC2U || first > 0xF4U) return 0;
+  if (!IsContinuation(byte(1))) return 0;
+  if (first < 0xE0U) return 2;
+  if (!IsContinuation(byte(2))) return 0;
+  if (first < 0xF0U) {
+    if (first == 0xE0U && byte(1) < 0xA0U) return 0;
+    if (first == 0xEDU && byte(1) > 0x9FU) return 0;
+    return 3;
+  }
+  if (!IsContinuation(byte(3))) return 0;
+  if (first == 0xF0U && byte(1) < 0x90U) return 0;
+  if (first == 0xF4U && byte(1) > 0x8FU) return 0;
+  return 4;
+}
 
 std::string_view Trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");
@@ -252,6 +250,12 @@ std::string NearestName(std::string_view name,
     }
   }
   return nearest;
+}
+
+std::string DidYouMean(std::string_view name,
+                       const std::vector<std::string>& candidates) {
+  const std::string nearest = NearestName(name, candidates);
+  return nearest.empty() ? "" : "did you mean '" + nearest + "'? ";
 }
 
 }  // namespace errmap::data

@@ -34,9 +34,14 @@ bool ParseNumber(std::string_view text, double* value);
 /// for other text, or if not above 0.
 std::optional<double> ParseInterval(std::string_view text);
 
+/// Bytes of the UTF-8 character at `text[i]`, or 0 where there is none:
+/// overlong forms, surrogates and values beyond U+10FFFF are refused.
+std::size_t Utf8Length(std::string_view text, std::size_t i);
+
 /// Returns text for a one-line message: control characters escaped, cut after
 /// `limit` characters.
-std::string Printable(std::string_view text, std::size_t limit);
+std::string Printable(std::string_view text,
+                      std::size_t limit = std::string_view::npos);
 
 /// Returns a path at full length for a one-line message.
 std::string PrintablePath(std::string_view path);
@@ -59,6 +64,10 @@ std::string JoinWords(const std::vector<std::string>& words,
 /// Returns the text as UTF-8. Text that is not valid UTF-8 is read as Latin-1,
 /// as spreadsheets on western Windows write it, so that a degree sign survives.
 std::string AsUtf8(std::string_view text);
+
+/// "did you mean 'compare'? ", or "" if no candidate is near (NearestName).
+std::string DidYouMean(std::string_view name,
+                       const std::vector<std::string>& candidates);
 
 /// Returns the candidate that `name` was probably meant to be (other case, or a
 /// few wrong letters), or "".

@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <limits>
-#include <numeric>
+#include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -16,6 +16,7 @@
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "data/column_header.h"
+#include "data/columns.h"
 #include "data/csv.h"
 #include "data/files/shown_path.h"
 #include "data/input_error.h"
@@ -26,6 +27,7 @@
 #include "models/study/record/making/parts.h"
 #include "models/study/record/record_json.h"
 #include "stats/error_metrics.h"
+#include "stats/not_a_number.h"
 #include "stats/report_1995.h"
 #include "stats/summary.h"
 
@@ -41,33 +43,31 @@ struct ResidualsArguments {
   std::string group;
   std::string position;
   std::string fitted;
-  std::string missing = "error";
+  data::MissingPolicy missing = data::MissingPolicy::kError;
   std::string format = "table";
   long long monte_carlo = 0;
   std::uint64_t seed = 1;
   long long bins = 0;
   bool details = false;
   bool as_printed_1995 = false;
-
-  data::MissingPolicy policy() const {
-    return missing == "error" ? data::MissingPolicy::kError
-                              : data::MissingPolicy::kDropRows;
-  }
 };
 
-// A numeric column and the data rows that it has values in.
+// A numeric column.
 struct Column {
   std::string name;  // "": none
-  VectorXd values;
-  Rows rows;
+  VectorXd values;   // of every data row; NaN where there is none
 };
 
 Column ReadColumn(const data::CsvTable& table,
                   const std::string& name,
                   const ResidualsArguments& arguments) {
-  Column column{.name = name, .values = {}, .rows = {}};
-  column.values =
-      data::NumericColumn(table, name, arguments.policy(), &column.rows);
+  Rows rows;
+  const VectorXd found =
+      data::NumericColumn(table, name, arguments.missing, &rows);
+  Column column{.name = name,
+                .values = VectorXd::Constant(static_cast<Index>(table.num_rows),
+                                             stats::kNaN)};
+  column.values(rows) = found;
   return column;
 }
 
@@ -98,29 +98,14 @@ Column FindColumn(const data::CsvTable& table,
   return {};
 }
 
-// The values of a column in these of its rows.
-VectorXd At(const Column& column, const Rows& rows) {
-  VectorXd values(std::ssize(rows));
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto at =
-        std::lower_bound(column.rows.begin(), column.rows.end(), rows[i]);
-    values[static_cast<Index>(i)] = column.values[at - column.rows.begin()];
-  }
-  return values;
-}
-
 // Rows that every column in use has values in, ascending.
-Rows CommonRows(const std::vector<const Column*>& columns) {
-  Rows rows = columns.front()->rows;
+Rows CommonRows(const data::CsvTable& table,
+                const std::vector<const Column*>& columns) {
+  Rows rows = data::AllRows(table.num_rows);
   for (const Column* column : columns) {
     if (column->name.empty()) continue;
-    Rows both;
-    std::set_intersection(rows.begin(),
-                          rows.end(),
-                          column->rows.begin(),
-                          column->rows.end(),
-                          std::back_inserter(both));
-    rows = std::move(both);
+    std::erase_if(
+        rows, [&](Index row) { return !std::isfinite(column->values[row]); });
   }
   return rows;
 }
@@ -139,33 +124,25 @@ models::ResidualInputs ReadInputs(const ResidualsArguments& arguments) {
       table, arguments.position, "--position", "position", arguments);
   const Column fitted =
       FindColumn(table, arguments.fitted, "--fitted", "predicted", arguments);
-  Rows rows = CommonRows({&residuals, &order, &position, &fitted});
+  Rows rows = CommonRows(table, {&residuals, &order, &position, &fitted});
   if (rows.empty()) {
     throw data::InputError(fmt::format(
         "{}: no row has values in every column in use", arguments.file));
   }
   models::ResidualInputs inputs;
   if (!order.name.empty()) {
-    const VectorXd keys = At(order, rows);
-    std::vector<std::size_t> by_key(rows.size());
-    std::iota(by_key.begin(), by_key.end(), std::size_t{0});
-    std::stable_sort(
-        by_key.begin(), by_key.end(), [&](std::size_t a, std::size_t b) {
-          return keys[static_cast<Index>(a)] < keys[static_cast<Index>(b)];
-        });
-    Rows ordered;
-    for (const std::size_t i : by_key) ordered.push_back(rows[i]);
-    rows = std::move(ordered);
+    std::ranges::stable_sort(
+        rows, {}, [&](Index row) { return order.values[row]; });
     inputs.order = "order of " + order.name;
   }
-  inputs.values = At(residuals, rows);
+  inputs.values = residuals.values(rows);
   if (!position.name.empty()) {
     inputs.position_column = position.name;
-    inputs.positions = At(position, rows);
+    inputs.positions = position.values(rows);
   }
   if (!fitted.name.empty()) {
     inputs.fitted_column = fitted.name;
-    inputs.fitted = At(fitted, rows);
+    inputs.fitted = fitted.values(rows);
   }
   std::string group = arguments.group;
   if (!group.empty()) {
@@ -246,7 +223,7 @@ Json ConfigurationJson(const ResidualsArguments& arguments,
           {"group", named(inputs.group_column)},
           {"position", named(inputs.position_column)},
           {"fitted", named(inputs.fitted_column)},
-          {"missing", arguments.missing},
+          {"missing", ToString(arguments.missing)},
           {"monte_carlo", arguments.monte_carlo},
           {"seed", arguments.seed},
           {"bins", arguments.bins}};
@@ -260,14 +237,14 @@ int RunResiduals(const ResidualsArguments& arguments,
   // A residual is what is left of a target, so R2 has no meaning here.
   stats::ErrorMetrics metrics =
       stats::ComputeErrorMetrics(values, values, values);
-  metrics.r2 = std::numeric_limits<double>::quiet_NaN();
+  metrics.r2 = stats::kNaN;
   const models::ResidualReport report = models::AssessResiduals(
       inputs, static_cast<Index>(arguments.monte_carlo), arguments.seed);
   const stats::Report1995Statistics printed =
       stats::ComputeAsPrinted1995(values);
   const double r_squared_1995 =
       inputs.fitted_column.empty()
-          ? std::numeric_limits<double>::quiet_NaN()
+          ? stats::kNaN
           : stats::RSquaredAsPrinted1995(inputs.fitted + values, inputs.fitted);
   const std::string sentences =
       report::ResidualSentences(report, metrics, printed, unit);
@@ -366,12 +343,12 @@ void AddResidualsCommand(CLI::App* app, Run* run) {
             "Bins of the histogram (0: by Freedman and Diaconis)")
       .Range(0LL, 10'000LL)
       .ShowDefault();
-  AddOption(command,
-            "--missing",
-            command->missing,
-            "What to do about empty, NA and NaN cells: error or drop-rows")
-      .OneOf({"error", "drop-rows"})
-      .ShowDefault();
+  AddChoice(
+      command,
+      "--missing",
+      "What to do about empty, NA and NaN cells: error or drop-rows",
+      std::vector{data::MissingPolicy::kError, data::MissingPolicy::kDropRows},
+      &command->missing);
   AddFlag(command,
           "--details",
           command->details,

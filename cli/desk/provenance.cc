@@ -60,10 +60,9 @@ models::Provenance ModelProvenance(const std::string& command_line,
                                    long long rows,
                                    unsigned long long seed) {
   const models::ProvenanceRecord made = MakeProvenance(command_line, {});
-  std::string libraries;
+  std::vector<std::string> libraries;
   for (const auto& [name, version] : made.libraries) {
-    libraries +=
-        fmt::format("{}{} {}", libraries.empty() ? "" : ", ", name, version);
+    libraries.push_back(fmt::format("{} {}", name, version));
   }
   models::Provenance provenance = {{"command_line", command_line}};
   for (std::size_t i = 0; i < data.size(); ++i) {
@@ -74,7 +73,7 @@ models::Provenance ModelProvenance(const std::string& command_line,
                     {{"rows", std::to_string(rows)},
                      {"seed", std::to_string(seed)},
                      {"compiler", made.compiler},
-                     {"libraries", libraries},
+                     {"libraries", data::JoinWords(libraries, ", ")},
                      {"platform", made.platform}});
   return provenance;
 }

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -23,6 +22,7 @@
 #include "models/uncertainty/held_out_errors.h"
 #include "stats/distributions.h"
 #include "stats/error_metrics.h"
+#include "stats/not_a_number.h"
 #include "stats/summary.h"
 
 namespace errmap::machine {
@@ -139,11 +139,8 @@ class MachineJudge {
     MachineChoiceRecord choice;
     choice.name = "uncompensated";
     const auto alone = [](const TruePoses& poses) {
-      return Rest{
-          poses.errors,
-          MatrixX3d::Constant(poses.errors.rows(),
-                              3,
-                              std::numeric_limits<double>::quiet_NaN())};
+      return Rest{poses.errors,
+                  MatrixX3d::Constant(poses.errors.rows(), 3, stats::kNaN)};
     };
     FillErrors(alone(poses_), &choice);
     if (along_) FillDiagonals(alone(*along_), &choice);
@@ -289,9 +286,6 @@ class MachineJudge {
     }
   }
 
-  static std::string StemOf(const std::string& file) {
-    return std::filesystem::path(file).replace_extension().string();
-  }
   const ComponentStudy& Component(const std::string& stem) const {
     return *std::ranges::find(run_.components, stem, &ComponentStudy::name);
   }
@@ -364,9 +358,8 @@ class MachineJudge {
 
   static std::array<double, 2> IntervalOverDays(
       const std::vector<MachineDayRecord>& days) {
-    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     const auto n = static_cast<double>(days.size());
-    if (days.size() < 2) return {kNaN, kNaN};
+    if (days.size() < 2) return {stats::kNaN, stats::kNaN};
     // Of logarithms, since an error has no sign and days differ by factors.
     double mean = 0.0;
     for (const MachineDayRecord& day : days) mean += std::log(day.p95) / n;

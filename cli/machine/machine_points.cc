@@ -20,6 +20,7 @@
 #include "models/map_experience.h"
 #include "models/trained_range.h"
 #include "stats/distributions.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::machine {
 namespace {
@@ -64,8 +65,7 @@ VectorXd ColumnIn(const data::Unit& unit,
                   const data::CsvTable& table,
                   const std::string& wanted) {
   const std::string column = ColumnOf(table, wanted);
-  VectorXd values =
-      data::NumericColumn(table, column, data::MissingPolicy::kError, nullptr);
+  VectorXd values = data::NumericColumn(table, column);
   const data::Unit found = data::UnitOfColumn(column);
   if (found.symbol.empty()) return values;
   if (!data::AreConvertible(found, unit)) {
@@ -265,7 +265,7 @@ class MachineEvaluator {
           "warning: {} has no prediction interval, so the uncertainty at the "
           "tool is not known",
           data::PrintablePath(source.file)));
-      at->half_width = std::numeric_limits<double>::quiet_NaN();
+      at->half_width = stats::kNaN;
     }
   }
 
@@ -296,8 +296,7 @@ class MachineEvaluator {
   VectorXd ByName(const data::CsvTable& table, const data::ColumnInfo& column) {
     const data::MatchedColumn match = data::MatchColumn(table, column);
     NoteConversion(table, match);
-    const VectorXd values = data::NumericColumn(
-        table, match.of_file.name, data::MissingPolicy::kError, nullptr);
+    const VectorXd values = data::NumericColumn(table, match.of_file.name);
     return values.unaryExpr(
         [&](double value) { return match.InMapUnit(value); });
   }
@@ -318,8 +317,7 @@ class MachineEvaluator {
     Index column = 0;
     for (const models::TrainedInput& input : map.inputs) {
       if (data::IsPosition(input.column)) {
-        inputs.col(column++).setConstant(
-            std::numeric_limits<double>::quiet_NaN());
+        inputs.col(column++).setConstant(stats::kNaN);
       } else {
         inputs.col(column++) = ByName(*log_, input.column);
       }

@@ -37,6 +37,26 @@ std::string SessionColumn(const data::CsvTable& points,
       data::ArgumentName("session")));
 }
 
+// One map is asked for of each, and PlanStudy plans two where rows go both
+// ways.
+void RequireOneWay(const MachineStudy& study, const desk::StudyPlan& plan) {
+  for (const std::string& stem : study.stems) {
+    if (std::ranges::any_of(plan.config.components,
+                            [&](const desk::ComponentConfig& component) {
+                              return component.name == stem;
+                            })) {
+      continue;
+    }
+    throw data::InputError(fmt::format(
+        "{}: its rows go both ways, and {} asks for one map of them, {}.json; "
+        "make a file of each way, and name both maps there: {{ forward = ..., "
+        "reverse = ... }}",
+        data::PrintablePath(study.FileNamed(stem + ".csv")),
+        data::PrintablePath(study.path),
+        data::PrintablePath(stem)));
+  }
+}
+
 // Better refused before the fits than after them.
 void RequireQuantities(const MachineStudy& study, const desk::StudyPlan& plan) {
   const models::Machine& machine = study.file.machine;
@@ -45,8 +65,7 @@ void RequireQuantities(const MachineStudy& study, const desk::StudyPlan& plan) {
         models::UnitOf(machine, machine.chain.errors()[k].direction);
     for (const models::ErrorSource& source : machine.errors[k].sources) {
       if (source.file.empty()) continue;
-      const std::string stem =
-          std::filesystem::path(source.file).replace_extension().string();
+      const std::string stem = StemOf(source.file);
       for (const models::ComponentPlan& component : plan.components) {
         if (component.comparison.name != stem) continue;
         const data::ColumnInfo& target =
@@ -90,6 +109,10 @@ void RequireSharedSessions(const MachineStudy& study,
 
 }  // namespace
 
+std::string StemOf(const std::string& file) {
+  return std::filesystem::path(file).replace_extension().string();
+}
+
 std::string MachineStudy::FileNamed(const std::string& name) const {
   return (std::filesystem::path(folder) / name).string();
 }
@@ -110,8 +133,7 @@ MachineStudy ReadMachineStudy(const std::string& machine,
   for (const models::MachineError& error : study.file.machine.errors) {
     for (const models::ErrorSource& source : error.sources) {
       if (source.file.empty()) continue;
-      const std::string stem =
-          std::filesystem::path(source.file).replace_extension().string();
+      const std::string stem = StemOf(source.file);
       if (std::ranges::find(study.stems, stem) == study.stems.end()) {
         study.stems.push_back(stem);
       }
@@ -165,6 +187,7 @@ desk::StudyPlan PlanOfMachine(const MachineStudy& study,
     config.components.push_back(std::move(component));
   }
   desk::StudyPlan plan = desk::PlanStudy(config, remark);
+  RequireOneWay(study, plan);
   RequireQuantities(study, plan);
   RequireSharedSessions(study, plan);
   plan.inputs.push_back(desk::HashInput(study.path));

@@ -30,6 +30,9 @@ struct MachineStudy {
   std::string FileNamed(const std::string& name) const;
 };
 
+/// "x_yaw" of "x_yaw.json".
+std::string StemOf(const std::string& file);
+
 /// Reads machine and points; `later` is the number of sessions to judge by,
 /// `session` their column ("": one of kSessionColumns). Throws data::InputError
 /// if a file is missing, the points have no column of sessions, or all its
@@ -42,7 +45,8 @@ MachineStudy ReadMachineStudy(const std::string& machine,
 /// Returns the plan of `config` with a component for each stem, without the
 /// later sessions. Throws as PlanStudy. Throws data::InputError if a
 /// component's target is not an error of its link, or is a length for an angle.
-/// Also if it shares no session with the points.
+/// Also if its rows go both ways along the axis, or if it shares no session
+/// with the points.
 desk::StudyPlan PlanOfMachine(const MachineStudy& study,
                               desk::StudyConfig config = {},
                               const desk::Remark& remark = {});

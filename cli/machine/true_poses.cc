@@ -35,8 +35,7 @@ MatrixX3d TrueErrors(const data::CsvTable& table,
     const data::MatchedColumn match = data::MatchColumn(
         table, {fmt::format("error_{}_{}", direction, unit.symbol), unit});
     errors.col(column++) =
-        data::NumericColumn(
-            table, match.of_file.name, data::MissingPolicy::kError, nullptr)
+        data::NumericColumn(table, match.of_file.name)
             .unaryExpr([&](double value) { return match.InMapUnit(value); });
   }
   return errors;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <stdexcept>
 
 #include "cli/netcg/netcg_objective.h"
@@ -12,6 +11,7 @@
 #include "fitting/minimisers/scaled_conjugate_gradient.h"
 #include "stats/kolmogorov_smirnov.h"
 #include "stats/normality/lilliefors.h"
+#include "stats/not_a_number.h"
 #include "stats/report_1995.h"
 #include "stats/summary.h"
 
@@ -183,7 +183,7 @@ NetcgFigures Correct(const NetcgData& data,
   figures.ks_p =
       first.size() >= kLeastForLilliefors && std::isfinite(figures.ks_d)
           ? stats::LillieforsProbability(figures.ks_d, first.size())
-          : std::numeric_limits<double>::quiet_NaN();
+          : stats::kNaN;
   return figures;
 }
 

@@ -81,8 +81,7 @@ std::string ColumnStarting(const data::CsvTable& table,
 }
 
 VectorXd Numbers(const data::CsvTable& table, const std::string& name) {
-  std::vector<Index> rows;
-  return data::NumericColumn(table, name, data::MissingPolicy::kError, &rows);
+  return data::NumericColumn(table, name);
 }
 
 // Rows of day 1; all where there is no column `day`.

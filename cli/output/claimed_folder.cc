@@ -39,7 +39,8 @@ constexpr const char* kSchema = "errmap-files-1";
 void CheckOutputName(const std::string& flag,
                      const std::string& output,
                      const std::vector<std::string>& inputs) {
-  if (output == "-") {
+  // A bare "-" on the command line is standard input by now.
+  if (output == "-" || output == "/dev/stdin") {
     throw UsageError(flag +
                      ": - names no file; name one (./- is one of that "
                      "name)");

@@ -85,13 +85,13 @@ data::CsvColumn* Table::NewColumn(const std::string& name, std::size_t rows) {
     throw data::InputError(
         fmt::format("{}: two columns are named '{}'; give each its own name",
                     file,
-                    data::Printable(name, name.size())));
+                    data::Printable(name)));
   }
   if (rows != table_->num_rows) {
     throw data::InputError(
         fmt::format("{}: column '{}' has {} rows, and others have {}",
                     file,
-                    data::Printable(name, name.size()),
+                    data::Printable(name),
                     rows,
                     table_->num_rows));
   }

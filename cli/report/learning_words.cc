@@ -105,7 +105,7 @@ std::string SensorWords(const models::SensorCurve& curve,
       number == 1 ? "it" : "them",
       error.WithUnit(curve.all.rmse),
       sensors.empty() ? "" : ". ",
-      data::Printable(data::JoinWords(sensors, ", "), std::string::npos));
+      data::Printable(data::JoinWords(sensors, ", ")));
 }
 
 ErrorText ErrorTextOf(const models::LearningCurvesRecord& curves,

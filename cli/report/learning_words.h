@@ -13,7 +13,7 @@ std::string LawWords(const models::LearningCurvesRecord& curves,
                      const models::LearningModelRecord& model,
                      const ErrorText& error);
 
-/// Returns "4 of 36 sensors do it, within 5 % of all".
+/// Returns "4 of 36 sensors are enough, within 5 % of all".
 std::string EnoughWords(const models::SensorCurve& curve);
 
 /// Returns "4 of 27 sensors do it, within 5 % of all: 1.24 um with them, 1.20

@@ -1,27 +1,12 @@
 #include "cli/report/plot.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
-#include <stdexcept>
 
 #include "cli/report/wrap_text.h"
 
 namespace errmap::report {
-namespace {
-
-void CheckColumns(const Series& series) {
-  if (series.columns.size() != NumColumns(series.mark)) {
-    throw std::invalid_argument("Plot: a series has not the columns it needs");
-  }
-  for (const std::vector<double>& column : series.columns) {
-    if (column.size() != series.columns.front().size()) {
-      throw std::invalid_argument("Plot: columns of different lengths");
-    }
-  }
-}
-
-}  // namespace
-
 std::string Axis::Label() const {
   return names.empty() ? WithUnit(quantity, unit) : quantity;
 }
@@ -42,19 +27,14 @@ bool IsShown(const Plot& plot, const Series& series, std::size_t point) {
          (!plot.y.logarithmic || series.columns[1][point] > 0.0);
 }
 
-bool HasPoints(const Plot& plot, const Series& series) {
-  CheckColumns(series);
-  for (std::size_t i = 0; i < series.columns.front().size(); ++i) {
-    if (IsShown(plot, series, i)) return true;
+bool HasPoints(const Plot& plot) {
+  for (const Series& series : plot.series) {
+    assert(series.columns.size() == NumColumns(series.mark));
+    for (std::size_t i = 0; i < series.columns.front().size(); ++i) {
+      if (IsShown(plot, series, i)) return true;
+    }
   }
   return false;
-}
-
-bool HasPoints(const Plot& plot) {
-  return std::any_of(
-      plot.series.begin(), plot.series.end(), [&](const Series& series) {
-        return HasPoints(plot, series);
-      });
 }
 
 std::string WithUnit(std::string_view what, std::string_view unit) {

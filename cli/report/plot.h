@@ -108,9 +108,7 @@ double ColourLow(const Plot& plot);
 /// a logarithmic axis.
 bool IsShown(const Plot& plot, const Series& series, std::size_t point);
 
-/// True if there is anything to draw. Throws std::invalid_argument if the
-/// series lacks columns that its mark needs, or their lengths differ.
-bool HasPoints(const Plot& plot, const Series& series);
+/// True if there is anything to draw.
 bool HasPoints(const Plot& plot);
 
 /// "residual (µm)"; without a unit only the quantity.

@@ -177,7 +177,7 @@ Table WithoutEmptyColumns(Table table) {
 std::vector<std::string> TerminalLines(const Table& table, std::size_t width) {
   // A cell is one line, whatever a column of the data is called.
   const auto one_line = [](const std::string& text) {
-    return data::Printable(text, text.size());
+    return data::Printable(text);
   };
   std::vector<std::vector<std::string>> lines(1);
   for (const Table::Column& column : table.columns) {
@@ -228,7 +228,7 @@ std::vector<std::string> TakeColumns(std::size_t width,
   };
   while (table->columns.size() > fewest && is_wide()) {
     const std::string& name = table->columns.back().name;
-    taken.insert(taken.begin(), data::Printable(name, name.size()));
+    taken.insert(taken.begin(), data::Printable(name));
     table->columns.pop_back();
     for (std::vector<Cell>& row : table->rows) {
       if (row.size() > table->columns.size()) row.pop_back();

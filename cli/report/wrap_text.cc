@@ -46,6 +46,7 @@ std::size_t WidthOf(std::string_view text) {
 std::vector<std::string> WrapLines(std::string_view text,
                                    std::size_t width,
                                    LongWords long_words) {
+  width = std::max<std::size_t>(width, 1);
   std::vector<std::string> lines;
   std::string line;
   while (!text.empty()) {

@@ -11,7 +11,7 @@ namespace errmap::report {
 /// and commands to be copied).
 enum class LongWords { kBroken, kWhole };
 
-/// Breaks `text` at blanks into lines of at most `width` columns.
+/// Breaks `text` at blanks into lines of at most `width` columns, at least one.
 std::vector<std::string> WrapLines(std::string_view text,
                                    std::size_t width,
                                    LongWords long_words = LongWords::kBroken);

@@ -149,20 +149,6 @@ Option AddOption(
                    usage);
 }
 
-void AddWordOption(CLI::App* command,
-                   const std::string& name,
-                   const std::string& about,
-                   const std::vector<std::string>& words,
-                   const std::string& usual,
-                   std::function<void(std::size_t)> choose) {
-  const std::function<void(const std::string&)> take =
-      [words, choose = std::move(choose)](const std::string& word) {
-        choose(static_cast<std::size_t>(std::ranges::find(words, word) -
-                                        words.begin()));
-      };
-  AddOption(command, name, take, about).OneOf(words).Default(usual);
-}
-
 Option AddFlag(CLI::App* command,
                const std::string& name,
                bool& value,

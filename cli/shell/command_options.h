@@ -1,7 +1,7 @@
 #pragma once
 
+#include <algorithm>
 #include <concepts>
-#include <cstddef>
 #include <functional>
 #include <memory>
 #include <set>
@@ -118,14 +118,6 @@ Option AddOption(
     const std::function<void(const std::vector<std::string>&)>& take,
     const std::string& about);
 
-/// Adds an option that accepts one of `words`; `choose` gets its index.
-void AddWordOption(CLI::App* command,
-                   const std::string& name,
-                   const std::string& about,
-                   const std::vector<std::string>& words,
-                   const std::string& usual,
-                   std::function<void(std::size_t)> choose);
-
 /// Adds an option with one word for each value, as ToString names it.
 template <typename Value>
 void AddChoice(CLI::App* command,
@@ -135,12 +127,13 @@ void AddChoice(CLI::App* command,
                Value* chosen) {
   std::vector<std::string> words;
   for (const Value value : values) words.emplace_back(ToString(value));
-  AddWordOption(command,
-                name,
-                about,
-                words,
-                std::string(ToString(*chosen)),
-                [values, chosen](std::size_t i) { *chosen = values[i]; });
+  const std::function<void(const std::string&)> take =
+      [words, values, chosen](const std::string& word) {
+        *chosen = values[std::ranges::find(words, word) - words.begin()];
+      };
+  AddOption(command, name, take, about)
+      .OneOf(words)
+      .Default(std::string(ToString(*chosen)));
 }
 
 Option AddFlag(CLI::App* command,

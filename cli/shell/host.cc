@@ -2,6 +2,8 @@
 
 #include <mutex>
 
+#include "cli/shell/standard_streams.h"
+
 namespace errmap::cli {
 namespace {
 
@@ -15,6 +17,7 @@ Host* CurrentHost() { return current.load(); }
 
 HostedRun::HostedRun(Host* host) {
   one_at_a_time.lock();
+  AdviseAny();  // the command before had options of its own
   current = host;
 }
 

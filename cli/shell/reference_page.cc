@@ -20,6 +20,7 @@ const std::vector<std::pair<int, std::string>>& ExitStatusWords() {
       {kWrongCommandLine, "the command line is wrong"},
       {kUnusableInput, "the input is unusable; file, row and column are named"},
       {kEveryFitFailed, "every fit failed, or a check or floor was missed"},
+      {kNothingJudged, "what was asked could not be judged, or is in doubt"},
       {kInterrupted, "interrupted; what was finished is kept"},
       {kOtherFailure, "anything else"}};
   return words;

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "cli/shell/host.h"
+#include "data/text.h"
 
 namespace errmap::cli {
 namespace {
@@ -40,30 +41,13 @@ int WriteAll(int descriptor, std::string_view text) {
   return 0;
 }
 
-// Number of bytes of the character at `at`; 0 if it is not UTF-8. Overlong
-// forms and code points beyond Unicode do no harm.
-std::size_t CharacterLength(std::string_view text, std::size_t at) {
-  const auto lead = static_cast<unsigned char>(text[at]);
-  if (lead < 0x80U) return 1;
-  const std::size_t length = lead >= 0xF8U   ? 0
-                             : lead >= 0xF0U ? 4
-                             : lead >= 0xE0U ? 3
-                             : lead >= 0xC2U ? 2
-                                             : 0;
-  if (at + length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((static_cast<unsigned char>(text[at + i]) & 0xC0U) != 0x80U) return 0;
-  }
-  return length;
-}
-
 }  // namespace
 
 std::string WithoutControls(std::string_view text) {
   std::string safe;
   safe.reserve(text.size());
   for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = CharacterLength(text, i);
+    const std::size_t length = data::Utf8Length(text, i);
     const auto first = static_cast<unsigned char>(text[i]);
     const bool is_c1 = length == 2 && first == 0xC2U &&
                        static_cast<unsigned char>(text[i + 1]) < 0xA0U;
@@ -112,6 +96,11 @@ int PrintError() { return print_error; }
 void AdviseOnly(std::set<std::string, std::less<>> options) {
   const std::lock_guard lock(options_mutex);
   own_options = std::make_shared<const Options>(std::move(options));
+}
+
+void AdviseAny() {
+  const std::lock_guard lock(options_mutex);
+  own_options = nullptr;
 }
 
 void WriteMessage(std::string_view text) {

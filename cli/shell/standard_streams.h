@@ -38,6 +38,8 @@ void WriteMessage(std::string_view text);
 
 /// From now on, messages advise only these options (WithOwnRemedies).
 void AdviseOnly(std::set<std::string, std::less<>> options);
+/// From now on, messages advise any option.
+void AdviseAny();
 
 /// Draws on a terminal, unfiltered; only for text of our own.
 void DrawOnTerminal(std::string_view text);

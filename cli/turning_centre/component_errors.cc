@@ -17,7 +17,7 @@ constexpr double kXLast = -kXStep * kStopsPerSweep;
 constexpr double kZFirst = -kZStep;
 constexpr double kZLast = -kZStep * kStopsPerSweep;
 
-// Heights and lengths of the structure in mm; README.md gives the reasons.
+// Heights and lengths of the structure in mm; model.md gives the reasons.
 constexpr double kThrustBearing = 80.0;  // of both screws, beyond home
 constexpr double kZSlideHeight = 450.0;
 constexpr double kXColumnHeight = 590.0;
@@ -149,7 +149,7 @@ double GeometricError(Component component, double position) {
   const double u = position / 100.0;
   switch (component) {
     case Component::kXDisplacement:
-      // Fitted to the report's surface: README.md, Calibration.
+      // Fitted to the report's surface: model.md, Calibration.
       return kMmPerUm * (-11.601 + u * (15.567 + u * (2.893 - 0.127 * u)));
     case Component::kXStraightness:
       return kMmPerUm * 0.8 * SinOfTurns(position / 260.0);

@@ -33,7 +33,7 @@ DayProgramme ReportDay(const Workload& workload, int num_cycles) {
   };
   // The measured surface moves in these steps (cycles 1-2, 3, 4-5, 6-10 ...);
   // what was done between them the report does not say. Speeds, duties and
-  // pauses were searched for on a coarse grid (README.md, Calibration).
+  // pauses were searched for on a coarse grid (model.md, Calibration).
   static constexpr std::array kBlocks = std::to_array<Block>({
       {1, 0, 2000.0, 0.10},
       {3, 2400, 1000.0, 0.25},

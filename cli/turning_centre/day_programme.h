@@ -11,7 +11,7 @@ namespace errmap::turning_centre {
 /// One warm-up cycle: a pause, then exercise, then the four measuring sweeps
 /// of kStopsPerSweep stops: X forward, X reverse, Z forward, Z reverse.
 struct CyclePlan {
-  int pause_s = 0;            // machine on, nothing moves; a multiple of kStep
+  int pause_s = 0;            // machine on, nothing moves; of kStepSeconds
   double spindle_rpm = 0.0;   // of the exercise; the spindle rests in sweeps
   double feed_duty = 0.0;     // of the exercise, both slides, 0 to 1
   bool coolant = false;       // of the exercise
@@ -55,7 +55,7 @@ struct Workload {
 };
 
 /// Returns the first `num_cycles` cycles of the day to which the X displacement
-/// is calibrated (README.md). From the 36th on they equal the 35th.
+/// is calibrated (model.md). From the 36th on they equal the 35th.
 DayProgramme ReportDay(const Workload& workload, int num_cycles);
 
 /// Returns a day drawn from (seed, day_number): season, weather and start, and

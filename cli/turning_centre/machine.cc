@@ -1,9 +1,11 @@
 #include "cli/turning_centre/machine.h"
 
+#include <cassert>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace errmap::turning_centre {
 namespace {
@@ -13,56 +15,51 @@ constexpr double kSteel = 460.0;
 constexpr double kOil = 1900.0;
 constexpr double kWater = 4180.0;
 
-// Name, mass in kg, specific heat in J/(kg K), and conductance to the air in
-// W/K: area times 8 to 12 W/(m2 K), free convection with radiation; the last
-// number is what the turning spindle's wind adds at 1000 rpm.
-struct Lump {
-  const char* name;
-  double mass;
-  double specific_heat;
-  double air;
-  double wind = 0.0;
-};
-
-constexpr std::array<Lump, kNumBodies> kLumps = {{
-    {"bed_left_bottom", 350.0, kCastIron, 9.0},
-    {"bed_left_top", 250.0, kCastIron, 7.0},
-    {"bed_right_bottom", 350.0, kCastIron, 9.0},
-    {"bed_right_top", 250.0, kCastIron, 8.0},
-    {"z_way_left", 40.0, kSteel, 2.0},
-    {"z_way_right", 40.0, kSteel, 2.5},
-    {"head_front_lower", 60.0, kCastIron, 2.5},
-    {"head_front_upper", 60.0, kCastIron, 4.0},
-    {"head_rear_lower", 60.0, kCastIron, 2.5},
-    {"head_rear_upper", 60.0, kCastIron, 4.0},
-    {"bearing_front", 10.0, kSteel, 0.5},
-    {"bearing_rear", 8.0, kSteel, 0.5},
-    {"spindle", 45.0, kSteel, 1.0, 1.5},
-    {"spindle_motor", 80.0, kSteel, 9.0, 3.0},
-    {"z_slide_left", 80.0, kCastIron, 3.0},
-    {"z_slide_right", 80.0, kCastIron, 3.5},
-    {"x_column_bottom", 60.0, kCastIron, 2.5},
-    {"x_column_top", 50.0, kCastIron, 3.0},
-    {"x_column_left", 90.0, kCastIron, 8.0},
-    {"x_way_bottom", 12.0, kSteel, 0.8},
-    {"x_way_top", 12.0, kSteel, 0.8},
-    {"x_slide", 95.0, kCastIron, 7.0},
-    {"x_screw_top", 1.8, kSteel, 0.35},
-    {"x_screw_middle", 1.8, kSteel, 0.35},
-    {"x_screw_bottom", 1.8, kSteel, 0.35},
-    {"x_nut", 4.0, kSteel, 0.3},
-    {"x_bearing", 4.5, kSteel, 0.4},
-    {"x_motor", 12.0, kSteel, 2.5},
-    {"z_screw_left", 3.4, kSteel, 0.6},
-    {"z_screw_middle", 3.4, kSteel, 0.6},
-    {"z_screw_right", 3.4, kSteel, 0.6},
-    {"z_nut", 5.0, kSteel, 0.3},
-    {"z_bearing_left", 4.0, kSteel, 0.3},
-    {"z_bearing_right", 5.0, kSteel, 0.4},
-    {"z_motor", 16.0, kSteel, 3.0},
-    {"hydraulic_tank", 55.0, kOil, 11.0},
-    {"coolant_tank", 150.0, kWater, 16.0},
-}};
+// Heat capacity as mass in kg times specific heat in J/(kg K), and conductance
+// to the air in W/K: area times 8 to 12 W/(m2 K), free convection with
+// radiation; the last number is what the turning spindle's wind adds at
+// 1000 rpm.
+std::vector<ThermalBody> Bodies() {
+  return {
+      {"bed_left_bottom", 350.0 * kCastIron, 9.0},
+      {"bed_left_top", 250.0 * kCastIron, 7.0},
+      {"bed_right_bottom", 350.0 * kCastIron, 9.0},
+      {"bed_right_top", 250.0 * kCastIron, 8.0},
+      {"z_way_left", 40.0 * kSteel, 2.0},
+      {"z_way_right", 40.0 * kSteel, 2.5},
+      {"head_front_lower", 60.0 * kCastIron, 2.5},
+      {"head_front_upper", 60.0 * kCastIron, 4.0},
+      {"head_rear_lower", 60.0 * kCastIron, 2.5},
+      {"head_rear_upper", 60.0 * kCastIron, 4.0},
+      {"bearing_front", 10.0 * kSteel, 0.5},
+      {"bearing_rear", 8.0 * kSteel, 0.5},
+      {"spindle", 45.0 * kSteel, 1.0, 1.5},
+      {"spindle_motor", 80.0 * kSteel, 9.0, 3.0},
+      {"z_slide_left", 80.0 * kCastIron, 3.0},
+      {"z_slide_right", 80.0 * kCastIron, 3.5},
+      {"x_column_bottom", 60.0 * kCastIron, 2.5},
+      {"x_column_top", 50.0 * kCastIron, 3.0},
+      {"x_column_left", 90.0 * kCastIron, 8.0},
+      {"x_way_bottom", 12.0 * kSteel, 0.8},
+      {"x_way_top", 12.0 * kSteel, 0.8},
+      {"x_slide", 95.0 * kCastIron, 7.0},
+      {"x_screw_top", 1.8 * kSteel, 0.35},
+      {"x_screw_middle", 1.8 * kSteel, 0.35},
+      {"x_screw_bottom", 1.8 * kSteel, 0.35},
+      {"x_nut", 4.0 * kSteel, 0.3},
+      {"x_bearing", 4.5 * kSteel, 0.4},
+      {"x_motor", 12.0 * kSteel, 2.5},
+      {"z_screw_left", 3.4 * kSteel, 0.6},
+      {"z_screw_middle", 3.4 * kSteel, 0.6},
+      {"z_screw_right", 3.4 * kSteel, 0.6},
+      {"z_nut", 5.0 * kSteel, 0.3},
+      {"z_bearing_left", 4.0 * kSteel, 0.3},
+      {"z_bearing_right", 5.0 * kSteel, 0.4},
+      {"z_motor", 16.0 * kSteel, 3.0},
+      {"hydraulic_tank", 55.0 * kOil, 11.0},
+      {"coolant_tank", 150.0 * kWater, 16.0},
+  };
+}
 
 // Conductances in W/K: solid sections k A / L (cast iron 50, steel 45
 // W/(m K)), bolted and sliding joints 500 to 2000 W/(m2 K) times their area.
@@ -147,13 +144,11 @@ ThermalNetwork MakeTurningCentreNetwork(double air_factor) {
         "MakeTurningCentreNetwork: air_factor " + std::to_string(air_factor) +
         "; conductances to the air need a positive, finite factor");
   }
-  std::vector<ThermalBody> bodies;
-  bodies.reserve(kNumBodies);
-  for (const Lump& lump : kLumps) {
-    bodies.push_back({.name = lump.name,
-                      .heat_capacity = lump.mass * lump.specific_heat,
-                      .air_conductance = air_factor * lump.air,
-                      .forced_air_conductance = air_factor * lump.wind});
+  std::vector<ThermalBody> bodies = Bodies();
+  assert(bodies.size() == kNumBodies);
+  for (ThermalBody& body : bodies) {
+    body.air_conductance *= air_factor;
+    body.forced_air_conductance *= air_factor;
   }
   return {std::move(bodies), Links()};
 }

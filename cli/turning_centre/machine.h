@@ -62,10 +62,10 @@ struct DriveState {
   double cutting_load = 0.0;  // share of the spindle motor's power, 0 to 1
 };
 
-/// Heat capacities and conductances of the turning centre; README.md says
-/// where each comes from. `air_factor` multiplies every conductance to the
-/// air (1: the machine as described; a draughty shop has more).
-/// Throws std::invalid_argument unless air_factor is positive and finite.
+/// Heat capacities and conductances of the turning centre; model.md says where
+/// each comes from. `air_factor` multiplies every conductance to the air (1:
+/// the machine as described; a draughty shop has more). Throws
+/// std::invalid_argument unless it is positive and finite.
 ThermalNetwork MakeTurningCentreNetwork(double air_factor);
 
 /// Returns the heat (W) into each body, the forced air and the coolant of a

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "cli/turning_centre/machine.h"
 #include "cli/turning_centre/thermal_network.h"
 
@@ -21,22 +23,14 @@ constexpr double kMeasuringDuty = 0.1;
 
 void CheckCount(const char* name, int value, int low, int high) {
   if (value >= low && value <= high) return;
-  ThrowInvalid(std::string(name) + " " + std::to_string(value) +
-               ": give a whole number from " + std::to_string(low) + " to " +
-               std::to_string(high));
-}
-
-std::string Shortest(double value) {
-  std::string text = std::to_string(value);
-  while (text.ends_with('0')) text.pop_back();
-  if (text.ends_with('.')) text.pop_back();
-  return text;
+  ThrowInvalid(fmt::format(
+      "{} {}: give a whole number from {} to {}", name, value, low, high));
 }
 
 void CheckFactor(const char* name, double value, double high) {
   if (std::isfinite(value) && value >= 0.0 && value <= high) return;
-  ThrowInvalid(std::string(name) + " " + Shortest(value) +
-               ": give a number from 0 to " + Shortest(high));
+  ThrowInvalid(
+      fmt::format("{} {}: give a number from 0 to {}", name, value, high));
 }
 
 // From midnight before the first day.
@@ -177,9 +171,11 @@ void SimulationOptions::Validate() const {
   // Each cycle keeps 68 stops of some 600 bytes.
   constexpr int kMostCyclesInAll = 10000;
   if (days * cycles > kMostCyclesInAll) {
-    ThrowInvalid("days " + std::to_string(days) + " of " +
-                 std::to_string(cycles) + " cycles: give at most " +
-                 std::to_string(kMostCyclesInAll) + " cycles in all");
+    ThrowInvalid(
+        fmt::format("days {} of {} cycles: give at most {} cycles in all",
+                    days,
+                    cycles,
+                    kMostCyclesInAll));
   }
   CheckCount("points", points_per_day, 0, kMostPoints);
   CheckFactor("duty", workload.duty, kMostFactor);
@@ -188,29 +184,33 @@ void SimulationOptions::Validate() const {
   CheckFactor("warm", warm_hours, kHoursPerDay);
   if (!std::isfinite(air_factor) || air_factor <= 0.0 ||
       air_factor > kMostFactor) {
-    ThrowInvalid("air " + Shortest(air_factor) +
-                 ": conductances to the air need a factor above 0, at most " +
-                 Shortest(kMostFactor));
+    ThrowInvalid(
+        fmt::format("air {}: conductances to the air need a factor above 0, at "
+                    "most {}",
+                    air_factor,
+                    kMostFactor));
   }
   CheckFactor("noise", noise_um, kMostNoise);
   CheckFactor("angle-noise", noise_urad, kMostNoise);
   CheckFactor("sensor-noise", sensor_noise, kMostNoise);
   CheckCount("from-day", from_day, 1, days);
   if (!std::isfinite(shift_um) || std::abs(shift_um) > kMostNoise) {
-    ThrowInvalid("shift-um " + Shortest(shift_um) +
-                 ": give a number from -1000 to 1000");
+    ThrowInvalid(
+        fmt::format("shift-um {}: give a number from -1000 to 1000", shift_um));
   }
   std::set<int> taken;
   for (const std::vector<int>* list : {&dead, &stuck, &drifting, &noisy}) {
     for (const int number : *list) {
       if (number < 0 || number >= static_cast<int>(kNumThermocouples)) {
-        ThrowInvalid("no thermocouple " + std::to_string(number) +
-                     ": they are numbered 0 to " +
-                     std::to_string(kNumThermocouples - 1));
+        ThrowInvalid(
+            fmt::format("no thermocouple {}: they are numbered 0 to {}",
+                        number,
+                        kNumThermocouples - 1));
       }
       if (!taken.insert(number).second) {
-        ThrowInvalid("thermocouple " + std::to_string(number) +
-                     " is named twice: give each at most one fault");
+        ThrowInvalid(fmt::format(
+            "thermocouple {} is named twice: give each at most one fault",
+            number));
       }
     }
   }

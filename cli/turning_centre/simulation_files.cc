@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
@@ -370,7 +369,7 @@ std::string Readme(const Simulation& simulation, const FileOptions& options) {
       R"(# A simulated turning centre
 
 Not measured: made by `errmap simulate turning-centre`, which describes the model in
-`cli/turning_centre/README.md` of its source. The same options give the same bytes.
+`cli/turning_centre/model.md` of its source. The same options give the same bytes.
 
 | option | value |
 |---|---|
@@ -443,15 +442,7 @@ constexpr std::array kOtherFiles = std::to_array<OtherFile>({
 }  // namespace
 
 std::string SevenDigits(double value) {
-  constexpr int kDigits = 7;
-  if (value == 0.0) return "0";  // never "-0"
-  std::array<char, 32> buffer{};
-  const auto result = std::to_chars(buffer.data(),
-                                    buffer.data() + buffer.size(),
-                                    value,
-                                    std::chars_format::general,
-                                    kDigits);
-  return {buffer.data(), result.ptr};
+  return value == 0.0 ? "0" : fmt::format("{:.7g}", value);  // never "-0"
 }
 
 std::vector<std::string> SimulationFileNames() {

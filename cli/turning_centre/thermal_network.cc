@@ -1,53 +1,8 @@
 #include "cli/turning_centre/thermal_network.h"
 
 #include <cassert>
-#include <cmath>
-#include <stdexcept>
-#include <utility>
 
 namespace errmap::turning_centre {
-namespace {
-
-[[noreturn]] void RefuseNetwork(const std::string& what) {
-  throw std::invalid_argument("ThermalNetwork: " + what);
-}
-
-void CheckConductance(const std::string& where, double value) {
-  if (std::isfinite(value) && value >= 0.0) return;
-  RefuseNetwork(where + ": conductance " + std::to_string(value) +
-                " W/K; it must be finite and not negative");
-}
-
-}  // namespace
-
-ThermalNetwork::ThermalNetwork(std::vector<ThermalBody> bodies,
-                               std::vector<ThermalLink> links)
-    : bodies_(std::move(bodies)), links_(std::move(links)) {
-  if (bodies_.empty()) RefuseNetwork("no bodies");
-  for (const ThermalBody& body : bodies_) {
-    if (!std::isfinite(body.heat_capacity) || body.heat_capacity <= 0.0) {
-      RefuseNetwork("body '" + body.name + "': heat capacity " +
-                    std::to_string(body.heat_capacity) +
-                    " J/K; it must be finite and positive");
-    }
-    CheckConductance("body '" + body.name + "' to the air",
-                     body.air_conductance);
-    CheckConductance("body '" + body.name + "' to forced air",
-                     body.forced_air_conductance);
-  }
-  for (const ThermalLink& link : links_) {
-    if (link.a >= bodies_.size() || link.b >= bodies_.size() ||
-        link.a == link.b) {
-      RefuseNetwork("link " + std::to_string(link.a) + " - " +
-                    std::to_string(link.b) + " does not join two of the " +
-                    std::to_string(bodies_.size()) + " bodies");
-    }
-    CheckConductance(
-        "link '" + bodies_[link.a].name + "' - '" + bodies_[link.b].name + "'",
-        link.conductance);
-  }
-}
-
 void ThermalNetwork::Rate(const std::vector<double>& temperatures,
                           double air,
                           const ThermalLoad& load,

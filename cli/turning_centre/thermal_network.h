@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace errmap::turning_centre {
@@ -45,11 +46,9 @@ struct AirOfStep {
 /// Plain loops in a fixed order give the same bits on every machine.
 class ThermalNetwork {
  public:
-  /// Throws std::invalid_argument naming the body or link: no body, a heat
-  /// capacity that is not positive, a conductance that is negative or not
-  /// finite, a link to nowhere or to itself.
   ThermalNetwork(std::vector<ThermalBody> bodies,
-                 std::vector<ThermalLink> links);
+                 std::vector<ThermalLink> links)
+      : bodies_(std::move(bodies)), links_(std::move(links)) {}
 
   std::size_t num_bodies() const { return bodies_.size(); }
   const std::vector<ThermalBody>& bodies() const { return bodies_; }

@@ -41,7 +41,7 @@ inline constexpr double kNoisyFactor = 25.0;
 
 /// The 40 thermocouples and their logger: each follows its site with a time
 /// constant and reads with a gain, an offset, noise and a resolution of
-/// kReadingResolution.
+/// 0.01 K.
 class Thermocouples {
  public:
   using Readings = std::array<double, kNumThermocouples>;

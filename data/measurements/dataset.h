@@ -279,7 +279,7 @@ Grouping GroupByColumn(const CsvTable& table,
 /// MakeDataset. `rows` (may be null) receives the rows kept.
 Eigen::VectorXd NumericColumn(const CsvTable& table,
                               const std::string& column,
-                              MissingPolicy missing,
-                              std::vector<Eigen::Index>* rows);
+                              MissingPolicy missing = MissingPolicy::kError,
+                              std::vector<Eigen::Index>* rows = nullptr);
 
 }  // namespace errmap::data

@@ -83,7 +83,7 @@ std::string CostText(const models::MapExport& map,
       "comparisons      {:>9}\n"
       "copies           {:>9}\n"
       "bytes of state   {:>9}\n",
-      data::Printable(map.program.model, map.program.model.size()),
+      data::Printable(map.program.model),
       counted.additions,
       counted.multiplications,
       counted.divisions,

@@ -150,14 +150,11 @@ std::vector<models::ExportedFile> FilesOf(const ExportArguments& arguments,
 }
 
 void SayWhatWasWritten(const models::MapExport& map,
-                       const std::vector<models::ExportedFile>& files,
+                       const std::vector<std::string>& files,
                        const std::string& folder) {
-  std::string names;
-  for (const models::ExportedFile& file : files) {
-    names += (names.empty() ? "" : ", ") + file.name;
-  }
   const std::string& unit = map.program.target.unit.symbol;
-  Say(fmt::format("{} in {}", names, data::PrintablePath(folder)));
+  Say(fmt::format(
+      "{} in {}", data::JoinWords(files, ", "), data::PrintablePath(folder)));
   if (map.program.has_directions()) {
     const models::ControllerLimits& limits = map.program.limits;
     Say(
@@ -293,7 +290,7 @@ int RunExport(const ExportArguments& arguments) {
   }
   folder.Finish();
   if (!arguments.quiet) {
-    SayWhatWasWritten(map, files, arguments.out);
+    SayWhatWasWritten(map, names, arguments.out);
     SayWhatFailuresDo(map.program);
     if (!of_table.empty()) Say(of_table);
   }

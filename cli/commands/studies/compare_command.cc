@@ -49,8 +49,7 @@ int StatusOf(const desk::StudyRun& run) {
     if (AnyJudged(component)) {
       any = true;
     } else if (run.has_several()) {
-      Say(fmt::format("{}: every fit failed",
-                      data::Printable(component.name, component.name.size())));
+      Say(fmt::format("{}: every fit failed", data::Printable(component.name)));
     }
   }
   if (any) return kDone;

@@ -284,15 +284,17 @@ int FitIntoFolder(const FitArguments& arguments,
   one.data.quiet = true;
   const data::Reading reading = ReadData(one.data).reading;
   one.data.quiet = arguments.data.quiet;
-  std::filesystem::create_directories(folder);
-  if (data::DirectionsOf(reading, arguments.data.selection).empty()) {
-    one.out = (folder / (name + ".json")).string();
-    return FitOne(one, command_line);
-  }
-  if (arguments.format == "json") {
+  const bool both_ways =
+      !data::DirectionsOf(reading, arguments.data.selection).empty();
+  if (both_ways && arguments.format == "json") {
     throw UsageError(
         "--format json tells of one map; name the way with --direction up or "
         "--direction down");
+  }
+  std::filesystem::create_directories(folder);
+  if (!both_ways) {
+    one.out = (folder / (name + ".json")).string();
+    return FitOne(one, command_line);
   }
   for (const auto& [way, map] :
        MapsOfWays(arguments.data, reading.direction.values, name)) {

@@ -12,10 +12,6 @@
 namespace errmap::cli {
 namespace {
 
-std::string Shown(const std::string& text) {
-  return data::Printable(text, text.size());
-}
-
 std::string InUnit(double value, const data::Unit& unit) {
   return fmt::format("{:g}{}{}",
                      value * unit.display_scale,
@@ -29,7 +25,7 @@ std::string HoldoutList(const std::vector<models::Holdout>& holdouts) {
   for (const models::Holdout& holdout : holdouts) {
     parts.push_back(
         fmt::format("{} ({})",
-                    Shown(holdout.name),
+                    data::Printable(holdout.name),
                     report::Count(std::ssize(holdout.folds), "fold")));
   }
   return data::JoinWords(parts, ", ");
@@ -53,18 +49,21 @@ std::string ComponentText(const models::ComponentPlan& component,
   const data::Dataset& dataset = component.comparison.data.dataset;
   std::vector<std::string> models;
   for (const auto& recipe : component.recipes) {
-    models.push_back(Shown(recipe->name()));
+    models.push_back(data::Printable(recipe->name()));
   }
-  std::string text = fmt::format("component {}\n", Shown(config.name));
-  text += "  data      " + Shown(desk::ShownNames(config.AllData()));
+  std::string text =
+      fmt::format("component {}\n", data::Printable(config.name));
+  text += "  data      " + data::Printable(desk::ShownNames(config.AllData()));
   for (const data::ColumnFilter& filter : config.selection.where) {
-    text += fmt::format(
-        " where {} = {}", Shown(filter.column), Shown(ValueText(filter)));
+    text += fmt::format(" where {} = {}",
+                        data::Printable(filter.column),
+                        data::Printable(ValueText(filter)));
   }
   text += fmt::format("\n  rows      {}{}\n",
                       report::Count(dataset.num_rows(), "row"),
-                      Shown(report::UnitsWords(dataset)));
-  text += fmt::format("  target    {}\n", Shown(report::TargetWords(dataset)));
+                      data::Printable(report::UnitsWords(dataset)));
+  text += fmt::format("  target    {}\n",
+                      data::Printable(report::TargetWords(dataset)));
   text += fmt::format("  inputs    {}\n", dataset.num_inputs());
   if (std::isfinite(component.comparison.goal)) {
     text +=
@@ -103,7 +102,7 @@ std::string PlanText(const desk::StudyPlan& plan,
     text += "no files (give --out DIR for them)\n";
   } else {
     text += fmt::format("files in {}: {}\n",
-                        Shown(out),
+                        data::Printable(out),
                         plan.components.size() > 1
                             ? "results.json, residuals/COMPONENT.csv, "
                               "models/COMPONENT/MODEL.json"
@@ -123,9 +122,10 @@ std::vector<std::string> LongRunLines(const desk::StudyPlan& plan,
                                                 report::Count(jobs, "job"))};
   const desk::FasterModels faster = desk::FasterModelsOf(plan);
   if (!chosen && !faster.names.empty()) {
-    lines.push_back(fmt::format("about {} without the slowest: --models {}",
-                                desk::RoughTimeText(faster.seconds / jobs),
-                                Shown(data::JoinWords(faster.names, ","))));
+    lines.push_back(
+        fmt::format("about {} without the slowest: --models {}",
+                    desk::RoughTimeText(faster.seconds / jobs),
+                    data::Printable(data::JoinWords(faster.names, ","))));
   }
   return lines;
 }

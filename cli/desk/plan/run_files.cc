@@ -86,13 +86,9 @@ std::string MapFileText(const StudyRun& run,
   models::FittedModel map = *model.final_fit;
   map.where = component.data.where;
   map.reading = std::make_shared<const data::Reading>(component.data.reading);
-  std::vector<InputFile> files;
-  for (const models::InputFileRecord& file : component.files) {
-    files.push_back({file.file, file.sha256});
-  }
   return models::ModelToJson(map,
                              ModelProvenance(run.command_line,
-                                             files,
+                                             component.files,
                                              component.data.dataset.num_rows(),
                                              run.seed));
 }

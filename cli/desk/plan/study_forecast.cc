@@ -76,12 +76,11 @@ void StudyForecast::Note(std::size_t component,
   }
   best_rmse_ = fit.holdout_rmse;
   constexpr std::size_t kMostName = 24;
-  best_ = {fmt::format(
-               "{} {}",
-               report::Squeezed(data::Printable(model.name, model.name.size()),
-                                kMostName),
-               report::ErrorText(of.unit, best_rmse_).WithUnit(best_rmse_)),
-           data::Printable(of.holdout_name, of.holdout_name.size())};
+  best_ = {
+      fmt::format("{} {}",
+                  report::Squeezed(data::Printable(model.name), kMostName),
+                  report::ErrorText(of.unit, best_rmse_).WithUnit(best_rmse_)),
+      data::Printable(of.holdout_name)};
 }
 
 double StudyForecast::Rate(const OfModel& model) const {

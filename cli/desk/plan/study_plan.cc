@@ -403,6 +403,13 @@ std::vector<std::string> StudyPlan::InputPaths() const {
   return paths;
 }
 
+StudyConfig PartedByDirection(StudyConfig config) {
+  std::vector<InputFile> inputs;
+  TableReader reader(&inputs);
+  PartByDirection(&config, &reader);
+  return config;
+}
+
 StudyPlan PlanStudy(const StudyConfig& config,
                     const Remark& remark,
                     const MakeOwnRecipes& own) {

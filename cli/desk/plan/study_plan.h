@@ -25,6 +25,11 @@ struct StudyPlan {
   std::vector<std::string> InputPaths() const;
 };
 
+/// Returns the study as PlanStudy takes it: a component whose rows go both ways
+/// along the axis is two, named alike and after the ways. A component whose
+/// data cannot be read stays as it is.
+StudyConfig PartedByDirection(StudyConfig config);
+
 /// Receives remarks for the user, one line at a time.
 using Remark = std::function<void(const std::string&)>;
 

@@ -65,7 +65,6 @@ StudyRun RunPlan(StudyPlan plan,
 models::StudyRecord RecordOf(const StudyRun& run, int jobs) {
   models::StudyRecord record =
       report::MakeRecord(run.components, run.seed, jobs);
-  record.interrupted = run.interrupted;
   record.provenance = desk::MakeProvenance(run.command_line, run.inputs);
   record.provenance.configuration = EffectiveConfiguration(run.config);
   for (models::ComponentRecord& component : record.components) {

@@ -1,8 +1,10 @@
 #include "cli/desk/toml/study_file.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -191,8 +193,8 @@ class StudyFileReader {
     std::string spec;
     keys.TakeText("use", &spec);
     if (spec.empty()) keys.RefuseTable("needs use = \"SPEC\"");
-    for (const toml::node* node : InOrderOfTheFile(table)) {
-      spec += OptionText(keys, KeyOf(table, *node), *node);
+    for (const auto& [key, node] : InOrderOfTheFile(table)) {
+      spec += OptionText(keys, key, *node);
     }
     try {
       models::MakeRecipe(spec);
@@ -206,27 +208,20 @@ class StudyFileReader {
   }
 
   // The options of a model (toml++ sorts its keys by name).
-  static std::vector<const toml::node*> InOrderOfTheFile(
-      const toml::table& table) {
-    std::vector<const toml::node*> nodes;
+  static std::vector<std::pair<std::string, const toml::node*>>
+  InOrderOfTheFile(const toml::table& table) {
+    std::vector<std::pair<std::string, const toml::node*>> options;
     for (const auto& [key, value] : table) {
-      if (key.str() != "use") nodes.push_back(&value);
+      if (key.str() != "use") options.emplace_back(key.str(), &value);
     }
-    const auto place = [](const toml::node* node) {
-      const toml::source_region& at = node->source();
+    const auto place = [](const auto& option) {
+      const toml::source_region& at = option.second->source();
       const bool is_override =
           at.path != nullptr && at.path->starts_with(kOverride);
       return std::tuple(is_override, at.begin.line, at.begin.column);
     };
-    std::ranges::stable_sort(nodes, {}, place);
-    return nodes;
-  }
-
-  static std::string KeyOf(const toml::table& table, const toml::node& node) {
-    for (const auto& [key, value] : table) {
-      if (&value == &node) return std::string(key.str());
-    }
-    return "";
+    std::ranges::stable_sort(options, {}, place);
+    return options;
   }
 
   static std::string OptionText(const Keys& keys,

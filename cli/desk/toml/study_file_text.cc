@@ -22,10 +22,6 @@ namespace {
 
 using Filters = std::vector<data::ColumnFilter>;
 
-std::string Shown(const std::string& text) {
-  return data::Printable(text, text.size());
-}
-
 // The distinct combinations of values of these columns, as they appear.
 std::vector<Filters> Combinations(
     const data::CsvTable& table,
@@ -106,12 +102,13 @@ std::string FoundText(const models::ComponentPlan& component) {
   const data::PreparedDataset& prepared = component.comparison.data;
   const data::Dataset& dataset = prepared.dataset;
   std::string text = "# " + report::Count(dataset.num_rows(), "row") +
-                     Shown(report::UnitsWords(dataset));
+                     data::Printable(report::UnitsWords(dataset));
   if (!dataset.has_groups()) text += ": name the column of cycles with group";
   text += "\n";
   for (const data::DroppedColumn& dropped : prepared.dropped) {
-    text += fmt::format(
-        "# {} is left out: {}\n", Shown(dropped.column), Shown(dropped.why));
+    text += fmt::format("# {} is left out: {}\n",
+                        data::Printable(dropped.column),
+                        data::Printable(dropped.why));
   }
   return text;
 }

@@ -1,10 +1,15 @@
 #include "cli/desk/toml/toml_keys.h"
 
+#include <algorithm>
+#include <stdexcept>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "cli/desk/toml/toml_text.h"
 #include "data/argument_name.h"
 #include "data/input_error.h"
+#include "data/text.h"
 
 namespace errmap::desk {
 namespace {
@@ -29,13 +34,6 @@ std::string Found(const toml::node& node) {
     default:
       return "a date or time";
   }
-}
-
-// "did you mean 'target'? "
-std::string Suggestion(std::string_view name,
-                       const std::vector<std::string>& known) {
-  const std::string nearest = data::NearestName(name, known);
-  return nearest.empty() ? "" : "did you mean '" + nearest + "'? ";
 }
 
 }  // namespace
@@ -102,7 +100,7 @@ void Keys::AllowOnly(const std::vector<std::string>& known) const {
            fmt::format("unknown key {} in {}; {}allowed are {}",
                        QuotedName(key.str()),
                        where_,
-                       Suggestion(key.str(), known),
+                       data::DidYouMean(key.str(), known),
                        data::JoinWords(known, ", ")));
   }
 }
@@ -164,9 +162,30 @@ void Keys::TakeSeed(std::uint64_t* seed) const {
   *seed = static_cast<std::uint64_t>(value->get());
 }
 
-void Keys::TakeList(std::string_view key,
-                    std::vector<std::string>* list) const {
-  TakeList(key, list, [](const std::string& /*any*/) {});
+void Keys::TakeList(
+    std::string_view key,
+    std::vector<std::string>* list,
+    const std::function<void(const std::string&)>& check) const {
+  constexpr std::string_view kWanted = "a list of texts such as [\"a\"]";
+  const toml::node* const node = Find(key);
+  if (node == nullptr) return;
+  const toml::array* const array = node->as_array();
+  if (array == nullptr) RefuseType(key, *node, kWanted);
+  for (const toml::node& item : *array) {
+    const auto* const text = item.as_string();
+    if (text == nullptr) RefuseType(key, item, kWanted);
+    if (std::ranges::find(*list, text->get()) != list->end()) {
+      Refuse(file_,
+             item.source(),
+             fmt::format("'{}' has {} twice", key, QuotedName(text->get())));
+    }
+    try {
+      if (check) check(text->get());
+    } catch (const std::invalid_argument& error) {
+      Refuse(file_, item.source(), error.what());
+    }
+    list->push_back(text->get());
+  }
 }
 
 void Keys::RefuseType(std::string_view key,

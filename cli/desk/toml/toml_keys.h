@@ -1,17 +1,13 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
-#include <stdexcept>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "cli/desk/given_error.h"
 #include "cli/desk/toml/toml_parser.h"
-#include "data/text.h"
 
 namespace errmap::desk {
 
@@ -57,36 +53,12 @@ class Keys {
                  GivenError* error) const;
   void TakeSeed(std::uint64_t* seed) const;
 
-  /// Takes a list of texts. `check` refuses one by throwing
+  /// Takes a list of texts. `check` (may be empty) refuses one by throwing
   /// std::invalid_argument.
-  template <typename Check>
-  void TakeList(std::string_view key,
-                std::vector<std::string>* list,
-                const Check& check) const {
-    constexpr std::string_view kWanted = "a list of texts such as [\"a\"]";
-    const toml::node* const node = Find(key);
-    if (node == nullptr) return;
-    const toml::array* const array = node->as_array();
-    if (array == nullptr) RefuseType(key, *node, kWanted);
-    for (const toml::node& item : *array) {
-      const auto* const text = item.as_string();
-      if (text == nullptr) RefuseType(key, item, kWanted);
-      if (std::ranges::find(*list, text->get()) != list->end()) {
-        Refuse(file_,
-               item.source(),
-               fmt::format(
-                   "'{}' has {} twice", key, data::QuotedName(text->get())));
-      }
-      try {
-        check(text->get());
-      } catch (const std::invalid_argument& error) {
-        Refuse(file_, item.source(), error.what());
-      }
-      list->push_back(text->get());
-    }
-  }
-
-  void TakeList(std::string_view key, std::vector<std::string>* list) const;
+  void TakeList(
+      std::string_view key,
+      std::vector<std::string>* list,
+      const std::function<void(const std::string&)>& check = {}) const;
 
   /// Returns the tables headed [[key]]; none if the key is absent.
   std::vector<const toml::table*> Tables(std::string_view key) const;

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -25,6 +24,7 @@
 #include "fitting/parallel_for.h"
 #include "models/fleet/session_measures.h"
 #include "models/model_file.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::cli {
 namespace {
@@ -139,7 +139,6 @@ Deployed Prepare(const fleet::StorePaths& paths,
                  const std::string& model,
                  const std::string& since,
                  const Recommended& recommended) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   const std::string map = MapText(paths, model, recommended);
   const models::FittedModel fitted =
       models::ModelFromJson(map, model.empty() ? recommended.component : model);
@@ -156,10 +155,11 @@ Deployed Prepare(const fleet::StorePaths& paths,
                      .since = since,
                      .map = Keep(paths, map),
                      .model = fitted.name,
-                     .promised = fitted.held_out ? fitted.held_out->rmse : kNaN,
+                     .promised =
+                         fitted.held_out ? fitted.held_out->rmse : stats::kNaN,
                      .within_95 = has_levels
                                       ? fitted.interval->levels[1].half_width
-                                      : kNaN},
+                                      : stats::kNaN},
       .promised = "nothing, since no rows were held out",
       .why_not_watched = models::WhyNotWatched(fitted),
       .remarks = fitted.remarks};
@@ -196,13 +196,12 @@ std::string DeployedText(const fleet::StorePaths& paths,
                          const std::vector<Deployed>& all) {
   if (all.size() == 1) {
     const fleet::Deployment& deployment = all.front().deployment;
-    return fmt::format(
-        "{}: {} since {}, promised {}; its file: {}\n",
-        data::Printable(deployment.component, deployment.component.size()),
-        deployment.model,
-        deployment.since,
-        all.front().promised,
-        data::PrintablePath(paths.Map(deployment.map)));
+    return fmt::format("{}: {} since {}, promised {}; its file: {}\n",
+                       data::Printable(deployment.component),
+                       deployment.model,
+                       deployment.since,
+                       all.front().promised,
+                       data::PrintablePath(paths.Map(deployment.map)));
   }
   return fmt::format(
       "{} deployed since {}; their files: {}\n",

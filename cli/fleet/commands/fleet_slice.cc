@@ -37,10 +37,12 @@ std::optional<int> ReportStore(const ReportArguments& arguments) {
     return kDone;
   }
   const fleet::FleetRecord fleet = fleet::ReadFleet(store);
-  if (std::ranges::find(fleet.components,
-                        arguments.component,
-                        &fleet::FleetComponentRecord::name) ==
-      fleet.components.end()) {
+  const auto summary = fleet::FindSummary(store, arguments.component);
+  // A direction of a component has what was asked of the component.
+  if (std::ranges::none_of(fleet.components, [&](const auto& component) {
+        return component.name == arguments.component ||
+               (summary && summary->asked == component.asked);
+      })) {
     throw UsageError(
         fmt::format("no component {} in {}; errmap merge STORE lists them",
                     data::QuotedName(arguments.component),

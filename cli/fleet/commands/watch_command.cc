@@ -100,7 +100,7 @@ std::string WatchText(const std::string& store,
     const std::string proposal = component.Proposal(store);
     if (proposal.empty()) continue;
     const std::string& name = component.deployment.component;
-    proposals += data::Printable(name, name.size()) + ": " + proposal + "\n";
+    proposals += data::Printable(name) + ": " + proposal + "\n";
   }
   std::string text = fleet::WatchHeadline(components) + "\n";
   if (!told.empty()) {

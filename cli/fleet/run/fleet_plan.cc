@@ -40,15 +40,15 @@ FleetPlan PlanFleet(const desk::StudyConfig& config) {
     try {
       const desk::StudyPlan one = desk::PlanStudy(study);
       plan.fits += one.num_fits();
-      plan.seconds += desk::RoughSeconds(one.components.front(), 1);
-      plan.largest_mib =
-          std::max(plan.largest_mib, MebibytesOf(one.components.front()));
+      for (const models::ComponentPlan& way : one.components) {
+        plan.seconds += desk::RoughSeconds(way, 1);
+        plan.largest_mib = std::max(plan.largest_mib, MebibytesOf(way));
+      }
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
-      plan.unusable.push_back(
-          data::Printable(component.name, component.name.size()) + ": " +
-          error.what());
+      plan.unusable.push_back(data::Printable(component.name) + ": " +
+                              error.what());
     }
   }
   const double factor =

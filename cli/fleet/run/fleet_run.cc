@@ -161,22 +161,84 @@ class FleetRunner {
     std::filesystem::remove(store_.InFolder(name, file), ignored);
   }
 
-  void Study(const ComponentConfig& component, const ComponentSource& source) {
-    const std::string asked = AskedOf(config_, component, source);
-    const std::string key = KeyOf(asked, config_, component);
-    const auto earlier = FindSummary(store_, component.name);
-    if (earlier && earlier->key == key &&
-        earlier->status == models::ModelStatus::kOk) {
-      Count(&FleetRunResult::kept);
-      return;
+  void RemoveResults(const std::string& name) const {
+    for (const char* file : {kResultsFile, kMapFile, kRelationsFile}) {
+      Remove(name, file);
     }
+  }
+
+  bool IsKept(const std::string& name, const std::string& key) const {
+    const auto earlier = FindSummary(store_, name);
+    if (!earlier || earlier->key != key ||
+        earlier->status != models::ModelStatus::kOk) {
+      return false;
+    }
+    return !earlier->ways ||
+           std::ranges::all_of(*earlier->ways, [&](const std::string& way) {
+             return !IsNamed(way) && IsKept(way, key);
+           });
+  }
+
+  // Whether a component of the study is called so; "x, up" may be a direction
+  // of x.csv, and the file x_up.csv.
+  bool IsNamed(const std::string& name) const {
+    return std::ranges::find(
+               config_.components, name, &ComponentConfig::name) !=
+           config_.components.end();
+  }
+
+  // A number of the result, which one more is counted in; null where it was
+  // interrupted.
+  using Counted = int FleetRunResult::*;
+
+  void Study(const ComponentConfig& component, const ComponentSource& source) {
+    if (const Counted number = Studied(component, source)) Count(number);
+  }
+
+  // Rows that go both ways along the axis are two components.
+  Counted Studied(const ComponentConfig& component,
+                  const ComponentSource& source) {
+    ComponentSummary summary;
+    summary.asked = AskedOf(config_, component, source);
+    summary.key = KeyOf(summary.asked, config_, component);
+    if (IsKept(component.name, summary.key)) return &FleetRunResult::kept;
+    std::vector<ComponentConfig> ways =
+        desk::PartedByDirection(StudyOf(config_, component)).components;
+    if (ways.size() == 1) {
+      return StudyWay(component, source, summary.asked, summary.key);
+    }
+    summary.version = models::Version();
+    summary.name = component.name;
+    summary.status = models::ModelStatus::kOk;
+    std::vector<std::string> names;
+    for (ComponentConfig& way : ways) {
+      if (IsNamed(way.name)) way.name += " of " + source.path;
+      names.push_back(way.name);
+      const Counted number = StudyWay(way, source, summary.asked, summary.key);
+      if (number == nullptr) return nullptr;
+      if (number == &FleetRunResult::failed) {
+        summary.status = models::ModelStatus::kFailed;
+      }
+    }
+    summary.ways = std::move(names);
+    RemoveResults(component.name);
+    const bool failed = summary.status == models::ModelStatus::kFailed;
+    Write(component.name, kSummaryFile, ToJsonText(std::move(summary)));
+    return failed ? &FleetRunResult::failed : &FleetRunResult::fitted;
+  }
+
+  Counted StudyWay(const ComponentConfig& component,
+                   const ComponentSource& source,
+                   const std::string& asked,
+                   const std::string& key) {
+    if (IsKept(component.name, key)) return &FleetRunResult::kept;
     ComponentSummary summary;
     bool is_final = true;
     try {
       StudyRun run = desk::RunPlan(desk::PlanStudy(StudyOf(config_, component)),
                                    options_.command_line,
                                    {.jobs = jobs_each_, .stop = options_.stop});
-      if (run.interrupted) return;  // begun anew by the next run
+      if (run.interrupted) return nullptr;  // begun anew by the next run
       is_final = run.components.front().study.short_of_memory == 0;
       NameDataAsAsked(component.data, source, &run);
       models::StudyRecord record = desk::RecordOf(run, jobs_each_);
@@ -187,7 +249,7 @@ class FleetRunner {
       }
       summary = Summarise(record.components.front());
       if (summary.status == models::ModelStatus::kOk) {
-        WriteResults(run, std::move(record), &summary);
+        WriteResults(run, record, &summary);
       }
     } catch (const std::bad_alloc&) {
       throw;
@@ -207,24 +269,20 @@ class FleetRunner {
     const bool failed = summary.status != models::ModelStatus::kOk;
     if (failed) {
       // Of an earlier run: they are not this component's any more.
-      for (const char* file : {kResultsFile, kMapFile, kRelationsFile}) {
-        Remove(component.name, file);
-      }
+      RemoveResults(component.name);
       if (options_.remark) {
         const std::lock_guard lock(mutex_);
-        options_.remark(
-            fmt::format("{} failed: {}",
-                        data::Printable(summary.name, summary.name.size()),
-                        *summary.why));
+        options_.remark(fmt::format(
+            "{} failed: {}", data::Printable(summary.name), *summary.why));
       }
     }
     Write(component.name, kSummaryFile, ToJsonText(std::move(summary)));
-    Count(failed ? &FleetRunResult::failed : &FleetRunResult::fitted);
+    return failed ? &FleetRunResult::failed : &FleetRunResult::fitted;
   }
 
   // The summary last, by the caller.
   void WriteResults(const StudyRun& run,
-                    models::StudyRecord record,
+                    const models::StudyRecord& record,
                     ComponentSummary* summary) const {
     const std::string& name = summary->name;
     const std::string map = MapOf(run);
@@ -242,10 +300,10 @@ class FleetRunner {
     } else {
       Remove(name, kRelationsFile);
     }
-    Write(name, kResultsFile, PackResults(std::move(record)));
+    Write(name, kResultsFile, data::Gzip(models::ToJsonLine(record)));
   }
 
-  void Count(int FleetRunResult::*number) {
+  void Count(Counted number) {
     const std::lock_guard lock(mutex_);
     ++(result_.*number);
     if (options_.progress) {

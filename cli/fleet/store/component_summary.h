@@ -105,6 +105,9 @@ struct ComponentSummary {
   std::string key;
   ModelStatus status = ModelStatus::kFailed;
   LeftOut<std::string> why;  // it failed
+  /// Names of the components that it was studied as, a direction of motion
+  /// each; then all that follows is in theirs.
+  LeftOut<std::vector<std::string>> ways;
   std::string file;
   std::string sha256;
   std::int64_t rows = 0;

@@ -8,6 +8,7 @@
 #include "cli/desk/plan/component_names.h"
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
+#include "data/measurements/column_checks.h"
 #include "data/tables/text/gzip.h"
 #include "data/text.h"
 #include "data/throwing_as.h"
@@ -93,25 +94,6 @@ void WriteFleet(const StorePaths& paths, const FleetRecord& fleet) {
   data::WriteFileAtomically(paths.Fleet(), text);
 }
 
-std::string PackResults(models::StudyRecord record) {
-  for (models::ComponentRecord& component : record.components) {
-    for (models::HoldoutRecord& holdout : component.holdouts) {
-      if (holdout.another_file) continue;
-      const std::vector<std::int64_t> all = RowsOf(holdout);
-      bool restores = true;
-      for (std::size_t fold = 0; fold < holdout.train_rows.size(); ++fold) {
-        restores = restores && Others(all, holdout.test_rows[fold]) ==
-                                   holdout.train_rows[fold];
-      }
-      // Where some rows are held out in no fold they must be named.
-      models::HoldoutRecord without = holdout;
-      without.train_rows.clear();
-      if (restores && RowsOf(without) == all) holdout.train_rows.clear();
-    }
-  }
-  return data::Gzip(models::ToJsonLine(record));
-}
-
 std::string WhyNoMap(const std::string& component, const std::string& why) {
   return fmt::format("{} has no results and no map, since it failed: {}",
                      data::QuotedName(component),
@@ -135,6 +117,12 @@ models::StudyRecord ReadResultsOf(const StorePaths& paths,
   const auto summary = FindSummary(paths, component);
   if (summary && summary->why) {
     throw data::InputError(WhyNoMap(component, *summary->why));
+  }
+  if (summary && summary->ways) {
+    throw data::InputError(
+        fmt::format("{} was measured both ways; its components are {}",
+                    data::QuotedName(component),
+                    data::ListOfNames(*summary->ways)));
   }
   const std::string path = paths.InFolder(component, kResultsFile);
   const std::string compressed = data::ReadFile(path);

@@ -82,14 +82,12 @@ void WriteFleet(const StorePaths& paths, const FleetRecord& fleet);
 std::optional<ComponentSummary> FindSummary(const StorePaths& paths,
                                             const std::string& component);
 
-/// Returns the summary of a component that failed in the study.
+/// Returns a sentence on why a component that failed in the study has no map.
 std::string WhyNoMap(const std::string& component, const std::string& why);
 
-/// Returns a component's results without those lists of training rows that are
-/// simply all rows not held out.
-std::string PackResults(models::StudyRecord record);
-/// Inverse of the above. Throws data::InputError naming the path, or the reason
-/// why the component failed.
+/// Returns a component's results. In older stores they lack those lists of
+/// training rows that are simply all rows not held out. Throws data::InputError
+/// naming the path, or the reason why the component failed.
 models::StudyRecord ReadResultsOf(const StorePaths& paths,
                                   const std::string& component);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <limits>
 #include <new>
 #include <optional>
 #include <span>
@@ -21,8 +20,6 @@ namespace errmap::fleet {
 namespace {
 
 using models::WatchStatus;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // Of the session's first `count` rows.
 std::string HashOf(const data::Dataset& dataset,
@@ -62,7 +59,7 @@ std::vector<Check> ChecksIn(const std::string& file,
          .rows_sha256 = HashOf(rows.dataset, measured, measured.rows.size()),
          .begins_sha256 = HashOf(rows.dataset, measured, 1),
          .file = data::PrintablePath(file),
-         .p_map = kNaN});
+         .p_map = stats::kNaN});
   }
   return checks;
 }

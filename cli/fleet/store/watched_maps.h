@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "cli/fleet/store/deployments.h"
 #include "cli/fleet/store/store_folder.h"
 #include "cli/report/table.h"
+#include "stats/not_a_number.h"
 
 namespace errmap::fleet {
 
@@ -22,8 +22,8 @@ struct WatchedComponent {
   std::string why_not;  // a file could not, or nothing could be judged
   // Of the newest session.
   models::WatchStatus status = models::WatchStatus::kNotJudged;
-  double found = std::numeric_limits<double>::quiet_NaN();  // RMSE, its unit
-  double p_map = std::numeric_limits<double>::quiet_NaN();  // NaN: not judged
+  double found = stats::kNaN;  // RMSE, its unit
+  double p_map = stats::kNaN;  // NaN: not judged
   std::optional<models::MapJudgement> judgement;
   double indifference = 0.0;  // that never matters, its unit
 
@@ -36,8 +36,8 @@ struct WatchedComponent {
 report::Table WatchTable(const std::vector<WatchedComponent>& components,
                          bool brief = false);
 
-/// "60 components, 57 as promised, 3 worse; of so many that are healthy 0.6 are
-/// named worse or changed by chance".
+/// "60 components, 57 as promised, 3 worse; by chance, 0.3 of 60 healthy ones
+/// would be called worse or changed".
 std::string WatchHeadline(const std::vector<WatchedComponent>& components);
 
 /// Returns watch.html: the number of components in each state, what to do for
@@ -75,8 +75,8 @@ struct WatchedMaps {
 
 /// Compares each file, in the order of FindWatchedFiles, with the map deployed
 /// on its component. The file's sessions are judged together with those that
-/// `store` has of it, and over all components. If a file cannot be read or
-/// judged, its component says why. Writes nothing.
+/// `store` has of it. If a file cannot be read or judged, its component says
+/// why. Writes nothing.
 WatchedMaps WatchMaps(const StorePaths& paths,
                       Database* store,
                       const std::vector<WatchedFile>& files);

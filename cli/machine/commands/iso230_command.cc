@@ -128,8 +128,7 @@ void Take(const data::CsvTable& table,
           const Iso230Arguments& arguments,
           Approached* all) {
   const std::string& position = *reading.position.column;
-  const VectorXd positions = data::NumericColumn(
-      table, position, data::MissingPolicy::kError, nullptr)(rows);
+  const VectorXd positions = data::NumericColumn(table, position)(rows);
   if (all->target.empty()) {
     all->target = target.name;
     all->unit = target.unit;
@@ -291,7 +290,7 @@ std::string TestText(const Approached& all, const Judged& judged) {
   const RunCount down = RunsOf(judged.before, &PositioningPoint::down);
   std::string text =
       fmt::format("ISO 230-2: {} at {}, {} runs upwards and {} downwards\n",
-                  data::Printable(all.target, all.target.size()),
+                  data::Printable(all.target),
                   report::Count(std::ssize(judged.before), "position"),
                   RunsText(up),
                   RunsText(down));

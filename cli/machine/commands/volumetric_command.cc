@@ -27,6 +27,7 @@
 #include "models/history/map_log.h"
 #include "models/kinematics/machine.h"
 #include "models/kinematics/volumetric.h"
+#include "stats/error_metrics.h"
 #include "stats/summary.h"
 
 namespace errmap::cli {
@@ -157,11 +158,9 @@ void SayErrors(const Synthesis& s) {
 void SayContributions(const Synthesis& s) {
   std::vector<std::pair<double, std::string>> sizes;
   for (std::size_t k = 0; k < s.machine.errors.size(); ++k) {
-    const VectorXd lengths =
-        models::SensitiveLengths(s.machine, s.errors.contributions[k]);
-    sizes.emplace_back(
-        std::sqrt(lengths.squaredNorm() / static_cast<double>(lengths.size())),
-        s.machine.errors[k].name);
+    sizes.emplace_back(stats::RootMeanSquare(models::SensitiveLengths(
+                           s.machine, s.errors.contributions[k])),
+                       s.machine.errors[k].name);
   }
   std::ranges::stable_sort(
       sizes, std::greater{}, &decltype(sizes)::value_type::first);
@@ -181,9 +180,7 @@ void SayContributions(const Synthesis& s) {
 // Where the points have true errors, what compensation would leave of them.
 void SayRest(const Synthesis& s, const MatrixX3d& truth) {
   const auto rms = [&](const MatrixX3d& errors) {
-    const VectorXd lengths = models::SensitiveLengths(s.machine, errors);
-    return std::sqrt(lengths.squaredNorm() /
-                     static_cast<double>(lengths.size()));
+    return stats::RootMeanSquare(models::SensitiveLengths(s.machine, errors));
   };
   const double before = rms(truth);
   const report::ErrorText text(s.machine.length, before);

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -24,10 +25,7 @@ namespace {
 struct NetcgArguments {
   std::string file;
   std::string study;
-  std::string precision = "single";
   std::string format = "table";
-  bool corrected = false;
-  bool full_weights = false;
   bool force = false;
   bool quiet = false;
   netcg::NetcgStudyOptions options;  // options.netcg of a run file, too
@@ -222,23 +220,14 @@ int RunStudy(const NetcgArguments& arguments, const std::string& command_line) {
   return kDone;
 }
 
-int RunNetcgCommand(NetcgArguments& arguments,
+int RunNetcgCommand(const NetcgArguments& arguments,
                     const std::string& command_line) {
   if (arguments.file.empty() == arguments.study.empty()) {
     throw UsageError(
         "netcg needs a run file or --study DIR, and not both; see errmap netcg "
         "--help");
   }
-  netcg::NetcgOptions& options = arguments.options.netcg;
-  if (arguments.precision == "double") {
-    options.precision = netcg::NetcgPrecision::kDouble;
-  }
-  if (arguments.corrected) {
-    options.statistics = netcg::NetcgStatistics::kCorrected;
-  }
-  if (arguments.full_weights) {
-    options.weight_digits = netcg::WeightDigits::kFull;
-  }
+  const netcg::NetcgOptions& options = arguments.options.netcg;
   // Before the work, not after it.
   if (!options.out.empty()) data::PrepareFolder(options.out);
   return arguments.study.empty() ? RunFile(arguments, command_line)
@@ -266,28 +255,32 @@ void AddNetcgCommand(CLI::App* app, Run* run) {
             command->study,
             "Instead, the report's nine experiments (Tables 3 and 4) on "
             "a folder of errmap simulate turning-centre");
-  AddOption(command,
+  AddChoice(command,
             "--precision",
-            command->precision,
-            "Arithmetic: single is the program's own")
-      .OneOf({"single", "double"})
-      .ShowDefault();
-  AddFlag(command,
-          "--corrected",
-          command->corrected,
-          "Print correct statistics, and use the training run's scaling in "
-          "testing runs");
+            "Arithmetic: single is the program's own",
+            std::vector{netcg::NetcgPrecision::kSingle,
+                        netcg::NetcgPrecision::kDouble},
+            &options.netcg.precision);
+  AddFlag(
+      command,
+      "--corrected",
+      [&options] {
+        options.netcg.statistics = netcg::NetcgStatistics::kCorrected;
+      },
+      "Print correct statistics, and use the training run's scaling in "
+      "testing runs");
   AddOption(
       command,
       "--training FILE",
       options.netcg.training_file,
       "Pattern file on which the weights of testing runs were trained, if "
       "no other file has its scaling");
-  AddFlag(command,
-          "--full-weights",
-          command->full_weights,
-          "Write all digits and the scaling into weights files, not six "
-          "digits");
+  AddFlag(
+      command,
+      "--full-weights",
+      [&options] { options.netcg.weight_digits = netcg::WeightDigits::kFull; },
+      "Write all digits and the scaling into weights files, not six "
+      "digits");
   AddOption(command,
             "--out DIR",
             options.netcg.out,

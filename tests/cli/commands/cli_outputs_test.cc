@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/cli/both_ways.h"
 #include "tests/cli/cli_fixture.h"
 
 namespace errmap {
@@ -77,13 +78,30 @@ TEST_F(CliOutputs, ADashNamesNoFile) {
       {"compare", kDown, "--models", "mean", "--save-split", "-"},
       {"fit", kDown, "--model", "mean", "-o", "-"},
       {"predict", "m.json", kDown, "-o", "-"},
-      {"init", kDown, "-o", "-"}};
+      {"init", kDown, "-o", "-"},
+      {"convert", kDown, "-"},
+      {"iso230", kDown, "--figure", "-"}};
   for (const std::vector<std::string>& words : commands) {
     SCOPED_TRACE(::testing::PrintToString(words));
     EXPECT_THAT(RefusalOf(Run(words), kWrongCommandLine),
                 HasSubstr(": - names no file; name one"));
   }
   EXPECT_FALSE(Exists("-"));
+}
+
+TEST_F(CliOutputs, FitsThatAreRefusedLeaveNoFolder) {
+  Write("ways.csv", RowsOfBothWays());
+  EXPECT_THAT(RefusalOf(Run({"fit",
+                             "ways.csv",
+                             "--model",
+                             "mean",
+                             "-o",
+                             "maps/",
+                             "--format",
+                             "json"}),
+                        kWrongCommandLine),
+              HasSubstr("tells of one map"));
+  EXPECT_FALSE(Exists("maps"));
 }
 
 // Found out after hours of fits it would cost the page.

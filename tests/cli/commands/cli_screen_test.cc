@@ -5,9 +5,8 @@
 #include <regex>
 #include <set>
 
-#include <fmt/format.h>
-
 #include "cli/report/wrap_text.h"
+#include "tests/cli/both_ways.h"
 #include "tests/cli/cli_fixture.h"
 #include "tests/cli/one_line.h"
 
@@ -524,18 +523,7 @@ TEST_F(Screens, TakeAGoalWithItsUnit) {
 }
 
 TEST_F(Screens, SayOnceHowTheFileOfBothWaysWasRead) {
-  std::string text = "day,x_mm,t_degC,error_um\n";
-  for (int i = 0; i < 160; ++i) {
-    const int at = i % 10 < 5 ? i % 10 : 9 - i % 10;
-    const double warm = 20.0 + 0.05 * (i % 40) + i / 40;
-    text += fmt::format("{},{},{:.2f},{:.3f}\n",
-                        i / 40,
-                        50 * at,
-                        warm,
-                        at + 3.0 * (warm - 20.0) + (i % 10 < 5 ? 0.0 : 4.0) +
-                            0.2 * std::sin(12.9898 * i * i));
-  }
-  Write("ways.csv", text);
+  Write("ways.csv", RowsOfBothWays());
   const std::string screen =
       Run({"compare", "ways.csv", "--models", "mean,poly:full:degree=1"}).out;
   EXPECT_THAT(screen,

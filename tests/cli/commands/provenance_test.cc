@@ -126,5 +126,21 @@ TEST_F(Provenance, StandsInEveryDocumentWithWhatTookEffect) {
               HasSubstr("OpenBLAS "));
 }
 
+TEST_F(Provenance, DoesNotTellWhereAMapIsWritten) {
+  Write("d.csv", "position_mm,error_mm\n0,1\n1,2\n2,4\n3,5\n4,6\n5,8\n");
+  for (const std::vector<std::string>& out :
+       std::vector<std::vector<std::string>>{{"-o", "1.json"},
+                                             {"-o2.json"},
+                                             {"--output", "3.json"},
+                                             {"--output=4.json"}}) {
+    std::vector<std::string> words = {"fit", "d.csv", "--model", "mean"};
+    words.insert(words.end(), out.begin(), out.end());
+    EXPECT_EQ(Run(words).status, 0);
+  }
+  for (const char* file : {"2.json", "3.json", "4.json"}) {
+    EXPECT_EQ(Read(file), Read("1.json"));
+  }
+}
+
 }  // namespace
 }  // namespace errmap

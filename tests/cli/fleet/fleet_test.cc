@@ -2,6 +2,7 @@
 
 #include <sys/stat.h>
 
+#include "tests/cli/both_ways.h"
 #include "tests/cli/fleet/fleet_fixture.h"
 
 namespace errmap {
@@ -9,6 +10,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 using Fleet = FleetTest;
@@ -181,6 +183,39 @@ TEST_F(Fleet, WrongCommandLinesGetOneLine) {
                         kUnusable),
               HasSubstr("no field {a}"));
   EXPECT_FALSE(Exists("s"));
+}
+
+TEST_F(Fleet, AFileOfBothWaysIsTwoComponents) {
+  for (const char* folder : {"data/m1", "data/m2"}) {
+    std::filesystem::create_directories(scratch_ / folder);
+  }
+  Write("data/m1/x.csv", RowsOfBothWays());
+  WriteComponent("data/m2/x.csv", 3);
+  ASSERT_EQ(Run({"init", "data", "-o", "fleet.toml"}).status, 0);
+  const std::vector<std::string> quick = {"--models", "mean,poly:position"};
+  const Outcome outcome = Study("store", quick);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("2 fitted, 0 unchanged, 0 failed"));
+  EXPECT_THAT(outcome.err, Not(HasSubstr("missing")));
+  EXPECT_EQ(Rows("store", "SELECT name, status, rows FROM components"),
+            Json::parse(R"([["m1/x, down", "ok", 80], ["m1/x, up", "ok", 80],
+                            ["m2/x", "ok", 72]])"));
+  EXPECT_EQ(Run({"merge", "store"}).status, 0);
+  EXPECT_THAT(Run({"report", "store", "--component", "m1/x, up"}).out,
+              HasSubstr("report.html"));
+  EXPECT_THAT(
+      RefusalOf(Run({"report", "store", "--component", "m1/x"}), kUnusable),
+      HasSubstr("its components are 'm1/x, up', 'm1/x, down'"));
+  EXPECT_EQ(Run({"deploy", "store", "m1/x, up"}).status, 0);
+  EXPECT_THAT(Study("store", quick).err,
+              HasSubstr("0 fitted, 2 unchanged, 0 failed"));
+  // A component of that name may be there already.
+  Write("data/m1/x_up.csv", Read("data/m2/x.csv"));
+  ASSERT_EQ(Run({"init", "data", "-o", "fleet.toml", "--force"}).status, 0);
+  EXPECT_EQ(Study("store", quick).status, 0);
+  EXPECT_EQ(Rows("store", "SELECT name FROM components WHERE status = 'ok'"),
+            Json::parse(R"([["m1/x, down"], ["m1/x, up"],
+                            ["m1/x, up of data/m1/x.csv"], ["m2/x"]])"));
 }
 
 TEST_F(Fleet, DryRunFitsNothing) {

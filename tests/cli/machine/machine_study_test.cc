@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/cli/both_ways.h"
 #include "tests/cli/cli_fixture.h"
 #include "tests/cli/one_line.h"
 
@@ -351,6 +352,9 @@ TEST_F(MachineStudy, RefusesWhatCannotBeJudged) {
                             0.001 * (i % 3));
   }
   Write("named/x.csv", readings);
+  std::filesystem::create_directory(scratch_ / "ways");
+  Write("ways/tool_tip.csv", Read("askew/tool_tip.csv"));
+  Write("ways/x.csv", RowsOfBothWays());
   struct Case {
     std::vector<std::string> words;
     int status;
@@ -384,6 +388,10 @@ TEST_F(MachineStudy, RefusesWhatCannotBeJudged) {
        "named/x.csv: none of its sessions ('Monday', 'Tuesday') is one of "
        "named/tool_tip.csv ('1', '2'), so those that judge cannot be kept from "
        "the fits; name them alike"},
+      {{"compare", "--machine", "bare.toml", "ways", "--quiet"},
+       kUnusable,
+       "ways/x.csv: its rows go both ways, and bare.toml asks for one map of "
+       "them, x.json"},
       {{"compare", "--machine", "bare.toml", "fewer"},
        kUnusable,
        "fewer/tool_tip.csv: no column 'error_z_mm'"},

@@ -17,6 +17,7 @@ TEST(WrapLines, BreaksAtBlanksAndLongWordsAnywhere) {
   EXPECT_THAT(WrapLines("a abcdefgh b", 4, LongWords::kWhole),
               ElementsAre("a", "abcdefgh", "b"));
   EXPECT_THAT(WrapLines("", 7), ElementsAre());
+  EXPECT_THAT(WrapLines("ab c", 0), ElementsAre("a", "b", "c"));
 }
 
 TEST(WrapLines, KeepsANumberAndItsUnitTogether) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "cli/shell/host.h"
 #include "cli/shell/standard_streams.h"
 
 namespace errmap::cli {
@@ -31,6 +32,16 @@ TEST(WithOwnRemedies, LeavesQuotationsAndOtherCommandsAlone) {
         "the machine's rows; --time names them"}) {
     EXPECT_EQ(Kept(message), message);
   }
+}
+
+TEST(AdviseOnly, HoldsForNoLaterRunOfAHost) {
+  AdviseOnly({"--time"});
+  Host host;
+  const HostedRun hosted(&host);
+  WriteMessage("t1 never changes and is left out; --keep-dead keeps it");
+  EXPECT_EQ(host.messages,
+            std::vector<std::string>{
+                "t1 never changes and is left out; --keep-dead keeps it"});
 }
 
 }  // namespace
