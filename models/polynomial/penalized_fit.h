@@ -94,8 +94,8 @@ class SummedBasis {
   using Rows = std::vector<Index>;
 
   /// `folds` are needed if they choose the penalty; null if it is given. Throws
-  /// std::invalid_argument for too many terms or missing folds, and with
-  /// FitInterrupted's message if context.stop interrupts it.
+  /// std::invalid_argument for too many terms or missing folds, and
+  /// fitting::Interrupted if context.stop interrupts it.
   SummedBasis(std::shared_ptr<const ViewedRows> viewed,
               const PenalizedBasis& basis,
               const InnerFolds* folds,
