@@ -188,14 +188,6 @@ Index TermDictionary::NumOpen() const {
       std::count(excluded.begin(), excluded.end(), false));
 }
 
-fitting::SelectionProblem SelectionOf(const DesignRows& rows) {
-  return {rows.terms,
-          rows.response,
-          rows.weights,
-          rows.intercept,
-          rows.observations};
-}
-
 std::string ChosenTerms(const TermDictionary& dictionary,
                         const std::vector<Index>& chosen) {
   if (chosen.empty()) return "no term was chosen";
@@ -209,7 +201,6 @@ std::string ChosenTerms(const TermDictionary& dictionary,
 void ReportExcluded(const TermDictionary& dictionary,
                     const DesignRows& rows,
                     const std::vector<Index>& chosen,
-                    double collinearity,
                     const FitContext& context,
                     LeastSquaresRecord* record) {
   const auto is_stopped = [&] {
@@ -223,8 +214,8 @@ void ReportExcluded(const TermDictionary& dictionary,
   const MatrixXd terms = rows.terms(Eigen::all, chosen);
   std::vector<std::string> chosen_names;
   for (const Index term : chosen) chosen_names.push_back(name(term));
-  for (const fitting::ExcludedTerm& term : fitting::JudgeExcluded(
-           SelectionOf(rows), chosen, collinearity, context.stop)) {
+  for (const fitting::ExcludedTerm& term :
+       fitting::JudgeExcluded(rows.Problem(), chosen, context.stop)) {
     if (is_stopped()) break;
     if (!term.aliased) {
       record->excluded.push_back({name(term.candidate), term.f, term.p});

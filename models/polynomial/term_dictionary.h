@@ -55,7 +55,6 @@ std::string ChosenTerms(const TermDictionary& dictionary,
 void ReportExcluded(const TermDictionary& dictionary,
                     const DesignRows& rows,
                     const std::vector<Index>& chosen,
-                    double collinearity,
                     const FitContext& context,
                     LeastSquaresRecord* record);
 
