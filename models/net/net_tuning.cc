@@ -289,7 +289,7 @@ fitting::DiscrepancyChoice ChooseWfactorByDiscrepancy(
   NetTraining training = rows.From(context.seed, 0.0);
   const VectorXd start = training.initial_weights;
   return fitting::ChooseByDiscrepancy(
-      {.delta = delta},
+      delta,
       start,
       [&](double wfactor, const VectorXd& from) {
         training.wfactor = wfactor;
