@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "models/averaged_model.h"
+#include "models/history/fit_in_view.h"
 #include "models/history/view.h"
 #include "models/history/with_history.h"
 #include "models/net/feedforward_net.h"
@@ -168,12 +169,7 @@ class OneLayerRecipe final : public NetRecipe {
     const std::size_t best = IndexOfLowest(scores);
     const ViewedRows& viewed = views[best];
     FittedModel fitted = FitView(*viewed.rows, tuned[best], context);
-    if (options_.view) {
-      fitted.choices.push_back({"view", std::string(ToString(viewed.view))});
-      if (viewed.sine_and_cosine) {
-        fitted.choices.push_back({"angles", std::string("sincos")});
-      }
-    }
+    if (options_.view) NoteView(viewed, &fitted);
     if (options_.clip) {
       fitted.guards = MakeGuards(fitted.inputs, training.target_values());
     }
