@@ -44,13 +44,13 @@ std::int64_t Share(std::int64_t iterations, std::int64_t parts) {
 }
 
 // Single precision suffices to compare wfactors and views, in half the time.
-// Null if the method has none, or all is in it.
-std::shared_ptr<const NetTrainer> InSinglePrecision(
-    const NetOptions& options, const fitting::StoppingRules& rules) {
+// Empty if the method has none, or all is in it.
+NetTrainer InSinglePrecision(const NetOptions& options,
+                             const fitting::StoppingRules& rules) {
   const auto* scg = std::get_if<ScgTraining>(&options.method);
   if (scg == nullptr || scg->is_single ||
       scg->variant != fitting::ScgVariant::kMoller) {
-    return nullptr;
+    return {};
   }
   return MakeNetTrainer(ScgTraining{.is_single = true}, rules);
 }
@@ -262,7 +262,7 @@ class OneLayerRecipe final : public NetRecipe {
   const NetTrainer& TrainerOf(const TunedNet& tuned) const {
     const bool brief =
         trainers_.brief && tuned.iterations == trainers_.brief_iterations;
-    return brief ? *trainers_.brief : *trainers_.full;
+    return brief ? trainers_.brief : trainers_.full;
   }
 
   void AverageStarts(const NetRows& rows,
@@ -318,7 +318,7 @@ class OneLayerRecipe final : public NetRecipe {
           fixed.hidden, Wfactors(fixed.wfactor), context.seed};
       fixed.rmse =
           InnerHoldoutRmse(
-              design_, *trainers_.full, training, inner, {trial}, context)
+              design_, trainers_.full, training, inner, {trial}, context)
               .front();
     }
     return fixed;
@@ -348,7 +348,7 @@ class OneLayerRecipe final : public NetRecipe {
                                     const FitContext& context,
                                     FittedModel* fitted) const {
     fitting::DiscrepancyChoice choice = ChooseWfactorByDiscrepancy(
-        rows, *trainers_.full, *options_.discrepancy, context);
+        rows, trainers_.full, *options_.discrepancy, context);
     fitted->choices.push_back({"wfactor", choice.alpha});
     fitted->choices.push_back(
         {"discrepancy_reached", std::string(choice.reached ? "yes" : "no")});
