@@ -104,11 +104,6 @@ PolynomialDesign DesignOf(const Dataset& training,
 
 }  // namespace
 
-int DefaultDegree(Index num_inputs) {
-  constexpr Index kFewInputs = 8;
-  return num_inputs <= kFewInputs ? 3 : 2;
-}
-
 Option<std::optional<int>> DegreeOption() {
   constexpr std::int64_t kMostDegree = 4;
   return OptionFor<std::optional<int>>(
