@@ -14,6 +14,8 @@ InterruptionScope::InterruptionScope(const std::atomic<bool>* stop)
 
 InterruptionScope::~InterruptionScope() { token = outer_; }
 
+const std::atomic<bool>* InterruptionScope::Token() { return token; }
+
 void ThrowIfInterrupted() {
   if (token != nullptr && token->load(std::memory_order_relaxed)) {
     throw Interrupted();

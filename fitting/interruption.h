@@ -15,13 +15,17 @@ class Interrupted : public std::invalid_argument {
 
 /// While it exists, long computations of this thread that have no stop token
 /// (products, factorisations, refinements) check `stop`. If null, they check
-/// that of the enclosing scope. The scope must outlive them, `stop` the scope.
+/// that of the enclosing scope, as do the threads of a ParallelFor begun in it.
+/// The scope must outlive them, `stop` the scope.
 class InterruptionScope {
  public:
   explicit InterruptionScope(const std::atomic<bool>* stop);
   ~InterruptionScope();
   InterruptionScope(const InterruptionScope&) = delete;
   InterruptionScope& operator=(const InterruptionScope&) = delete;
+
+  /// Returns the token of this thread's scope, or null: for its helpers.
+  static const std::atomic<bool>* Token();
 
  private:
   const std::atomic<bool>* outer_;

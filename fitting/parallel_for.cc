@@ -9,6 +9,8 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "fitting/interruption.h"
+
 namespace errmap::fitting::parallel {
 
 void Run(int threads,
@@ -29,7 +31,9 @@ void Run(int threads,
     allow.emplace(kAllowed, workers);
   }
   std::atomic<std::size_t> next{0};
+  const std::atomic<bool>* const stop = InterruptionScope::Token();
   const auto work = [&](std::size_t /*worker*/) {
+    const InterruptionScope interruptible(stop);
     try {
       for (std::size_t i = next++; i < count; i = next++) job(i);
     } catch (...) {

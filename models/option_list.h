@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -283,39 +282,14 @@ void AddWithin(const OptionList<Part>& parts, At at, OptionList<Options>* all) {
   }
 }
 
-/// A list that is built at its first use.
-template <typename Options>
-class LazyOptionList {
- public:
-  LazyOptionList() : LazyOptionList([] { return OptionList<Options>(); }) {}
-  template <std::invocable Build>
-  requires(!std::same_as<std::decay_t<Build>, LazyOptionList>)
-      LazyOptionList(Build build)
-      : made_(std::make_shared<Made>()) {
-    made_->build = std::move(build);
-  }
-
-  const OptionList<Options>& operator()() const {
-    std::call_once(made_->once, [this] { made_->list = made_->build(); });
-    return made_->list;
-  }
-
- private:
-  struct Made {
-    std::function<OptionList<Options>()> build;
-    std::once_flag once;
-    OptionList<Options> list;
-  };
-  std::shared_ptr<Made> made_;
-};
-
 /// A model of a family, as a SPEC names it.
 template <typename Options>
 struct ListedModel {
   std::string name;
   std::string about;
   Options defaults;
-  LazyOptionList<Options> options;
+  /// Makes the list at each call: a start would list the options of all types.
+  std::function<OptionList<Options>()> options;
   /// Returns why these options, each allowed, contradict; "" if they do not.
   std::string (*contradiction)(const Options&) = nullptr;
   /// Adds options that a SPEC implies, if any.
@@ -357,7 +331,8 @@ Options ReadOptions(ModelSpec spec) {
   const auto& model = ListedModelNamed<Options>(spec.text, spec.type);
   if (model.complete != nullptr) model.complete(&spec);
   Options taken = model.defaults;
-  for (const Option<Options>& option : model.options()) {
+  const OptionList<Options> options = model.options();
+  for (const Option<Options>& option : options) {
     for (const auto& [key, value] : spec.options) {
       if (key != option.name) continue;
       bool is_allowed = false;
@@ -369,7 +344,7 @@ Options ReadOptions(ModelSpec spec) {
       if (!is_allowed) RefuseValue(spec.text, option, value);
     }
   }
-  RefuseOthers(spec, InfoOf(model.options()));
+  RefuseOthers(spec, InfoOf(options));
   if (model.contradiction != nullptr) {
     const std::string why = model.contradiction(taken);
     if (!why.empty()) RefuseSpec(spec.text, why);

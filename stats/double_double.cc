@@ -58,6 +58,10 @@ SineCosine SinCos(const DoubleDouble& x) {
 
 // x 10^e, with e any integer.
 DoubleDouble TimesPowerOfTen(DoubleDouble x, int e) {
+  // The divisor must be finite where the quotient need not be 0.
+  constexpr int kLeast = -300;
+  if (e < kLeast)
+    return TimesPowerOfTen(TimesPowerOfTen(x, kLeast), e - kLeast);
   DoubleDouble power = 1.0;
   DoubleDouble base = 10.0;
   for (int n = std::abs(e); n > 0; n /= 2, base *= base) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <random>
 #include <utility>
@@ -21,8 +22,16 @@ class Random {
     return static_cast<double>(engine_() >> 11) * kUnit;
   }
 
-  /// Returns a standard normal value: the quantile of the middle of the step in
-  /// which Uniform() lies, so always finite.
+  /// Returns a uniform value in (0, 1): the middle of the step in which
+  /// Uniform() lies, so that its quantiles are finite.
+  double OpenUniform() {
+    constexpr double kHalfStep = 0x1.0p-54;
+    // The middle of the last step rounds to 1.
+    constexpr double kLast = 1.0 - 0x1.0p-53;
+    return std::min(Uniform() + kHalfStep, kLast);
+  }
+
+  /// Returns a standard normal value: the quantile of OpenUniform().
   double Normal();
 
   /// Returns a uniform integer below `bound` > 0, without bias (rejection).

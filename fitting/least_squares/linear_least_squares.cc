@@ -213,7 +213,7 @@ class OneByOne {
 
  private:
   double Enough(Index j) const {
-    return problem_->options().confirmed * problem_->columns().col(j).norm();
+    return kConfirmed * problem_->columns().col(j).norm();
   }
 
   // Parts of the kept columns in the one judged (k).
@@ -227,8 +227,8 @@ class OneByOne {
     const double length = column.norm();
     rest_ = basis_.Remainder(column, &along_);
     follows_ = false;
-    is_clear_ = basis_.size() < column.size() &&
-                rest_.norm() > problem_->options().aliased * length;
+    is_clear_ =
+        basis_.size() < column.size() && rest_.norm() > kAliased * length;
     if (is_clear_) return;
     // Double decides if its rounding cannot hide more.
     constexpr double kRoundings = 4.0;
@@ -273,9 +273,8 @@ Decomposition Decompose(Problem* problem, bool with_basis) {
     result.triangle = qr.matrixQR().topRows(p).triangularView<Eigen::Upper>();
     bool all_stay = true;
     for (Index j = 0; j < p; ++j) {
-      all_stay = all_stay &&
-                 std::abs(result.triangle(j, j)) >
-                     problem->options().aliased * result.triangle.col(j).norm();
+      all_stay = all_stay && std::abs(result.triangle(j, j)) >
+                                 kAliased * result.triangle.col(j).norm();
       result.kept.push_back(j);
     }
     if (all_stay) {
@@ -444,13 +443,6 @@ void AddDigits(Problem* problem,
 
 void LeastSquaresOptions::Validate() const {
   constexpr double kMostDigits = 15.0;
-  stats::Require(aliased > 0.0 && aliased < 1.0,
-                 "LeastSquaresOptions: aliased must be above 0 and below 1",
-                 aliased);
-  stats::Require(
-      confirmed > 0.0 && confirmed <= aliased,
-      "LeastSquaresOptions: confirmed must be above 0 and at most aliased",
-      confirmed);
   stats::Require(digits >= 0.0 && digits <= kMostDigits,
                  "LeastSquaresOptions: digits must be 0 to 15",
                  digits);
@@ -459,6 +451,13 @@ void LeastSquaresOptions::Validate() const {
 double CountObservations(Index rows, const VectorXd& weights) {
   return static_cast<double>(
       weights.size() == 0 ? rows : (weights.array() > 0.0).count());
+}
+
+MatrixXd RegressionProblem::Design() const {
+  MatrixXd design(response.size(), terms.cols() + 1);
+  design.col(0) = InterceptColumn();
+  design.rightCols(terms.cols()) = terms;
+  return design;
 }
 
 LeastSquaresFit SolveLeastSquares(const MatrixXd& design,

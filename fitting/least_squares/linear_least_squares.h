@@ -32,17 +32,20 @@ struct ExtendedSystem {
   ExtendedVector response;
 };
 
+/// A leverage this near to 1 is 1: the row has a coefficient to itself.
+inline constexpr double kLeastSlack = 1e-9;
+
 /// Limit of rows times rank. A larger design, about half a second in 106 bits,
 /// is not refined unless a column is nearly determined by others.
 inline constexpr double kMostRefinedValues = 2e6;
 
+/// A column is aliased if earlier columns leave at most this share of its
+/// length, in double (rule and value of R's lm) ...
+inline constexpr double kAliased = 1e-7;
+/// ... and those kept leave at most this share in 106 bits.
+inline constexpr double kConfirmed = 1e-13;
+
 struct LeastSquaresOptions {
-  /// A column is aliased if earlier columns leave at most this share of its
-  /// length, in double (rule and value of R's lm) ...
-  double aliased = 1e-7;
-  /// ... and those kept leave at most this share in 106 bits. Above 0, at most
-  /// `aliased`.
-  double confirmed = 1e-13;
   /// Digits wanted in every coefficient, 0 to 15. If condition and residuals
   /// show that double may give fewer, the solution is refined to all 15, with
   /// residuals in 106 bits. 0: as many digits as double gives.
@@ -65,6 +68,33 @@ struct LeastSquaresOptions {
 /// Returns the number of rows that count as observations: all `rows`, or those
 /// with weight above 0, as in R's lm. `weights` (rows) or (0).
 double CountObservations(Index rows, const VectorXd& weights);
+
+/// A regression of y on an intercept and k terms, some of which may be selected
+/// first. The references must outlive all users of the problem.
+struct RegressionProblem {
+  const MatrixXd& terms;     // (n x k), without the intercept
+  const VectorXd& response;  // (n)
+  const VectorXd& weights;   // (n) not negative, or (0): all equal
+  /// (n) the intercept's column if the rows are those of a triangle, not
+  /// observations; (0): ones; zeros: no intercept.
+  VectorXd intercept = {};
+  double observations = 0.0;  // 0: number of rows with weight above 0
+
+  double num_observations() const {
+    return observations > 0.0 ? observations
+                              : CountObservations(response.size(), weights);
+  }
+  VectorXd InterceptColumn() const {
+    return intercept.size() != 0 ? intercept : VectorXd::Ones(response.size());
+  }
+  /// Returns the intercept's column and the terms (n x k + 1).
+  MatrixXd Design() const;
+  /// Returns `column` (n) times the roots of the weights.
+  VectorXd Weighted(VectorXd column) const {
+    if (weights.size() != 0) column.array() *= weights.array().sqrt();
+    return column;
+  }
+};
 
 /// Least squares by Householder QR on columns scaled to unit length, in the
 /// order given, never by normal equations. If digits require it, the solution

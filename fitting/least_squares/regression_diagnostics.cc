@@ -16,8 +16,6 @@ namespace {
 
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
 constexpr double kConfidence = 0.95;
-// A leverage this near to 1 is 1.
-constexpr double kLeastSlack = 1e-9;
 
 void CheckShapes(const RegressionProblem& problem) {
   const Index rows = problem.response.size();
@@ -30,12 +28,6 @@ void CheckShapes(const RegressionProblem& problem) {
         std::to_string(problem.weights.size()) + ", intercept " +
         std::to_string(problem.intercept.size()));
   }
-}
-
-// Rows times the root of their weight.
-VectorXd Weighted(const VectorXd& values, const VectorXd& weights) {
-  if (weights.size() == 0) return values;
-  return values.cwiseProduct(weights.cwiseSqrt());
 }
 
 // R of a tall design, itself of another: it has the same singular values. Made
@@ -84,10 +76,9 @@ CentredProblem Centre(const RegressionProblem& problem,
                       RegressionDiagnostics* fit) {
   CentredProblem centred;
   const Index rows = problem.response.size();
-  const VectorXd& intercept = centred.intercept = Weighted(
-      problem.intercept.size() != 0 ? problem.intercept : VectorXd::Ones(rows),
-      problem.weights);
-  const VectorXd y = Weighted(problem.response, problem.weights);
+  const VectorXd& intercept = centred.intercept =
+      problem.Weighted(problem.InterceptColumn());
+  const VectorXd y = problem.Weighted(problem.response);
   fit->sum_of_weights = intercept.squaredNorm();
   fit->has_intercept = fit->sum_of_weights > 0.0;
   centred.share = fit->has_intercept ? 1.0 / fit->sum_of_weights : 0.0;
@@ -100,7 +91,7 @@ CentredProblem Centre(const RegressionProblem& problem,
   centred.spread.resize(terms);
   fit->means.resize(terms);
   for (Index j = 0; j < terms; ++j) {
-    VectorXd column = Weighted(problem.terms.col(j), problem.weights);
+    VectorXd column = problem.Weighted(problem.terms.col(j));
     fit->means[j] = intercept.dot(column) * centred.share;
     column -= fit->means[j] * intercept;
     centred.spread[j] = column.norm();
@@ -164,12 +155,8 @@ double AnalyseVariance(RegressionDiagnostics* fit, Index num_kept) {
 LeastSquaresFit SolveRegression(const RegressionProblem& problem,
                                 const LeastSquaresOptions& options) {
   CheckShapes(problem);
-  const Index rows = problem.response.size();
-  MatrixXd design(rows, problem.terms.cols() + 1);
-  design.col(0) =
-      problem.intercept.size() != 0 ? problem.intercept : VectorXd::Ones(rows);
-  design.rightCols(problem.terms.cols()) = problem.terms;
-  return SolveLeastSquares(design, problem.response, problem.weights, options);
+  return SolveLeastSquares(
+      problem.Design(), problem.response, problem.weights, options);
 }
 
 RegressionDiagnostics Diagnose(const RegressionProblem& problem) {
@@ -187,10 +174,7 @@ RegressionDiagnostics Diagnose(const RegressionProblem& problem,
                                 " terms and an intercept");
   }
   RegressionDiagnostics fit;
-  fit.observations =
-      problem.observations > 0.0
-          ? problem.observations
-          : CountObservations(problem.response.size(), problem.weights);
+  fit.observations = problem.num_observations();
   const CentredProblem centred = Centre(problem, &fit);
   for (Index j = 0; j < terms; ++j) {
     const bool is_aliased = std::binary_search(

@@ -8,17 +8,6 @@
 
 namespace errmap::fitting {
 
-/// A regression of y on an intercept and k terms.
-struct RegressionProblem {
-  const MatrixXd& terms;     // (n x k), without the intercept
-  const VectorXd& response;  // (n)
-  const VectorXd& weights;   // (n) not negative, or (0)
-  /// (n) the intercept's column if the rows are those of a triangle; (0): ones;
-  /// zeros: no intercept.
-  VectorXd intercept = {};
-  double observations = 0.0;  // 0: number of rows with weight above 0
-};
-
 /// A line of the coefficient table; NaN if undefined.
 struct CoefficientEstimate {
   double estimate = 0.0;

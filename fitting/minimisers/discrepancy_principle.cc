@@ -8,6 +8,12 @@
 namespace errmap::fitting {
 namespace {
 
+// Of alpha_k = alpha0 q^k, Eq. (133), and its search.
+constexpr double kFirstAlpha = 0.1;
+constexpr double kRatio = 0.25;
+constexpr double kLeastAlpha = 1e-12;
+constexpr double kTolerance = 0.01;  // relative width of the last bracket
+
 bool EndsTheSearch(const Minimum& minimum) {
   return minimum.summary.termination == Termination::kFailed ||
          minimum.summary.termination == Termination::kInterrupted;
@@ -15,29 +21,14 @@ bool EndsTheSearch(const Minimum& minimum) {
 
 }  // namespace
 
-void DiscrepancyRules::Validate() const {
-  stats::Require(delta > 0.0 && std::isfinite(delta),
-                 "DiscrepancyRules: delta must be above 0",
-                 delta);
-  stats::Require(alpha0 > 0.0 && std::isfinite(alpha0),
-                 "DiscrepancyRules: alpha0 must be above 0",
-                 alpha0);
-  stats::Require(
-      q > 0.0 && q < 1.0, "DiscrepancyRules: q must be between 0 and 1", q);
-  stats::Require(least_alpha > 0.0,
-                 "DiscrepancyRules: least_alpha must be above 0",
-                 least_alpha);
-  stats::Require(tolerance > 0.0,
-                 "DiscrepancyRules: tolerance must be above 0",
-                 tolerance);
-}
-
 DiscrepancyChoice ChooseByDiscrepancy(
-    const DiscrepancyRules& rules,
+    double delta,
     const VectorXd& start,
     const std::function<Minimum(double, const VectorXd&)>& minimize,
     const std::function<double(const VectorXd&)>& misfit) {
-  rules.Validate();
+  stats::Require(delta > 0.0 && std::isfinite(delta),
+                 "ChooseByDiscrepancy: delta must be above 0",
+                 delta);
   DiscrepancyChoice best;
   bool goes_on = true;
   // Keeps what is within delta at the largest alpha, else the smallest misfit.
@@ -46,7 +37,7 @@ DiscrepancyChoice ChooseByDiscrepancy(
     const double now = misfit(minimum.x);
     best.steps.push_back({alpha, now});
     goes_on = !EndsTheSearch(minimum);
-    const bool reached = now <= rules.delta;
+    const bool reached = now <= delta;
     if (best.steps.size() > 1 && !reached &&
         (best.reached || !(now < best.misfit))) {
       return minimum.x;
@@ -58,22 +49,22 @@ DiscrepancyChoice ChooseByDiscrepancy(
     return best.minimum.x;
   };
   VectorXd last = start;
-  double alpha = rules.alpha0;
+  double alpha = kFirstAlpha;
   last = attempt(alpha, last);
-  while (goes_on && !best.reached && alpha * rules.q >= rules.least_alpha) {
-    alpha *= rules.q;
+  while (goes_on && !best.reached && alpha * kRatio >= kLeastAlpha) {
+    alpha *= kRatio;
     last = attempt(alpha, last);
   }
   if (!best.reached) return best;
   // From here on alpha rises, and each fit starts within delta.
-  double upper = best.alpha / rules.q;
-  while (goes_on && best.steps.size() > 1 && upper <= rules.alpha0) {
+  double upper = best.alpha / kRatio;
+  while (goes_on && best.steps.size() > 1 && upper <= kFirstAlpha) {
     attempt(upper, best.minimum.x);
     if (best.alpha != upper) break;
-    upper /= rules.q;
+    upper /= kRatio;
   }
-  while (goes_on && best.alpha < rules.alpha0 &&
-         upper > best.alpha * (1.0 + rules.tolerance)) {
+  while (goes_on && best.alpha < kFirstAlpha &&
+         upper > best.alpha * (1.0 + kTolerance)) {
     const double middle = std::sqrt(upper * best.alpha);
     attempt(middle, best.minimum.x);
     if (best.alpha != middle) upper = middle;

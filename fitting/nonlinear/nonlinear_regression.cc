@@ -7,7 +7,6 @@
 #include "fitting/minimisers/levenberg_marquardt.h"
 #include "fitting/nonlinear/variable_projection.h"
 #include "stats/not_a_number.h"
-#include "stats/require.h"
 
 namespace errmap::fitting {
 namespace {
@@ -123,18 +122,13 @@ RegressionStatistics AssessRegression(const RegressionFunction& function,
   return statistics;
 }
 
-void PolishOptions::Validate() const {
-  stats::Require(steps >= 0, "PolishOptions: steps must be at least 0", steps);
-  stats::Require(smallest_step > 0.0,
-                 "PolishOptions: smallest_step must be above 0",
-                 smallest_step);
-}
-
 PolishedParameters PolishRegression(const RegressionFunction& function,
-                                    const ExtendedVector& b,
-                                    const PolishOptions& options) {
-  options.Validate();
+                                    const ExtendedVector& b) {
+  constexpr int kMostSteps = 200;
   constexpr int kMostHalvings = 30;
+  // Converged when no parameter changes by more than this share: the remaining
+  // error is then below double unless the steps shrink very slowly.
+  constexpr double kSmallestStep = 1e-15;
   // The sum of squares is known to about 2^-100 of itself.
   constexpr double kRounding = 0x1p-98;
   PolishedParameters polished;
@@ -144,9 +138,9 @@ PolishedParameters PolishRegression(const RegressionFunction& function,
   ExtendedVector step;
   function.Evaluate(b, &residuals, &jacobian);
   DoubleDouble sum = residuals.squaredNorm();
-  while (polished.steps < options.steps &&
+  while (polished.steps < kMostSteps &&
          GaussNewtonStep(jacobian, residuals, &step)) {
-    if (RelativeSize(step, polished.parameters) <= options.smallest_step) {
+    if (RelativeSize(step, polished.parameters) <= kSmallestStep) {
       polished.converged = true;
       break;
     }

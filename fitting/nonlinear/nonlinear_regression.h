@@ -141,21 +141,10 @@ struct RegressionStatistics {
 RegressionStatistics AssessRegression(const RegressionFunction& function,
                                       const ExtendedVector& b);
 
-struct PolishOptions {
-  int steps = 200;  // most steps; at least 0
-  /// Relative step tolerance (> 0): the fit has converged when no parameter
-  /// changes by more than this. The remaining error is then below double
-  /// precision unless the steps shrink very slowly.
-  double smallest_step = 1e-15;
-
-  /// Throws std::invalid_argument naming field, value and range.
-  void Validate() const;
-};
-
 struct PolishedParameters {
   ExtendedVector parameters;  // (p)
   int steps = 0;
-  bool converged = false;  // the last step was below smallest_step
+  bool converged = false;  // no parameter would change any more
 };
 
 /// Takes Gauss-Newton steps from `b` (p) in 106 bits, each halved until it
@@ -163,8 +152,7 @@ struct PolishedParameters {
 /// cannot see, for which the sum is flat within the root of the rounding unit.
 /// Ends if no step lowers the sum, or if J is rank deficient.
 PolishedParameters PolishRegression(const RegressionFunction& function,
-                                    const ExtendedVector& b,
-                                    const PolishOptions& options = {});
+                                    const ExtendedVector& b);
 
 struct RegressionFit {
   RegressionStatistics statistics;

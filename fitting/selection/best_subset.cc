@@ -9,7 +9,6 @@
 #include "fitting/least_squares/decompositions.h"
 #include "fitting/least_squares/orthogonal_basis.h"
 #include "stats/indices.h"
-#include "stats/require.h"
 
 namespace errmap::fitting {
 namespace {
@@ -200,41 +199,26 @@ void BestSubsetOptions::Validate() const {
         "found " +
         std::string(ToString(criterion)));
   }
-  stats::Require(collinearity > 0.0 && collinearity < 1.0,
-                 "BestSubsetOptions: collinearity must be above 0 and below 1",
-                 collinearity);
 }
 
-BestSubsetResult SelectBestSubset(const SelectionProblem& problem,
+BestSubsetResult SelectBestSubset(const RegressionProblem& problem,
                                   const std::vector<Index>& include,
                                   const std::vector<bool>& excluded,
                                   const BestSubsetOptions& options,
                                   const std::atomic<bool>* stop_token) {
   options.Validate();
-  problem.Validate("SelectBestSubset");
+  ValidateSelection(problem, "SelectBestSubset");
   const Index rows = problem.response.size();
   const double n = problem.num_observations();
-  VectorXd intercept =
-      problem.intercept.size() != 0 ? problem.intercept : VectorXd::Ones(rows);
-  VectorXd response = problem.response;
-  const bool weighted = problem.weights.size() != 0;
-  const VectorXd roots =
-      weighted ? VectorXd(problem.weights.cwiseSqrt()) : VectorXd();
-  if (weighted) {
-    intercept = intercept.cwiseProduct(roots);
-    response = response.cwiseProduct(roots);
-  }
   OrthogonalBasis basis(rows);
-  basis.Append(intercept, VectorXd(0));
+  basis.Append(problem.Weighted(problem.InterceptColumn()), VectorXd(0));
   Node root;
   BestSubsetResult aliased;
   const auto take = [&](Index candidate, bool included) {
-    VectorXd column = problem.candidates.col(candidate);
-    if (weighted) column = column.cwiseProduct(roots);
+    const VectorXd column = problem.Weighted(problem.terms.col(candidate));
     VectorXd along;
     const VectorXd rest = basis.Remainder(column, &along);
-    if (!(rest.norm() > options.collinearity * column.norm()) ||
-        basis.size() >= rows) {
+    if (!(rest.norm() > kCollinear * column.norm()) || basis.size() >= rows) {
       aliased.aliased.push_back(candidate);
       return;
     }
@@ -243,7 +227,7 @@ BestSubsetResult SelectBestSubset(const SelectionProblem& problem,
     if (included) ++root.fixed;
   };
   for (const Index candidate : include) take(candidate, true);
-  for (Index j = 0; j < problem.candidates.cols(); ++j) {
+  for (Index j = 0; j < problem.terms.cols(); ++j) {
     const bool out = !excluded.empty() && excluded[static_cast<std::size_t>(j)];
     if (out || std::find(include.begin(), include.end(), j) != include.end()) {
       continue;
@@ -251,7 +235,8 @@ BestSubsetResult SelectBestSubset(const SelectionProblem& problem,
     take(j, false);
   }
   VectorXd along;
-  const VectorXd residual = basis.Remainder(response, &along);
+  const VectorXd residual =
+      basis.Remainder(problem.Weighted(problem.response), &along);
   const Index size = std::ssize(root.columns);
   if (static_cast<double>(root.fixed) + 1.0 > n) {
     throw std::invalid_argument(

@@ -19,9 +19,6 @@ struct BestSubsetOptions {
   Index max_terms = -1;
   /// Error variance for Cp; NaN: that of the model with all candidates.
   double sigma2 = stats::kNaN;
-  /// Candidates determined by earlier ones to this tolerance are skipped; above
-  /// 0, below 1.
-  double collinearity = 1e-7;
 
   /// Throws std::invalid_argument naming field, value and range.
   void Validate() const;
@@ -29,7 +26,7 @@ struct BestSubsetOptions {
 
 struct BestSubsetResult {
   std::vector<Index> chosen;   // columns, ascending
-  std::vector<Index> aliased;  // skipped
+  std::vector<Index> aliased;  // skipped (kCollinear)
   double criterion = 0.0;      // its value; adjusted R2 is not negated
   std::int64_t nodes = 0;      // number of tree nodes visited
   bool complete = true;        // false: interrupted, best so far
@@ -45,7 +42,7 @@ struct BestSubsetResult {
 /// Throws std::invalid_argument for bad shapes or options, or if `include` has
 /// more terms than rows.
 BestSubsetResult SelectBestSubset(
-    const SelectionProblem& problem,
+    const RegressionProblem& problem,
     const std::vector<Index>& include,
     const std::vector<bool>& excluded,
     const BestSubsetOptions& options,

@@ -14,13 +14,14 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-void SelectionProblem::Validate(const char* caller) const {
+void ValidateSelection(const RegressionProblem& problem, const char* caller) {
+  const auto& [terms, response, weights, intercept, observations] = problem;
   const Index rows = response.size();
-  if (rows < 2 || candidates.rows() != rows ||
+  if (rows < 2 || terms.rows() != rows ||
       (weights.size() != 0 && weights.size() != rows) ||
       (intercept.size() != 0 && intercept.size() != rows)) {
     throw std::invalid_argument(std::string(caller) + ": candidates have " +
-                                std::to_string(candidates.rows()) +
+                                std::to_string(terms.rows()) +
                                 " rows, response " + std::to_string(rows) +
                                 ", weights " + std::to_string(weights.size()) +
                                 "; at least 2 equal are needed");
@@ -33,33 +34,28 @@ void SelectionProblem::Validate(const char* caller) const {
   }
 }
 
-SelectionState::SelectionState(const SelectionProblem& problem,
-                               double collinearity)
+SelectionState::SelectionState(const RegressionProblem& problem)
     : problem_(problem),
-      response_(problem.response),
-      collinearity_(collinearity),
+      response_(problem.Weighted(problem.response)),
       basis_(problem.response.size()),
-      is_chosen_(At(problem.candidates.cols()), false),
-      is_fresh_(At(problem.candidates.cols()), false),
-      is_collinear_(At(problem.candidates.cols()), false) {
+      is_chosen_(At(problem.terms.cols()), false),
+      is_fresh_(At(problem.terms.cols()), false),
+      is_collinear_(At(problem.terms.cols()), false) {
   const Index rows = response_.size();
-  const Index cols = problem.candidates.cols();
+  const Index cols = problem.terms.cols();
   // A sum of n products errs by about sqrt(n) roundings; four times that.
   rounding_ = 4.0 * std::sqrt(static_cast<double>(rows)) * kEpsilon;
-  VectorXd intercept =
-      problem.intercept.size() != 0 ? problem.intercept : VectorXd::Ones(rows);
+  const VectorXd intercept = problem.Weighted(problem.InterceptColumn());
   VectorXd ones_or_weights = VectorXd::Ones(rows);
   if (problem.weights.size() != 0) {
     roots_ = problem.weights.cwiseSqrt();
-    response_ = response_.cwiseProduct(roots_);
-    intercept = intercept.cwiseProduct(roots_);
     ones_or_weights = problem.weights;
   }
   noise_ = kEpsilon * kEpsilon * problem.num_observations() *
            response_.squaredNorm();
   residual_ = response_;
   leverage_ = VectorXd::Zero(rows);
-  rest_squared_ = problem.candidates.cwiseAbs2().transpose() * ones_or_weights;
+  rest_squared_ = problem.terms.cwiseAbs2().transpose() * ones_or_weights;
   length_ = rest_squared_.cwiseSqrt();
   rest_error_ = rounding_ * rest_squared_;
   product_ = Products(response_);
@@ -76,14 +72,14 @@ SelectionState::SelectionState(const SelectionProblem& problem,
 }
 
 VectorXd SelectionState::WeightedColumn(Index candidate) const {
-  VectorXd column = problem_.candidates.col(candidate);
+  VectorXd column = problem_.terms.col(candidate);
   if (roots_.size() != 0) column = column.cwiseProduct(roots_);
   return column;
 }
 
 VectorXd SelectionState::Products(const VectorXd& direction) const {
-  if (roots_.size() == 0) return problem_.candidates.transpose() * direction;
-  return problem_.candidates.transpose() * direction.cwiseProduct(roots_);
+  if (roots_.size() == 0) return problem_.terms.transpose() * direction;
+  return problem_.terms.transpose() * direction.cwiseProduct(roots_);
 }
 
 bool SelectionState::IsCollinear(Index candidate) const {
@@ -101,12 +97,12 @@ void SelectionState::Renew(Index candidate) {
   rest_error_[candidate] = 2.0 * error * std::sqrt(squared) + error * error;
   product_error_[candidate] = error * residual_.norm();
   is_fresh_[At(candidate)] = true;
-  const double least = collinearity_ * length_[candidate];
+  const double least = kCollinear * length_[candidate];
   is_collinear_[At(candidate)] = !(squared > least * least);
 }
 
 SelectionMove SelectionState::BestEntry(const std::vector<bool>& open) {
-  const Index cols = problem_.candidates.cols();
+  const Index cols = problem_.terms.cols();
   for (;;) {
     // The highest gain that rounding allows; what is fresh counts as exact.
     Index best = -1;
@@ -119,7 +115,7 @@ SelectionMove SelectionState::BestEntry(const std::vector<bool>& open) {
       } else {
         const double product = std::abs(product_[j]) + product_error_[j];
         const double squared = rest_squared_[j] - rest_error_[j];
-        const double least = collinearity_ * length_[j];
+        const double least = kCollinear * length_[j];
         if (rest_squared_[j] + rest_error_[j] <= least * least) {
           is_collinear_[At(j)] = true;
           continue;
@@ -210,7 +206,7 @@ void SelectionState::Apply(const SelectionMove& move) {
   residual_ -= sign * along * direction;
   leverage_ += sign * direction.cwiseAbs2();
   std::fill(is_fresh_.begin(), is_fresh_.end(), false);
-  const Index cols = problem_.candidates.cols();
+  const Index cols = problem_.terms.cols();
   if (cols == 0) return;
   const VectorXd products = Products(direction);
   const double size = std::abs(along);

@@ -12,27 +12,13 @@ namespace errmap::fitting {
 /// Converts an Eigen index to an index of a std::vector.
 inline std::size_t At(Index index) { return static_cast<std::size_t>(index); }
 
-/// Rows and columns of a least-squares problem whose terms are being selected.
-/// The references must outlive all users of the problem.
-struct SelectionProblem {
-  const MatrixXd& candidates;  // X (n x m), without the intercept
-  const VectorXd& response;    // y (n)
-  /// (n) not negative, or (0): all equal.
-  const VectorXd& weights;
-  /// (n) the intercept's column if the rows are those of a triangle, not
-  /// observations; (0): ones.
-  VectorXd intercept = {};
-  /// Number of observations; 0: number of rows with weight above 0.
-  double observations = 0.0;
+/// A candidate is skipped while its part orthogonal to the chosen terms is
+/// shorter than this times the candidate, as in R's lm.
+inline constexpr double kCollinear = 1e-7;
 
-  double num_observations() const {
-    return observations > 0.0 ? observations
-                              : CountObservations(response.size(), weights);
-  }
-  /// Throws std::invalid_argument if shapes do not agree, there are fewer than
-  /// 2 rows, a weight is negative or a value is not finite.
-  void Validate(const char* caller) const;
-};
+/// Throws std::invalid_argument if shapes do not agree, there are fewer than 2
+/// rows, a weight is negative or a value is not finite.
+void ValidateSelection(const RegressionProblem& problem, const char* caller);
 
 /// A term that enters or leaves.
 struct SelectionMove {
@@ -50,7 +36,7 @@ struct SelectionMove {
 /// one is best. A step costs one pass X'q.
 class SelectionState {
  public:
-  SelectionState(const SelectionProblem& problem, double collinearity);
+  explicit SelectionState(const RegressionProblem& problem);
 
   const std::vector<Index>& chosen() const { return chosen_; }
   bool is_chosen(Index candidate) const {
@@ -84,11 +70,10 @@ class SelectionState {
   void Renew(Index candidate);
   bool IsCollinear(Index candidate) const;
 
-  const SelectionProblem& problem_;
+  const RegressionProblem& problem_;
   VectorXd roots_;     // sqrt of the weights, or (0)
   VectorXd response_;  // weighted
-  double collinearity_;
-  double rounding_;  // relative error of a product of two vectors
+  double rounding_;    // relative error of a product of two vectors
   double noise_;
   OrthogonalBasis basis_;
   std::vector<Index> chosen_;

@@ -16,8 +16,6 @@ namespace errmap::fitting {
 namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-// A leverage this near to 1 is 1: the row has a coefficient to itself.
-constexpr double kLeastSlack = 1e-9;
 
 [[noreturn]] void Refuse(const std::string& why) {
   throw std::invalid_argument("SelectStepwise: " + why);
@@ -29,20 +27,14 @@ double Press(const VectorXd& residual, const VectorXd& leverage) {
   return (residual.array() / slack).square().sum();
 }
 
-double Variance(const SelectionProblem& problem) {
-  const Index rows = problem.response.size();
-  const Index cols = problem.candidates.cols();
-  MatrixXd design(rows, cols + 1);
-  design.col(0) =
-      problem.intercept.size() != 0 ? problem.intercept : VectorXd::Ones(rows);
-  design.rightCols(cols) = problem.candidates;
+double Variance(const RegressionProblem& problem) {
   const LeastSquaresFit full =
-      SolveLeastSquares(design, problem.response, problem.weights);
+      SolveLeastSquares(problem.Design(), problem.response, problem.weights);
   const double freedom =
       problem.num_observations() - static_cast<double>(full.rank);
   if (!(freedom > 0.0)) {
     Refuse("Cp needs sigma2= or more rows than candidate terms; there are " +
-           std::to_string(cols) + " terms and " +
+           std::to_string(problem.terms.cols()) + " terms and " +
            std::to_string(static_cast<Index>(problem.num_observations())) +
            " rows");
   }
@@ -52,15 +44,15 @@ double Variance(const SelectionProblem& problem) {
 // One run of a selection.
 class Selection {
  public:
-  Selection(const SelectionProblem& problem,
+  Selection(const RegressionProblem& problem,
             const TermRules& rules,
             const StepwiseOptions& options)
       : problem_(problem),
         rules_(rules),
         options_(options),
-        state_(problem, options.collinearity),
+        state_(problem),
         n_(problem.num_observations()),
-        open_(At(problem.candidates.cols()), true),
+        open_(At(problem.terms.cols()), true),
         sigma2_(options.sigma2) {
     CheckRules();
     if (options.Uses(Criterion::kCp) && std::isnan(sigma2_)) {
@@ -112,7 +104,7 @@ class Selection {
 
  private:
   void CheckRules() {
-    const Index cols = problem_.candidates.cols();
+    const Index cols = problem_.terms.cols();
     for (std::size_t j = 0; j < rules_.excluded.size(); ++j) {
       if (rules_.excluded[j]) open_[j] = false;
     }
@@ -260,8 +252,7 @@ class Selection {
       swept_ = std::make_unique<SweptCandidates>(
           problem_,
           std::vector<bool>(At(problem_.response.size()), true),
-          std::vector<bool>(At(problem_.response.size()), false),
-          options_.collinearity);
+          std::vector<bool>(At(problem_.response.size()), false));
     }
     swept_->Follow(state_.chosen());
     return LowestOf(swept_->PressAfterEntry(state_.leverage(), open));
@@ -277,11 +268,11 @@ class Selection {
           fitted[i] = folds.Fits(fold, i);
           held_out[i] = folds.codes[i] == fold;
         }
-        swept_folds_.push_back(std::make_unique<SweptCandidates>(
-            problem_, fitted, held_out, options_.collinearity));
+        swept_folds_.push_back(
+            std::make_unique<SweptCandidates>(problem_, fitted, held_out));
       }
     }
-    VectorXd errors = VectorXd::Zero(problem_.candidates.cols());
+    VectorXd errors = VectorXd::Zero(problem_.terms.cols());
     for (const auto& swept : swept_folds_) {
       swept->Follow(state_.chosen());
       errors += swept->HeldOutErrorAfterEntry(open);
@@ -340,7 +331,8 @@ class Selection {
       if (move.enters) {
         residual -= move.direction.dot(residual) * move.direction;
       } else {
-        residual += move.direction.dot(WeightedResponse()) * move.direction;
+        residual += move.direction.dot(problem_.Weighted(problem_.response)) *
+                    move.direction;
       }
       leverage += sign * move.direction.cwiseAbs2();
     }
@@ -363,25 +355,18 @@ class Selection {
     return step;
   }
 
-  VectorXd WeightedResponse() const {
-    if (problem_.weights.size() == 0) return problem_.response;
-    return problem_.response.cwiseProduct(problem_.weights.cwiseSqrt());
-  }
-
   double CvOf(const SelectionMove& move) const {
     std::vector<Index> terms = state_.chosen();
     if (move.candidate >= 0 && move.enters) terms.push_back(move.candidate);
     if (move.candidate >= 0 && !move.enters) std::erase(terms, move.candidate);
-    const Index rows = problem_.response.size();
-    MatrixXd design(rows, std::ssize(terms) + 1);
-    design.col(0) = problem_.intercept.size() != 0 ? problem_.intercept
-                                                   : VectorXd::Ones(rows);
-    design.rightCols(design.cols() - 1) =
-        problem_.candidates(Eigen::all, terms);
+    MatrixXd design(problem_.response.size(), std::ssize(terms) + 1);
+    design.col(0) = problem_.InterceptColumn();
+    design.rightCols(design.cols() - 1) = problem_.terms(Eigen::all, terms);
     if (problem_.weights.size() != 0) {
       design = problem_.weights.cwiseSqrt().asDiagonal() * design;
     }
-    return CrossValidatedError(design, WeightedResponse(), rules_.folds);
+    return CrossValidatedError(
+        design, problem_.Weighted(problem_.response), rules_.folds);
   }
 
   // --- ends
@@ -416,7 +401,7 @@ class Selection {
     result->chosen = models[result->chosen_step];
   }
 
-  const SelectionProblem& problem_;
+  const RegressionProblem& problem_;
   const TermRules& rules_;
   const StepwiseOptions& options_;
   SelectionState state_;
@@ -476,30 +461,26 @@ void StepwiseOptions::Validate() const {
     refuse("remove (" + std::to_string(remove) + ") must not be below enter (" +
            std::to_string(enter) + "): a term could enter and leave for ever");
   }
-  stats::Require(collinearity > 0.0 && collinearity < 1.0,
-                 "StepwiseOptions: collinearity must be above 0 and below 1",
-                 collinearity);
   stats::Require(std::isnan(sigma2) || (sigma2 > 0.0 && std::isfinite(sigma2)),
                  "StepwiseOptions: sigma2 must be above 0",
                  sigma2);
   if (select == Criterion::kNone) refuse("something must select");
 }
 
-SelectionResult SelectStepwise(const SelectionProblem& problem,
+SelectionResult SelectStepwise(const RegressionProblem& problem,
                                const TermRules& rules,
                                const StepwiseOptions& options,
                                const std::atomic<bool>* stop_token) {
   options.Validate();
-  problem.Validate("SelectStepwise");
+  ValidateSelection(problem, "SelectStepwise");
   return Selection(problem, rules, options).Run(stop_token);
 }
 
-std::vector<ExcludedTerm> JudgeExcluded(const SelectionProblem& problem,
+std::vector<ExcludedTerm> JudgeExcluded(const RegressionProblem& problem,
                                         const std::vector<Index>& chosen,
-                                        double collinearity,
                                         const std::atomic<bool>* stop_token) {
-  problem.Validate("JudgeExcluded");
-  SelectionState state(problem, collinearity);
+  ValidateSelection(problem, "JudgeExcluded");
+  SelectionState state(problem);
   for (const Index candidate : chosen) {
     const SelectionMove move = state.EntryOf(candidate);
     if (move.candidate >= 0) state.Apply(move);
@@ -508,7 +489,7 @@ std::vector<ExcludedTerm> JudgeExcluded(const SelectionProblem& problem,
   const double freedom = problem.num_observations() -
                          static_cast<double>(state.chosen().size()) - 2.0;
   std::vector<ExcludedTerm> excluded;
-  for (Index j = 0; j < problem.candidates.cols(); ++j) {
+  for (Index j = 0; j < problem.terms.cols(); ++j) {
     if (stop_token != nullptr && stop_token->load()) break;
     if (state.is_chosen(j)) continue;
     ExcludedTerm term;

@@ -33,9 +33,6 @@ struct StepwiseOptions {
   Heredity heredity = Heredity::kNone;
   /// Maximum number of terms; below 0: limited only by the rows.
   Index max_terms = -1;
-  /// A candidate is skipped while its part orthogonal to the chosen terms is
-  /// shorter than this times the candidate; above 0, below 1. R's lm has 1e-7.
-  double collinearity = 1e-7;
   /// Error variance for Cp; NaN: that of the model with all candidates.
   double sigma2 = stats::kNaN;
 
@@ -98,7 +95,7 @@ struct SelectionResult {
 /// Throws std::invalid_argument for bad shapes or options, such as CV without
 /// folds or Cp without a variance. Also for PRESS on rows that are not
 /// observations, and backward selection with more candidates than rows.
-SelectionResult SelectStepwise(const SelectionProblem& problem,
+SelectionResult SelectStepwise(const RegressionProblem& problem,
                                const TermRules& rules,
                                const StepwiseOptions& options,
                                const std::atomic<bool>* stop_token = nullptr);
@@ -115,9 +112,8 @@ struct ExcludedTerm {
 /// partial F if it entered now. Returns those judged so far if `stop_token`
 /// becomes true (null: never).
 std::vector<ExcludedTerm> JudgeExcluded(
-    const SelectionProblem& problem,
+    const RegressionProblem& problem,
     const std::vector<Index>& chosen,
-    double collinearity,
     const std::atomic<bool>* stop_token = nullptr);
 
 /// Returns the sum of squared errors over the judged folds (FoldCodes). Each is

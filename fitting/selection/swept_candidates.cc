@@ -12,8 +12,6 @@ namespace {
 
 constexpr std::ptrdiff_t kLanes = 16;
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-// A leverage this near to 1 is 1: the row has a coefficient to itself.
-constexpr double kLeastRoom = 1e-9;
 
 ERRMAP_MULTIVERSION
 double Dot(const double* a, const double* b, std::ptrdiff_t n) {
@@ -70,17 +68,15 @@ double PressOf(const double* error,
   }
   for (const double sum : sums) total += sum;
   for (const double value : least) smallest = std::min(smallest, value);
-  return smallest > kLeastRoom ? total : kUnbounded;
+  return smallest > kLeastSlack ? total : kUnbounded;
 }
 
 }  // namespace
 
-SweptCandidates::SweptCandidates(const SelectionProblem& problem,
+SweptCandidates::SweptCandidates(const RegressionProblem& problem,
                                  const std::vector<bool>& fitted,
-                                 const std::vector<bool>& held_out,
-                                 double collinearity)
+                                 const std::vector<bool>& held_out)
     : problem_(problem),
-      collinearity_(collinearity),
       fitted_(problem.response.size()),
       held_out_(problem.response.size()),
       all_fitted_(true) {
@@ -89,26 +85,21 @@ SweptCandidates::SweptCandidates(const SelectionProblem& problem,
     held_out_[i] = held_out[At(i)] ? 1.0 : 0.0;
     all_fitted_ = all_fitted_ && fitted[At(i)];
   }
-  roots_ = problem.weights.size() != 0
-               ? VectorXd(problem.weights.cwiseSqrt())
-               : VectorXd(VectorXd::Ones(problem.response.size()));
+  roots_ = problem.Weighted(VectorXd::Ones(problem.response.size()));
   Reset();
 }
 
 void SweptCandidates::Reset() {
-  const Index cols = problem_.candidates.cols();
+  const Index cols = problem_.terms.cols();
   rest_.resize(problem_.response.size(), cols);
   least_.resize(cols);
   for (Index j = 0; j < cols; ++j) {
-    rest_.col(j) = problem_.candidates.col(j).cwiseProduct(roots_);
-    least_[j] =
-        collinearity_ * collinearity_ * rest_.col(j).cwiseAbs2().dot(fitted_);
+    rest_.col(j) = problem_.terms.col(j).cwiseProduct(roots_);
+    least_[j] = kCollinear * kCollinear * rest_.col(j).cwiseAbs2().dot(fitted_);
   }
   error_ = problem_.response.cwiseProduct(roots_);
   chosen_.clear();
-  SweepOut(problem_.intercept.size() != 0
-               ? VectorXd(problem_.intercept.cwiseProduct(roots_))
-               : roots_);
+  SweepOut(problem_.InterceptColumn().cwiseProduct(roots_));
 }
 
 // `column` (n) is orthogonal, on the fitted rows, to what was swept before.

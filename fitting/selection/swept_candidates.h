@@ -14,10 +14,9 @@ class SweptCandidates {
  public:
   /// `fitted` (n): true for rows to fit. `held_out` (n): true for rows, none of
   /// them fitted, on which HeldOutErrorAfterEntry computes the error.
-  SweptCandidates(const SelectionProblem& problem,
+  SweptCandidates(const RegressionProblem& problem,
                   const std::vector<bool>& fitted,
-                  const std::vector<bool>& held_out,
-                  double collinearity);
+                  const std::vector<bool>& held_out);
 
   /// Switches to the terms `chosen`; cheap if it only grew, else rebuilds.
   void Follow(const std::vector<Index>& chosen);
@@ -37,8 +36,7 @@ class SweptCandidates {
   void SweepOut(const VectorXd& column);
   double SquaredRest(Index candidate) const;
 
-  const SelectionProblem& problem_;
-  double collinearity_;
+  const RegressionProblem& problem_;
   VectorXd fitted_;    // (n) 1 or 0
   VectorXd held_out_;  // (n) 1 or 0
   bool all_fitted_;

@@ -44,6 +44,13 @@ double HeldOutError(const Dataset& rows,
 
 }  // namespace
 
+void NoteView(const ViewedRows& viewed, FittedModel* fitted) {
+  fitted->choices.push_back({"view", std::string(ToString(viewed.view))});
+  if (viewed.sine_and_cosine) {
+    fitted->choices.push_back({"angles", std::string("sincos")});
+  }
+}
+
 FittedModel FitInView(const Dataset& training,
                       const std::optional<ViewOptions>& options,
                       const FitContext& context,
@@ -71,10 +78,7 @@ FittedModel FitInView(const Dataset& training,
   }
   FittedModel fitted = fit(*chosen->rows, context);
   fitted.inner_rmse = least;
-  fitted.choices.push_back({"view", std::string(ToString(chosen->view))});
-  if (chosen->sine_and_cosine) {
-    fitted.choices.push_back({"angles", std::string("sincos")});
-  }
+  NoteView(*chosen, &fitted);
   if (!tried.empty()) {
     fitted.remarks.push_back(fmt::format(
         "view {} by inner hold-outs (tried {})", chosen->label(), tried));

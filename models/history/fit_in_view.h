@@ -9,6 +9,9 @@
 
 namespace errmap::models {
 
+/// Adds which view it is to what a map chose.
+void NoteView(const ViewedRows& viewed, FittedModel* fitted);
+
 /// Fits rows that are already in some view.
 using FitRows =
     std::function<FittedModel(const data::Dataset&, const FitContext&)>;

@@ -287,13 +287,14 @@ std::shared_ptr<const std::vector<ViewedRows>> SharedViews(
         MakeViews(training, options, context.indifference));
   };
   if (context.shared == nullptr) return make();
-  auto views = context.shared->GetWhileHeld<std::vector<ViewedRows>>(
+  auto views = context.shared->Get<std::vector<ViewedRows>>(
       fmt::format("views {} {}",
                   !options         ? "none"
                   : !options->view ? "auto"
                                    : ToString(*options->view),
                   KeyOf(options)),
-      make);
+      make,
+      SharedWork::Keep::kWhileHeld);
   // Whoever fits other rows must not share; a wrong map would be silent.
   if (views->front().rows->target_values() != training.target_values()) {
     throw std::logic_error("SharedViews: the rows are not those shared");

@@ -52,10 +52,8 @@ MatrixXd Deviates(const VectorXd& degrees_of_freedom,
   MatrixXd deviates(degrees_of_freedom.size(), options.draws);
   for (Index draw = 0; draw < deviates.cols(); ++draw) {
     for (Index k = 0; k < deviates.rows(); ++k) {
-      // Never 0, as Uniform may be.
-      constexpr double kHalfStep = 0x1.0p-54;
       deviates(k, draw) =
-          TQuantile(random.Uniform() + kHalfStep, degrees_of_freedom[k]);
+          TQuantile(random.OpenUniform(), degrees_of_freedom[k]);
     }
   }
   return deviates;

@@ -131,8 +131,6 @@ VectorXd UnitMeanSquares(const std::vector<Index>& codes,
   return squares;
 }
 
-// With Student's t over units of the logarithm by the delta method: the RMSE is
-// above 0 and skewed.
 // (draws) The logarithm of the RMSE of each draw of units, over its folds.
 VectorXd LogOfDraws(const Holdout& holdout,
                     const HeldOutRows& held,
@@ -152,7 +150,9 @@ VectorXd LogOfDraws(const Holdout& holdout,
 }
 
 // The draws' RMSE are averaged as logarithms, so that one from which a map
-// explodes is one of several; how they scatter counts with the units.
+// explodes is one of several; how they scatter counts with the units. The
+// interval is Student's t over units of the logarithm, by the delta method: the
+// RMSE is above 0 and skewed.
 LearningCurve::Point PointOf(Index size,
                              const VectorXd& squares,
                              const VectorXd& log_of_draws) {

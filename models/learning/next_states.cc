@@ -1,6 +1,7 @@
 #include "models/learning/next_states.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "fitting/least_squares/decompositions.h"
@@ -17,6 +18,7 @@ struct Whitened {
 };
 
 Whitened Whiten(const MatrixXd& measured, const MatrixXd& candidates) {
+  if (measured.cols() == 0) return {measured, candidates};
   constexpr double kLeastShare = 1e-3;
   constexpr Index kMostStateDirections = 6;
   const Eigen::RowVectorXd mean = measured.colwise().mean();
@@ -56,8 +58,8 @@ double MeanVariance(const MatrixXd& information, const MatrixXd& products) {
 
 std::vector<NextState> ChooseNext(const data::Dataset& measured,
                                   const MatrixXd& candidates,
-                                  Index most,
-                                  double rows_per_candidate) {
+                                  Index most) {
+  constexpr double kRowsPerCandidate = 10.0;
   if (candidates.cols() != measured.num_inputs()) {
     throw std::invalid_argument("ChooseNext: the candidates have other inputs");
   }
@@ -101,15 +103,19 @@ std::vector<NextState> ChooseNext(const data::Dataset& measured,
     for (Index i = 0; i < wanted.rows(); ++i) {
       if (is_chosen[static_cast<std::size_t>(i)]) continue;
       const VectorXd u = solved.col(i);
-      const double gained = rows_per_candidate * u.dot(products * u) /
-                            (1.0 + rows_per_candidate * wanted.row(i).dot(u));
+      const double gained = kRowsPerCandidate * u.dot(products * u) /
+                            (1.0 + kRowsPerCandidate * wanted.row(i).dot(u));
+      if (!std::isfinite(gained)) {
+        throw std::invalid_argument(
+            "ChooseNext: a candidate lies too far from the measured rows");
+      }
       if (gained > most_gained) {
         most_gained = gained;
         best = i;
       }
     }
     information +=
-        rows_per_candidate * wanted.row(best).transpose() * wanted.row(best);
+        kRowsPerCandidate * wanted.row(best).transpose() * wanted.row(best);
     is_chosen[static_cast<std::size_t>(best)] = true;
     const VectorXd distances =
         (scores.measured.rowwise() - scores.candidates.row(best))

@@ -22,12 +22,11 @@ struct NextState {
 /// over all rows is smallest (I-optimality; Atkinson, Donev & Tobias 2007,
 /// Section 10.6). The map behind it uses whitened inputs. It is quadratic in
 /// the position and linear in the leading directions of the others, with
-/// products of both. A candidate counts as `rows_per_candidate` measured rows,
-/// since a visit lasts some rows. Throws std::invalid_argument if the numbers
-/// of inputs differ.
+/// products of both. A candidate counts as 10 measured rows, since a visit
+/// lasts some rows. Throws std::invalid_argument if the numbers of inputs
+/// differ or a candidate lies so far away that no number holds what it brings.
 std::vector<NextState> ChooseNext(const data::Dataset& measured,
                                   const MatrixXd& candidates,
-                                  Index most,
-                                  double rows_per_candidate = 10.0);
+                                  Index most);
 
 }  // namespace errmap::models

@@ -444,7 +444,6 @@ SensorCurve LearnSensors(const data::Dataset& dataset,
   MatrixXd squares(most + 2, folds);  // of 0, 1, ... sensors, and of all
   std::atomic<int> done = 0;
   const auto choose_in = [&](Index fold) {
-    const fitting::InterruptionScope of_thread(search.stop);
     auto& chosen = choices[static_cast<std::size_t>(fold)];
     if (fold == folds) {
       chosen = ChoiceSearch(design, of_all, most).Run();

@@ -188,7 +188,7 @@ fitting::Minimum TrainAlong(const NetRows& rows,
   NetTraining all = rows.From(seed, steps.front());
   NetTraining few;
   if (walks_on_few) few = RowsOf(all, StratifiedRows(count, kMostTuningRows));
-  fitting::Minimum minimum = trainer.Train(walks_on_few ? few : all, run);
+  fitting::Minimum minimum = trainer(walks_on_few ? few : all, run);
   for (std::size_t i = 1; i < steps.size(); ++i) {
     const fitting::Termination end = minimum.summary.termination;
     if (end == fitting::Termination::kFailed ||
@@ -199,7 +199,7 @@ fitting::Minimum TrainAlong(const NetRows& rows,
     step.wfactor = steps[i];
     step.initial_weights = std::move(minimum.x);
     const fitting::FitSummary earlier = std::move(minimum.summary);
-    minimum = trainer.Train(step, run);
+    minimum = trainer(step, run);
     Precede(earlier, &minimum.summary);
   }
   return minimum;
@@ -279,7 +279,7 @@ double WfactorWalk::Step(double wfactor) {
     NetTraining training = fold.rows->From(seed_, wfactor);
     if (warm_) training.initial_weights = fold.weights;
     fitting::Minimum minimum =
-        trainer_.Train(training, {.stop = context_.stop, .keep_trace = false});
+        trainer_(training, {.stop = context_.stop, .keep_trace = false});
     if (minimum.summary.termination == fitting::Termination::kFailed) {
       fold.rows.reset();
       fold.squares = stats::kNaN;

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -144,12 +143,12 @@ struct NetTuning {
 
 /// The trainers of a recipe's fits.
 struct NetTrainers {
-  std::shared_ptr<const NetTrainer> full;
+  NetTrainer full;
   /// Compare the wfactors of a tuned net. `along_path` is like `full`, in
   /// single precision if the method has one. `brief` is shorter and may suffice
-  /// for the fit. If both are null, `full` compares.
-  std::shared_ptr<const NetTrainer> along_path;
-  std::shared_ptr<const NetTrainer> brief;
+  /// for the fit. If both are empty, `full` compares.
+  NetTrainer along_path;
+  NetTrainer brief;
   std::int64_t full_iterations = 0;
   std::int64_t brief_iterations = 0;
 };

@@ -177,7 +177,6 @@ ERRMAP_INLINE Vec<float> Widened(const Half<float>& v) {
   return __builtin_shufflevector(
       v, Half<float>{}, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
 }
-// A vector of two halves; the first half of `first`, the second of `second`.
 // Both halves of a vector the same; two halves joined (under a mask of all,
 // where the unmasked ones would begin with what GCC 12 calls uninitialised).
 ERRMAP_INLINE Vec<double> Twice(const Half<double>& v) {

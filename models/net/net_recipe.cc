@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "models/averaged_model.h"
+#include "models/history/fit_in_view.h"
 #include "models/history/view.h"
 #include "models/history/with_history.h"
 #include "models/net/feedforward_net.h"
@@ -43,13 +44,13 @@ std::int64_t Share(std::int64_t iterations, std::int64_t parts) {
 }
 
 // Single precision suffices to compare wfactors and views, in half the time.
-// Null if the method has none, or all is in it.
-std::shared_ptr<const NetTrainer> InSinglePrecision(
-    const NetOptions& options, const fitting::StoppingRules& rules) {
+// Empty if the method has none, or all is in it.
+NetTrainer InSinglePrecision(const NetOptions& options,
+                             const fitting::StoppingRules& rules) {
   const auto* scg = std::get_if<ScgTraining>(&options.method);
   if (scg == nullptr || scg->is_single ||
       scg->variant != fitting::ScgVariant::kMoller) {
-    return nullptr;
+    return {};
   }
   return MakeNetTrainer(ScgTraining{.is_single = true}, rules);
 }
@@ -168,12 +169,7 @@ class OneLayerRecipe final : public NetRecipe {
     const std::size_t best = IndexOfLowest(scores);
     const ViewedRows& viewed = views[best];
     FittedModel fitted = FitView(*viewed.rows, tuned[best], context);
-    if (options_.view) {
-      fitted.choices.push_back({"view", std::string(ToString(viewed.view))});
-      if (viewed.sine_and_cosine) {
-        fitted.choices.push_back({"angles", std::string("sincos")});
-      }
-    }
+    if (options_.view) NoteView(viewed, &fitted);
     if (options_.clip) {
       fitted.guards = MakeGuards(fitted.inputs, training.target_values());
     }
@@ -266,7 +262,7 @@ class OneLayerRecipe final : public NetRecipe {
   const NetTrainer& TrainerOf(const TunedNet& tuned) const {
     const bool brief =
         trainers_.brief && tuned.iterations == trainers_.brief_iterations;
-    return brief ? *trainers_.brief : *trainers_.full;
+    return brief ? trainers_.brief : trainers_.full;
   }
 
   void AverageStarts(const NetRows& rows,
@@ -322,7 +318,7 @@ class OneLayerRecipe final : public NetRecipe {
           fixed.hidden, Wfactors(fixed.wfactor), context.seed};
       fixed.rmse =
           InnerHoldoutRmse(
-              design_, *trainers_.full, training, inner, {trial}, context)
+              design_, trainers_.full, training, inner, {trial}, context)
               .front();
     }
     return fixed;
@@ -352,7 +348,7 @@ class OneLayerRecipe final : public NetRecipe {
                                     const FitContext& context,
                                     FittedModel* fitted) const {
     fitting::DiscrepancyChoice choice = ChooseWfactorByDiscrepancy(
-        rows, *trainers_.full, *options_.discrepancy, context);
+        rows, trainers_.full, *options_.discrepancy, context);
     fitted->choices.push_back({"wfactor", choice.alpha});
     fitted->choices.push_back(
         {"discrepancy_reached", std::string(choice.reached ? "yes" : "no")});

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <functional>
 
 #include "fitting/minimisers/optimizer.h"
 #include "models/net/net_options.h"
@@ -21,16 +21,12 @@ struct NetTraining {
   std::uint64_t seed = 1;  // for methods that draw at random
 };
 
-/// A method to minimise a net's objective; immutable.
-class NetTrainer {
- public:
-  virtual ~NetTrainer() = default;
-  virtual fitting::Minimum Train(const NetTraining& training,
-                                 const fitting::RunControl& run) const = 0;
-};
+/// A method to minimise a net's objective; empty: none.
+using NetTrainer = std::function<fitting::Minimum(
+    const NetTraining& training, const fitting::RunControl& run)>;
 
 /// Returns the trainer of `method` with these stopping rules.
-std::unique_ptr<NetTrainer> MakeNetTrainer(
-    const NetMethod& method, const fitting::StoppingRules& stopping);
+NetTrainer MakeNetTrainer(const NetMethod& method,
+                          const fitting::StoppingRules& stopping);
 
 }  // namespace errmap::models

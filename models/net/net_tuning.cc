@@ -158,7 +158,7 @@ class Tuner {
   void ChooseIterations() {
     const std::vector<double> full =
         InnerHoldoutRmse(design_,
-                         *trainers_.full,
+                         trainers_.full,
                          training_,
                          inner_,
                          {{hidden_, {wfactor_}, context_.seed}},
@@ -200,9 +200,9 @@ class Tuner {
  private:
   static const NetTrainer& ComparesBy(const NetTuning& tuning,
                                       const NetTrainers& trainers) {
-    if (!tuning.wfactor) return *trainers.full;
-    if (trainers.along_path) return *trainers.along_path;
-    return trainers.brief ? *trainers.brief : *trainers.full;
+    if (!tuning.wfactor) return trainers.full;
+    if (trainers.along_path) return trainers.along_path;
+    return trainers.brief ? trainers.brief : trainers.full;
   }
 
   const NetDesign& design_;
@@ -234,14 +234,14 @@ fitting::Minimum TrainUntilSettled(const NetTrainer& trainer,
                                    NetTraining* training) {
   constexpr int kMostRuns = 20;
   constexpr double kSettled = 0.99;
-  fitting::Minimum minimum = trainer.Train(*training, run);
+  fitting::Minimum minimum = trainer(*training, run);
   for (int i = 1; i < kMostRuns; ++i) {
     if (minimum.summary.termination != fitting::Termination::kIterationLimit) {
       break;
     }
     const double before = minimum.summary.final_cost;
     training->initial_weights = minimum.x;
-    minimum = trainer.Train(*training, run);
+    minimum = trainer(*training, run);
     if (!(minimum.summary.final_cost < kSettled * before)) break;
   }
   return minimum;
@@ -289,7 +289,7 @@ fitting::DiscrepancyChoice ChooseWfactorByDiscrepancy(
   NetTraining training = rows.From(context.seed, 0.0);
   const VectorXd start = training.initial_weights;
   return fitting::ChooseByDiscrepancy(
-      {.delta = delta},
+      delta,
       start,
       [&](double wfactor, const VectorXd& from) {
         training.wfactor = wfactor;

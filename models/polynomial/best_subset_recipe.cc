@@ -61,7 +61,7 @@ class BestSubsetRecipe final : public PolynomialRecipe {
     }
     const DesignRows rows = CollectRows(dictionary.design, {}, context);
     const fitting::BestSubsetResult best =
-        fitting::SelectBestSubset(SelectionOf(rows),
+        fitting::SelectBestSubset(rows.Problem(),
                                   dictionary.include,
                                   dictionary.excluded,
                                   rules_,
@@ -81,8 +81,7 @@ class BestSubsetRecipe final : public PolynomialRecipe {
       report.candidates = dictionary.design.num_terms();
       LeastSquaresRecord& fit = report.least_squares.value.emplace();
       fit.after_selection = true;
-      ReportExcluded(
-          dictionary, rows, best.chosen, rules_.collinearity, context, &fit);
+      ReportExcluded(dictionary, rows, best.chosen, context, &fit);
       Bootstrap(dictionary, rows, best, context, &report);
     }
     FittedModel fitted = FitTerms(
@@ -124,7 +123,7 @@ class BestSubsetRecipe final : public PolynomialRecipe {
         dictionary.design.dataset().groups().codes,
         best.chosen,
         repetitions,
-        [&](const fitting::SelectionProblem& drawn) {
+        [&](const fitting::RegressionProblem& drawn) {
           return fitting::SelectBestSubset(drawn,
                                            dictionary.include,
                                            dictionary.excluded,

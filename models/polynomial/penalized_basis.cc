@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "fitting/interruption.h"
 #include "fitting/matrix_product.h"
 #include "models/polynomial/penalized_fit.h"
 #include "models/polynomial/polynomial_fit.h"
@@ -335,7 +336,7 @@ void SummedBasis::ForBlocks(
     const Rows& rows, const std::function<void(const Rows&)>& work) const {
   for (std::size_t first = 0; first < rows.size(); first += kBlockRows) {
     if (stop_ != nullptr && stop_->load()) {
-      throw std::invalid_argument("interrupted");
+      throw fitting::Interrupted();
     }
     const std::size_t last =
         std::min(rows.size(), first + static_cast<std::size_t>(kBlockRows));

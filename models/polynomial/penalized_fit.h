@@ -56,8 +56,8 @@ class SessionOffsets {
 /// Share of its trained range by which an input may exceed it before a shrunk
 /// map becomes straight in it. Beyond, a parabola predicts nothing useful,
 /// while a straight line through the same data still holds: measured in
-/// uncertainty/measured.md. Exact least squares (Eq. 7 to 9 and similar) are
-/// limited only by their guards.
+/// models/uncertainty/measured.md. Exact least squares (Eq. 7 to 9 and similar)
+/// are limited only by their guards.
 inline constexpr double kBendMargin = 0.1;
 
 /// Terms over rows in one view, for ridge and lasso. Products are formed from
@@ -94,8 +94,8 @@ class SummedBasis {
   using Rows = std::vector<Index>;
 
   /// `folds` are needed if they choose the penalty; null if it is given. Throws
-  /// std::invalid_argument for too many terms or missing folds, and with
-  /// FitInterrupted's message if context.stop interrupts it.
+  /// std::invalid_argument for too many terms or missing folds, and
+  /// fitting::Interrupted if context.stop interrupts it.
   SummedBasis(std::shared_ptr<const ViewedRows> viewed,
               const PenalizedBasis& basis,
               const InnerFolds* folds,

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "models/history/fit_in_view.h"
 #include "models/history/view_options.h"
 #include "models/inner_folds.h"
 #include "models/option_list.h"
@@ -79,13 +80,7 @@ class PenalizedRecipe final : public PolynomialRecipe {
         (chosen.coefficients.array() != 0.0).count(),
         chosen.coefficients.size(),
         best.degree);
-    if (options_.basis.view) {
-      fitted.choices.push_back(
-          {"view", std::string(ToString(best.viewed->view))});
-      if (best.viewed->sine_and_cosine) {
-        fitted.choices.push_back({"angles", std::string("sincos")});
-      }
-    }
+    if (options_.basis.view) NoteView(*best.viewed, &fitted);
     if (options_.basis.chooses_basis()) {
       fitted.choices.push_back({"terms", std::string(ToString(best.terms))});
       fitted.remarks.push_back(

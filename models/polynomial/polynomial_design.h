@@ -74,6 +74,10 @@ struct DesignRows {
   std::vector<Index> parts;
 
   bool are_observations() const { return intercept.size() == 0; }
+  /// Returns the problem of these rows, which must outlive it.
+  fitting::RegressionProblem Problem() const {
+    return {terms, response, weights, intercept, observations};
+  }
 };
 
 /// Returns the rows themselves if they have at most `most_values` numbers,

@@ -80,14 +80,6 @@ fitting::RowDiagnostics JudgeRows(const PolynomialDesign& design,
   return judged;
 }
 
-fitting::RegressionProblem ProblemOf(const DesignRows& rows) {
-  return {rows.terms,
-          rows.response,
-          rows.weights,
-          rows.intercept,
-          rows.observations};
-}
-
 struct Solved {
   DesignRows rows;
   fitting::LeastSquaresFit solution;
@@ -118,7 +110,7 @@ Solved SolveRows(const PolynomialDesign& design,
             .cwiseProduct(rows.terms.colwise().norm().transpose());
     return noise + kReduction * parts.norm();
   };
-  solved.solution = fitting::SolveRegression(ProblemOf(rows), options);
+  solved.solution = fitting::SolveRegression(rows.Problem(), options);
   return solved;
 }
 
@@ -348,7 +340,7 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
     if (report != nullptr) *complete = std::move(*report);
     if (complete->method.empty()) complete->method = "least squares";
     const fitting::RegressionDiagnostics fit =
-        fitting::Diagnose(ProblemOf(rows), solution);
+        fitting::Diagnose(rows.Problem(), solution);
     FillCoefficientTable(design, fit, complete.get());
     auto& of_rows = complete->least_squares.value;
     if (!of_rows) of_rows.emplace();

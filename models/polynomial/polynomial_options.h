@@ -165,7 +165,7 @@ struct FormulaOptions {
   std::string formula = {};                 // as ParseTerms reads them
   Centring centring = Centring::kHarmless;  // or kNone
   bool intercept = true;
-  /// Names one penalty; its `intercept` is not used.
+  /// Names one view; its `intercept` is not used.
   std::optional<ViewOptions> view = {};
   bool clip = true;  // true: the map is guarded (Guards)
 

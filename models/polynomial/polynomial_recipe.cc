@@ -207,15 +207,16 @@ class FullRecipe final : public PolynomialRecipe {
 
 template <>
 const std::vector<ListedModel<ConstantOptions>>& ListedModels() {
+  const auto none = [] { return OptionList<ConstantOptions>(); };
   static const std::vector<ListedModel<ConstantOptions>> models = {
       {.name = "zero",
        .about = "no compensation: what the machine does by itself",
        .defaults = {.is_zero = true},
-       .options = {}},
+       .options = none},
       {.name = "mean",
        .about = "one offset for all",
        .defaults = {},
-       .options = {}}};
+       .options = none}};
   return models;
 }
 

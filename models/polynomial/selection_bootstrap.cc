@@ -48,7 +48,7 @@ VectorXd BootstrapInclusion(const DesignRows& rows,
       stopped = true;
       return;
     }
-    const fitting::SelectionProblem problem{
+    const fitting::RegressionProblem problem{
         rows.terms,
         rows.response,
         weights[static_cast<std::size_t>(i)],

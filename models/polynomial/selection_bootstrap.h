@@ -9,8 +9,8 @@
 namespace errmap::models {
 
 /// Chooses terms of a problem (columns).
-using ChooseTerms =
-    std::function<std::vector<Index>(const fitting::SelectionProblem& problem)>;
+using ChooseTerms = std::function<std::vector<Index>(
+    const fitting::RegressionProblem& problem)>;
 
 /// Reports the share of `repetitions` in which each candidate is chosen, for
 /// `chosen` (as lines of the coefficient table) and for the excluded ones. Each

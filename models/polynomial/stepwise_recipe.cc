@@ -178,10 +178,10 @@ class StepwiseRecipe final : public PolynomialRecipe {
       rules.parents = dictionary.Parents();
     }
     const fitting::StepwiseOptions how = RulesFor(training, rules);
-    const auto select = [&](const fitting::SelectionProblem& problem) {
+    const auto select = [&](const fitting::RegressionProblem& problem) {
       return fitting::SelectStepwise(problem, rules, how, context.stop);
     };
-    const fitting::SelectionResult selection = select(SelectionOf(rows));
+    const fitting::SelectionResult selection = select(rows.Problem());
     RegressionRecord report;
     if (context.explain) {
       report.least_squares.value.emplace();
@@ -282,7 +282,6 @@ class StepwiseRecipe final : public PolynomialRecipe {
     ReportExcluded(dictionary,
                    rows,
                    selection.chosen,
-                   rules_.collinearity,
                    context,
                    &*report->least_squares.value);
   }
@@ -303,7 +302,7 @@ class StepwiseRecipe final : public PolynomialRecipe {
           plan.by_triangle ? rows.parts : training.groups().codes,
           chosen,
           static_cast<int>(plan.repetitions),
-          [&](const fitting::SelectionProblem& drawn) {
+          [&](const fitting::RegressionProblem& drawn) {
             return select(drawn).chosen;
           },
           context,

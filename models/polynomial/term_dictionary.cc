@@ -104,11 +104,6 @@ PolynomialDesign DesignOf(const Dataset& training,
 
 }  // namespace
 
-int DefaultDegree(Index num_inputs) {
-  constexpr Index kFewInputs = 8;
-  return num_inputs <= kFewInputs ? 3 : 2;
-}
-
 Option<std::optional<int>> DegreeOption() {
   constexpr std::int64_t kMostDegree = 4;
   return OptionFor<std::optional<int>>(
@@ -188,14 +183,6 @@ Index TermDictionary::NumOpen() const {
       std::count(excluded.begin(), excluded.end(), false));
 }
 
-fitting::SelectionProblem SelectionOf(const DesignRows& rows) {
-  return {rows.terms,
-          rows.response,
-          rows.weights,
-          rows.intercept,
-          rows.observations};
-}
-
 std::string ChosenTerms(const TermDictionary& dictionary,
                         const std::vector<Index>& chosen) {
   if (chosen.empty()) return "no term was chosen";
@@ -209,7 +196,6 @@ std::string ChosenTerms(const TermDictionary& dictionary,
 void ReportExcluded(const TermDictionary& dictionary,
                     const DesignRows& rows,
                     const std::vector<Index>& chosen,
-                    double collinearity,
                     const FitContext& context,
                     LeastSquaresRecord* record) {
   const auto is_stopped = [&] {
@@ -223,8 +209,8 @@ void ReportExcluded(const TermDictionary& dictionary,
   const MatrixXd terms = rows.terms(Eigen::all, chosen);
   std::vector<std::string> chosen_names;
   for (const Index term : chosen) chosen_names.push_back(name(term));
-  for (const fitting::ExcludedTerm& term : fitting::JudgeExcluded(
-           SelectionOf(rows), chosen, collinearity, context.stop)) {
+  for (const fitting::ExcludedTerm& term :
+       fitting::JudgeExcluded(rows.Problem(), chosen, context.stop)) {
     if (is_stopped()) break;
     if (!term.aliased) {
       record->excluded.push_back({name(term.candidate), term.f, term.p});

@@ -40,12 +40,6 @@ struct TermDictionary {
 
 struct LeastSquaresRecord;
 
-/// Returns rows in the form that selection uses; they must outlive it.
-fitting::SelectionProblem SelectionOf(const DesignRows& rows);
-
-/// Returns the default degree: 3 up to 8 inputs, else 2.
-int DefaultDegree(Index num_inputs);
-
 /// Returns a fold's choice, part of its result: "chosen: x, x*t".
 std::string ChosenTerms(const TermDictionary& dictionary,
                         const std::vector<Index>& chosen);
@@ -55,7 +49,6 @@ std::string ChosenTerms(const TermDictionary& dictionary,
 void ReportExcluded(const TermDictionary& dictionary,
                     const DesignRows& rows,
                     const std::vector<Index>& chosen,
-                    double collinearity,
                     const FitContext& context,
                     LeastSquaresRecord* record);
 

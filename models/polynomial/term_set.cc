@@ -29,7 +29,8 @@ int DefaultDegreeOf(TermSet set, Index num_inputs) {
     case TermSet::kFull:
       break;
   }
-  return DefaultDegree(num_inputs);
+  constexpr Index kFewInputs = 8;
+  return num_inputs <= kFewInputs ? kCube : kSquare;
 }
 
 std::optional<Index> CountTerms(TermSet set,

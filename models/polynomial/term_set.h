@@ -31,7 +31,7 @@ enum class Centring {
 };
 
 /// Returns the highest power of a set if no degree is given: 1, 2, 3, and for
-/// full by the number of inputs (DefaultDegree).
+/// full 3 up to 8 inputs, else 2.
 int DefaultDegreeOf(TermSet set, Index num_inputs);
 
 /// Returns the number of terms; empty on overflow.

@@ -28,10 +28,6 @@ void UnitLosses::Validate() const {
     Refuse(std::to_string(rows.size()) + " numbers of rows for " +
            std::to_string(num_units()) + " units");
   }
-  if (!codes.empty() && std::ssize(codes) != num_units()) {
-    Refuse(std::to_string(codes.size()) + " codes for " +
-           std::to_string(num_units()) + " units");
-  }
   if (means.size() > 0 &&
       (means.rows() != num_units() || means.cols() != num_models())) {
     Refuse("means of " + std::to_string(means.rows()) + " x " +
@@ -77,12 +73,9 @@ UnitLosses GatherByUnit(const MatrixXd& residuals,
     }
     unit_of[code] = 0;
   }
+  Index units = 0;
+  for (auto& [code, unit] : unit_of) unit = units++;
   UnitLosses losses;
-  for (auto& [code, unit] : unit_of) {
-    unit = std::ssize(losses.codes);
-    losses.codes.push_back(code);
-  }
-  const Index units = std::ssize(losses.codes);
   losses.rows = VectorXd::Zero(units);
   losses.mean_squares = MatrixXd::Zero(units, residuals.cols());
   losses.means = losses.mean_squares;

@@ -10,11 +10,10 @@ namespace errmap::stats {
 /// analysis: a cycle, day, segment or block of rows. Neighbouring rows resemble
 /// each other, so tests count units, never rows.
 struct UnitLosses {
-  MatrixXd mean_squares;          // (units x models), squared target units
-  VectorXd rows;                  // (units) rows, or sums of weights, above 0
-  MatrixXd means = {};            // (units x models) residual, or empty
-  std::vector<Index> codes = {};  // (units) group code, or empty
-  bool time_ordered = false;      // true: units are in time order
+  MatrixXd mean_squares;      // (units x models), squared target units
+  VectorXd rows;              // (units) rows, or sums of weights, above 0
+  MatrixXd means = {};        // (units x models) residual, or empty
+  bool time_ordered = false;  // true: units are in time order
 
   Index num_units() const { return mean_squares.rows(); }
   Index num_models() const { return mean_squares.cols(); }

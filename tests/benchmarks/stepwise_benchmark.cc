@@ -34,7 +34,7 @@ void ReportSize(benchmark::State& state, const SelectionResult& result) {
 // AIC, AICc, BIC, adjusted R2, PRESS, F and p of each step are logged.
 void BM_ThirtyForwardSteps(benchmark::State& state) {
   const VectorXd none;
-  const SelectionProblem problem{
+  const RegressionProblem problem{
       TheCase().candidates, TheCase().data.error, none};
   StepwiseOptions options;
   options.stop = Criterion::kNone;
@@ -51,7 +51,7 @@ BENCHMARK(BM_ThirtyForwardSteps)->Unit(benchmark::kMillisecond);
 // PRESS of every candidate, not only of the chosen, decides each step.
 void BM_ForwardBackwardByPress(benchmark::State& state) {
   const VectorXd none;
-  const SelectionProblem problem{
+  const RegressionProblem problem{
       TheCase().candidates, TheCase().data.error, none};
   StepwiseOptions options;
   options.direction = Direction::kBoth;
@@ -71,7 +71,7 @@ BENCHMARK(BM_ForwardBackwardByPress)
 
 void BM_ForwardBackwardByAicPressLogged(benchmark::State& state) {
   const VectorXd none;
-  const SelectionProblem problem{
+  const RegressionProblem problem{
       TheCase().candidates, TheCase().data.error, none};
   StepwiseOptions options;
   options.direction = Direction::kBoth;
@@ -99,7 +99,7 @@ void BM_TwoHundredBootstraps(benchmark::State& state) {
         times[static_cast<Index>(
             random.Below(static_cast<std::uint64_t>(rows)))] += 1.0;
       }
-      const SelectionProblem problem{
+      const RegressionProblem problem{
           TheCase().candidates, TheCase().data.error, times};
       terms += SelectStepwise(problem, {}, {}).chosen.size();
     }

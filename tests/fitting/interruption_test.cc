@@ -1,11 +1,14 @@
 #include "fitting/interruption.h"
 
 #include <atomic>
+#include <chrono>
+#include <thread>
 
 #include <gtest/gtest.h>
 
 #include "fitting/least_squares/linear_least_squares.h"
 #include "fitting/least_squares/triangular_reduction.h"
+#include "fitting/parallel_for.h"
 #include "tests/random_matrix.h"
 
 namespace errmap::fitting {
@@ -39,6 +42,28 @@ TEST(Interruption, ScopesLieInEachOther) {
   }
   const InterruptionScope of_the_outer(nullptr);
   EXPECT_THROW(ThrowIfInterrupted(), Interrupted);
+}
+
+// All wait until several threads are at it, or one has waited in vain.
+TEST(Interruption, ReachesTheThreadsOfAParallelFor) {
+  constexpr int kThreads = 3;
+  const std::atomic<bool> stop{true};
+  const InterruptionScope scope(&stop);
+  std::atomic<int> begun{0};
+  std::atomic<int> missed{0};
+  ParallelFor(kThreads, kThreads, [&](int /*i*/) {
+    ++begun;
+    for (int tries = 0; begun < kThreads && tries < 1000; ++tries) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    try {
+      ThrowIfInterrupted();
+      ++missed;
+    } catch (const Interrupted&) {
+    }
+  });
+  EXPECT_EQ(begun, kThreads);
+  EXPECT_EQ(missed, 0);
 }
 
 TEST(Interruption, BreaksRefinementAndFactorisationOff) {

@@ -1,5 +1,6 @@
 #include "stats/double_double.h"
 
+#include <cstdlib>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -62,6 +63,16 @@ TEST(DoubleDouble, ParsesDecimalsToThirtyDigits) {
   EXPECT_EQ(Number("10000000.2").hi, 10000000.2);
   EXPECT_NE(Number("10000000.2").lo, 0.0);
   EXPECT_EQ(Number("+5.").hi, 5.0);
+}
+
+TEST(DoubleDouble, KnowsTheSmallestNumbers) {
+  for (const char* text :
+       {"1e-310", "5e-324", "1.2345678901234567e-295", "-2.5e-301"}) {
+    const double meant = std::strtod(text, nullptr);
+    EXPECT_EQ(Number(text).hi, meant) << text;
+    EXPECT_EQ(DecimalOf(meant).hi, meant) << text;
+  }
+  EXPECT_EQ(Number("1e-400").hi, 0.0);
 }
 
 TEST(DoubleDouble, RefusesWhatIsNoDecimal) {

@@ -147,8 +147,7 @@ std::string OptionsText(const std::vector<EffectiveOption>& options) {
 }
 
 // What of the context changes a figure: all but `stop`, `threads` and `shared`.
-// Every
-// member is named, so that a new one has to be thought of here.
+// Every member is named, so that a new one has to be thought of here.
 std::string ContextText(const FitContext& context) {
   const auto& [seed,
                stop,

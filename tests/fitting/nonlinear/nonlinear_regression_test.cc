@@ -107,13 +107,6 @@ TEST(PolishRegression, LeavesADeficientJacobianAlone) {
   EXPECT_EQ(polished.steps, 0);
 }
 
-TEST(PolishOptions, BoundsBite) {
-  EXPECT_NO_THROW(PolishOptions{}.Validate());
-  EXPECT_THROW((PolishOptions{.steps = -1}.Validate()), std::invalid_argument);
-  EXPECT_THROW((PolishOptions{.smallest_step = 0.0}.Validate()),
-               std::invalid_argument);
-}
-
 TEST(AssessRegression, DeviationsOfADeficientJacobianAreNaN) {
   ExtendedVector flat(2);
   flat << 0.0, 1.0;

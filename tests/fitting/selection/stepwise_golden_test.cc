@@ -57,7 +57,7 @@ void ExpectAsInR(const nlohmann::json& golden,
   options.direction = direction == "forward"    ? Direction::kForward
                       : direction == "backward" ? Direction::kBackward
                                                 : Direction::kBoth;
-  const SelectionProblem problem{candidates, response, weights};
+  const RegressionProblem problem{candidates, response, weights};
   const SelectionResult result = SelectStepwise(problem, {}, options);
   ASSERT_EQ(result.steps.size(), golden["steps"].size());
   for (std::size_t i = 0; i < result.steps.size(); ++i) {

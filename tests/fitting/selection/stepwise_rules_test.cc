@@ -76,8 +76,8 @@ TEST(StepwiseRules, RowsOfWeightZeroAreAsIfTheyWereNotThere) {
     const MatrixXd few_candidates = candidates(kept, Eigen::all);
     const VectorXd few_response = response(kept);
     const VectorXd few_weights = weights(kept);
-    const SelectionProblem with_all{candidates, response, weights};
-    const SelectionProblem with_few{few_candidates, few_response, few_weights};
+    const RegressionProblem with_all{candidates, response, weights};
+    const RegressionProblem with_few{few_candidates, few_response, few_weights};
     for (const Criterion criterion : {Criterion::kPValue,
                                       Criterion::kAic,
                                       Criterion::kAicc,
@@ -112,8 +112,8 @@ TEST(StepwiseRules, RowsOfWeightZeroAreAsIfTheyWereNotThere) {
         expect_near(one.p, other.p);
       }
     }
-    const auto judged = JudgeExcluded(with_all, {0}, 1e-7);
-    const auto judged_few = JudgeExcluded(with_few, {0}, 1e-7);
+    const auto judged = JudgeExcluded(with_all, {0});
+    const auto judged_few = JudgeExcluded(with_few, {0});
     for (std::size_t i = 0; i < judged.size(); ++i) {
       EXPECT_NEAR(judged[i].f, judged_few[i].f, kRelative * judged_few[i].f);
     }
@@ -269,7 +269,7 @@ TEST(StepwiseRules, MoreCandidatesThanRowsAndCopiesAreNoTrouble) {
     EXPECT_TRUE(std::isfinite(step.residual_sum_of_squares));
   }
   const auto excluded =
-      JudgeExcluded({candidates, response, kStepwiseRulesEqual}, {3, 9}, 1e-7);
+      JudgeExcluded({candidates, response, kStepwiseRulesEqual}, {3, 9});
   ASSERT_EQ(excluded.size(), 198U);
   EXPECT_TRUE(excluded[101].aliased);  // column 103, the copy of 3
   EXPECT_FALSE(excluded[0].aliased);
@@ -282,8 +282,8 @@ TEST(StepwiseRules, ExcludedTermsHaveTheFOfARefit) {
   const VectorXd response = UniformMatrix(30, 1, 14);
   const double rss = SolveLeastSquares(DesignOf(candidates, {1, 2}), response)
                          .residual_sum_of_squares;
-  for (const ExcludedTerm& term : JudgeExcluded(
-           {candidates, response, kStepwiseRulesEqual}, {1, 2}, 1e-7)) {
+  for (const ExcludedTerm& term :
+       JudgeExcluded({candidates, response, kStepwiseRulesEqual}, {1, 2})) {
     const double less =
         SolveLeastSquares(DesignOf(candidates, {1, 2, term.candidate}),
                           response)

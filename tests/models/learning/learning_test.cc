@@ -11,9 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "fitting/interruption.h"
+#include "models/error_model.h"
 #include "models/learning/learning_curve.h"
 #include "models/learning/next_states.h"
 #include "models/learning/power_law.h"
@@ -314,14 +316,40 @@ TEST(ChooseNext, PrefersTheStateThatNothingLikeItWasMeasured) {
   const Eigen::RowVectorXd warming =
       days.input_values().row(100) - days.input_values().row(0);
   candidates.row(19) = days.input_values().row(100) + 2.0 * warming;
-  const std::vector<NextState> chosen = ChooseNext(days, candidates, 3, 10.0);
+  const std::vector<NextState> chosen = ChooseNext(days, candidates, 3);
   ASSERT_EQ(chosen.size(), 3U);
   EXPECT_EQ(chosen[0].row, 19);
   EXPECT_LT(chosen[0].variance_left, 1.0);
   EXPECT_LT(chosen[2].variance_left, chosen[0].variance_left);
   EXPECT_GT(chosen[0].distance, chosen[1].distance);
-  EXPECT_THROW(ChooseNext(days, MatrixXd::Zero(2, 3), 1, 1.0),
+  EXPECT_THROW(ChooseNext(days, MatrixXd::Zero(2, 3), 1),
                std::invalid_argument);
+}
+
+TEST(ChooseNext, NeedsNoStateBesidesThePosition) {
+  const data::Dataset days = SimulatedDays(5, 3, 6);
+  const Index position = FindPosition(days, "");
+  const data::Dataset along =
+      days.WithInputs({days.inputs()[static_cast<std::size_t>(position)]},
+                      days.input_values().col(position));
+  MatrixXd candidates(2, 1);
+  const double furthest = along.input_values().maxCoeff();
+  candidates << along.input_values().mean(),
+      2.0 * furthest - along.input_values().minCoeff();
+  const std::vector<NextState> chosen = ChooseNext(along, candidates, 2);
+  ASSERT_EQ(chosen.size(), 2U);
+  EXPECT_EQ(chosen[0].row, 1);
+  EXPECT_LT(chosen[0].variance_left, 1.0);
+  EXPECT_EQ(chosen[0].distance, 0.0);
+}
+
+TEST(ChooseNext, RefusesACandidateBeyondAllNumbers) {
+  const data::Dataset days = SimulatedDays(5, 3, 6);
+  MatrixXd candidates = days.input_values().topRows(3);
+  candidates(1, 0) = 1e200;
+  EXPECT_THAT([&] { ChooseNext(days, candidates, 1); },
+              ::testing::ThrowsMessage<std::invalid_argument>(
+                  ::testing::HasSubstr("too far from the measured rows")));
 }
 
 }  // namespace

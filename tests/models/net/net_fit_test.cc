@@ -113,15 +113,14 @@ TEST(Starts, AreTheSameOnAnyNumberOfThreads) {
 }
 
 // Does nothing but take note of what it is to train on.
-class NotingTrainer final : public NetTrainer {
- public:
+struct NotingTrainer {
   struct Step {
     double wfactor;
     Eigen::Index rows;
     bool operator==(const Step&) const = default;
   };
-  fitting::Minimum Train(const NetTraining& training,
-                         const fitting::RunControl&) const override {
+  fitting::Minimum operator()(const NetTraining& training,
+                              const fitting::RunControl&) {
     steps.push_back({training.wfactor, training.inputs.rows()});
     EXPECT_EQ(training.targets.rows(), training.inputs.rows());
     EXPECT_EQ(training.row_weights.size(), training.inputs.rows());
@@ -136,7 +135,7 @@ class NotingTrainer final : public NetTrainer {
     return minimum;
   }
 
-  mutable std::vector<Step> steps;
+  std::vector<Step> steps;
 };
 
 NetRows NumberedRows(Eigen::Index count) {
@@ -152,9 +151,9 @@ NetRows NumberedRows(Eigen::Index count) {
 TEST(TrainAlong, WalksOnFewOfManyRowsAndThenOnAllInAsManySteps) {
   using Step = NotingTrainer::Step;
   const auto walk = [](Eigen::Index count, std::vector<double> wfactors) {
-    const NotingTrainer trainer;
+    NotingTrainer trainer;
     const fitting::Minimum minimum =
-        TrainAlong(NumberedRows(count), trainer, wfactors, 1, {});
+        TrainAlong(NumberedRows(count), std::ref(trainer), wfactors, 1, {});
     EXPECT_EQ(trainer.steps.size(), wfactors.size());
     EXPECT_EQ(minimum.summary.iterations,
               static_cast<std::int64_t>(wfactors.size()));

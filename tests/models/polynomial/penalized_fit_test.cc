@@ -2,6 +2,7 @@
 
 #include "models/polynomial/penalized_fit.h"
 
+#include <atomic>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -12,6 +13,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fitting/interruption.h"
 #include "models/inner_folds.h"
 #include "models/recipe_catalog.h"
 #include "tests/decompositions.h"
@@ -44,6 +46,15 @@ TEST(FitPenalty, SearchesOnWhereTheBasisIsPromising) {
   EXPECT_LE(close.held_out_rmse, coarse.held_out_rmse);
   // One standard error is counted over every decade.
   EXPECT_GE(search(0.0, {.one_standard_error = true}).strengths.size(), 11U);
+}
+
+TEST(SummedBasis, ThrowsWhatAnInterruptionThrows) {
+  const data::Dataset dataset = QuadraticData(24);
+  const std::atomic<bool> stop{true};
+  const auto viewed = std::make_shared<const ViewedRows>(
+      MakeViews(dataset, std::nullopt, 0.0).front());
+  EXPECT_THROW(SummedBasis(viewed, PenalizedBasis(), nullptr, {.stop = &stop}),
+               fitting::Interrupted);
 }
 
 // Five sessions of unlike length, each with an offset of its own.

@@ -36,7 +36,6 @@ MatrixXd FiveRows() {
 
 TEST(GatherByUnit, AveragesSquaresWithinEachUnit) {
   const UnitLosses losses = GatherByUnit(FiveRows(), {7, 2, 7, 2, 2});
-  EXPECT_THAT(losses.codes, ElementsAre(2, 7));
   EXPECT_THAT(losses.rows, ElementsAre(3.0, 2.0));
   EXPECT_DOUBLE_EQ(losses.mean_squares(0, 0), 10.0 / 3.0);
   EXPECT_DOUBLE_EQ(losses.mean_squares(0, 1), 20.0 / 3.0);
@@ -98,9 +97,6 @@ TEST(UnitLosses, AreRefusedWhereInvalid) {
   UnitLosses bad = good;
   bad.rows = VectorXd::Ones(3);
   EXPECT_EQ(message_of(bad), "UnitLosses: 3 numbers of rows for 2 units");
-  bad = good;
-  bad.codes = {1};
-  EXPECT_EQ(message_of(bad), "UnitLosses: 1 codes for 2 units");
   bad = good;
   bad.rows[1] = 0.0;
   EXPECT_THAT(message_of(bad), HasSubstr("unit 1 has 0.000000 rows"));
