@@ -60,6 +60,8 @@ struct CsvTable {
   /// Text of a cell: its text if it is not a number, else the number in its
   /// shortest form.
   std::string CellText(const CsvColumn& column, std::size_t row) const;
+  /// Adds a remark, after the name of the file.
+  void Remark(const std::string& what);
 
   /// Series of rows on successive lines: (first row, its line), ascending; rows
   /// after comments, quoted line breaks or the header start a new series.

@@ -270,12 +270,11 @@ void TakeUnitsOfCells(bool decimal_comma, CsvTable* table) {
     const std::string& label = cells->label.text;
     if (!label.empty()) {
       TakeNumbers(*cells, &column);
-      table->remarks.push_back(
-          PrintablePath(table->file) + ": the cells of " +
-          QuotedName(column.name) +
-          (cells->label.is_axis ? " are words of a program, read as positions "
-                                : " begin with their name, ") +
-          label);
+      table->Remark("the cells of " + QuotedName(column.name) +
+                    (cells->label.is_axis
+                         ? " are words of a program, read as positions "
+                         : " begin with their name, ") +
+                    label);
       if (column.name == unnamed ||
           (cells->label.is_axis && !IsCalledPosition(column.name))) {
         column.name = FreeName(*table, label);
@@ -286,9 +285,9 @@ void TakeUnitsOfCells(bool decimal_comma, CsvTable* table) {
     if (!name) continue;
     column.name = *name;
     if (label.empty()) TakeNumbers(*cells, &column);
-    table->remarks.push_back(PrintablePath(table->file) + ": the cells of " +
-                             QuotedName(column.name) + " carry their unit (" +
-                             cells->unit + "), which is read as the column's");
+    table->Remark("the cells of " + QuotedName(column.name) +
+                  " carry their unit (" + cells->unit +
+                  "), which is read as the column's");
   }
 }
 
