@@ -25,10 +25,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kResults = "results.json";
 
-bool IsDigit(char c) {
-  return std::isdigit(static_cast<unsigned char>(c)) != 0;
-}
-
 std::string NameWithoutEndings(const std::string& path) {
   if (std::string sheet = SplitSheetPath(path).sheet; !sheet.empty()) {
     return sheet;
@@ -93,10 +89,7 @@ bool IsTable(const fs::path& path) {
       {".csv", ".tsv", ".csv.gz", ".tsv.gz", ".xlsx", ".xlsm", ".lvm"});
   const std::string name = path.filename().string();
   return std::ranges::any_of(kEndings, [&](std::string_view ending) {
-    return name.size() > ending.size() &&
-           EqualsIgnoringCase(
-               std::string_view(name).substr(name.size() - ending.size()),
-               ending);
+    return name.size() > ending.size() && EndsWithIgnoringCase(name, ending);
   });
 }
 

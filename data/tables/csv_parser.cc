@@ -447,7 +447,8 @@ class Parser {
   [[noreturn]] void ThrowAnotherTable(std::size_t line,
                                       std::size_t found) const {
     throw InputError(File() + ": line " + std::to_string(line) +
-                     ": another table begins here (" + FieldsText(found) +
+                     ": another table begins here (" +
+                     CountText(found, "field") +
                      "); keep one table in a file, and the others in files of "
                      "their own");
   }
