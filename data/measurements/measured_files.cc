@@ -115,7 +115,6 @@ std::string KindOf(const std::string& path) {
 }
 
 std::vector<std::string> TablesOf(const std::string& folder,
-                                  const std::string& command,
                                   std::vector<std::string>* remarks) {
   const std::string shown = PrintablePath(folder);
   std::error_code error;
@@ -159,8 +158,8 @@ std::vector<std::string> TablesOf(const std::string& folder,
     throw InputError(
         shown + ": is a folder of several components, by the names of its " +
         std::to_string(tables.size()) + " files; map each: " + init +
-        " writes a study of them. If they are days of one: errmap " + command +
-        " " + shown + "/*");
+        " writes a study of them. If they are days of one: errmap compare " +
+        shown + "/*");
   }
   if (!others.empty()) {
     std::ranges::sort(others);
@@ -183,8 +182,7 @@ bool IsOfComparison(const std::string& table) {
   return fs::exists(folder / kResults, ignored);
 }
 
-MeasuredFiles FindFiles(const std::vector<std::string>& given,
-                        const std::string& command) {
+MeasuredFiles FindFiles(const std::vector<std::string>& given) {
   MeasuredFiles found;
   for (const std::string& path : given) {
     std::error_code ignored;
@@ -212,8 +210,7 @@ MeasuredFiles FindFiles(const std::vector<std::string>& given,
       found.paths.push_back(path);
       continue;
     }
-    const std::vector<std::string> tables =
-        TablesOf(path, command, &found.remarks);
+    const std::vector<std::string> tables = TablesOf(path, &found.remarks);
     found.paths.insert(found.paths.end(), tables.begin(), tables.end());
   }
   std::set<std::string> seen;
