@@ -17,8 +17,6 @@ constexpr std::string_view kForeignUnits =
     "furlong furlongs fathom fathoms yard yards mile miles angstrom angstroms "
     "gon gradian gradians parsec tenths mm2 mm3 cm2 cm3";
 
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
-
 bool IsDigits(std::string_view text) {
   return !text.empty() &&
          text.find_first_not_of("0123456789") == std::string_view::npos;

@@ -1,46 +1,22 @@
 #pragma once
 
 #include <cstddef>
-#include <iterator>
 #include <memory>
 #include <utility>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace errmap::data {
 
 /// The numbers of a column: its own, or a caller's, read in place.
 class ColumnValues {
  public:
-  class Iterator {
-   public:
-    using iterator_category = std::input_iterator_tag;
-    using value_type = double;
-    using difference_type = std::ptrdiff_t;
-    using pointer = const double*;
-    using reference = const double&;
-
-    Iterator() = default;
-    Iterator(const double* at, std::ptrdiff_t stride)
-        : at_(at), stride_(stride) {}
-    const double& operator*() const { return *at_; }
-    Iterator& operator++() {
-      at_ += stride_;
-      return *this;
-    }
-    Iterator operator++(int) {
-      Iterator before = *this;
-      ++*this;
-      return before;
-    }
-    bool operator==(const Iterator&) const = default;
-
-   private:
-    const double* at_ = nullptr;
-    std::ptrdiff_t stride_ = 1;
-  };
+  using View =
+      Eigen::Map<const Eigen::ArrayXd, Eigen::Unaligned, Eigen::InnerStride<>>;
   using value_type = double;
-  using const_iterator = Iterator;
-  using iterator = Iterator;
+  using const_iterator = View::const_iterator;
+  using iterator = const_iterator;
   using const_reference = const double&;
 
   ColumnValues() = default;
@@ -64,21 +40,10 @@ class ColumnValues {
     return is_borrowed() ? first_[static_cast<std::ptrdiff_t>(i) * stride_]
                          : own_[i];
   }
-  Iterator begin() const {
-    return is_borrowed() ? Iterator(first_, stride_) : Iterator(own_.data(), 1);
-  }
-  Iterator end() const {
-    return is_borrowed()
-               ? Iterator(first_ + static_cast<std::ptrdiff_t>(size_) * stride_,
-                          stride_)
-               : Iterator(own_.data() + own_.size(), 1);
-  }
+  const_iterator begin() const { return view().cbegin(); }
+  const_iterator end() const { return view().cend(); }
   bool operator==(const ColumnValues& other) const {
-    if (size() != other.size()) return false;
-    for (std::size_t i = 0; i < size(); ++i) {
-      if ((*this)[i] != other[i]) return false;
-    }
-    return true;
+    return size() == other.size() && (view() == other.view()).all();
   }
 
   operator std::vector<double>() const { return {begin(), end()}; }
@@ -93,6 +58,11 @@ class ColumnValues {
 
  private:
   bool is_borrowed() const { return keeper_ != nullptr; }
+  View view() const {
+    return {is_borrowed() ? first_ : own_.data(),
+            static_cast<Eigen::Index>(size()),
+            Eigen::InnerStride<>(is_borrowed() ? stride_ : 1)};
+  }
 
   std::vector<double> own_;
   const double* first_ = nullptr;

@@ -60,6 +60,8 @@ struct CsvTable {
   /// Text of a cell: its text if it is not a number, else the number in its
   /// shortest form.
   std::string CellText(const CsvColumn& column, std::size_t row) const;
+  /// Adds a remark, after the name of the file.
+  void Remark(const std::string& what);
 
   /// Series of rows on successive lines: (first row, its line), ascending; rows
   /// after comments, quoted line breaks or the header start a new series.
@@ -85,10 +87,10 @@ enum class OddRows { kRefuse, kOffer, kLeaveOut };
 /// Commas are decimal marks if they do not separate cells. Lines starting with
 /// `#`, blank lines at the end and a byte order mark are skipped. Text that is
 /// not UTF-8 is converted from Latin-1, or, with a remark, from the encoding
-/// that gives more known words (tables/text_encoding.h). A gzip file is
-/// unpacked first, up to kMostTextOfPrograms. Of an xlsx file one sheet is read
-/// ("book.xlsx:Day 2", formats/spreadsheet.h). Linear time, about twice the
-/// file's memory; independent of the locale.
+/// that gives more known words (tables/text/text_encoding.h). A gzip file is
+/// unpacked first, up to kMostTextOfPrograms and MostUnpacked. Of an xlsx file
+/// one sheet is read ("book.xlsx:Day 2", tables/text/spreadsheet.h). Linear
+/// time, about twice the file's memory; independent of the locale.
 ///
 /// Read with a remark:
 /// - lines above the table (`titles`), blank lines, names repeated between rows
@@ -99,8 +101,10 @@ enum class OddRows { kRefuse, kOffer, kLeaveOut };
 /// - a column for each position ("e@-215.9mm_um", "X=25 mm"), run ("Run 1 up
 ///   [um]") or direction ("Error up [um]"): a row for each reading. Rows of one
 ///   reading or one variable each become such rows, too
-/// - numbers as people write them (loose_numbers.h), points between thousands,
-///   single quotes, and columns aligned by blanks (tables/rewritten_text.h)
+/// - numbers as people write them (tables/cells/loose_numbers.h), points
+/// between
+///   thousands, single quotes, and columns aligned by blanks
+///   (tables/text/rewritten_text.h)
 /// An unnamed column is called column_N (`has_name` is false).
 ///
 /// Throws InputError for an unreadable or empty file, a header alone, a number

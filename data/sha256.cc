@@ -11,10 +11,6 @@
 namespace errmap::data {
 namespace {
 
-struct FreeContext {
-  void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
-};
-
 void Require(bool done) {
   if (done) return;
   // What begins no digest for want of memory says no more than that.
@@ -27,32 +23,28 @@ void Require(bool done) {
 
 }  // namespace
 
-struct Sha256Stream::State {
-  std::unique_ptr<EVP_MD_CTX, FreeContext> context{EVP_MD_CTX_new()};
-};
-
-Sha256Stream::Sha256Stream() : state_(std::make_unique<State>()) {
-  if (state_->context == nullptr) throw std::bad_alloc();
-  Require(EVP_DigestInit_ex(state_->context.get(), EVP_sha256(), nullptr) == 1);
+void Sha256Stream::Free::operator()(evp_md_ctx_st* context) const {
+  EVP_MD_CTX_free(context);
 }
 
-Sha256Stream::~Sha256Stream() = default;
+Sha256Stream::Sha256Stream() : context_(EVP_MD_CTX_new()) {
+  if (context_ == nullptr) throw std::bad_alloc();
+  Require(EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
+}
 
 // Without a name the context keeps its algorithm, which saves a look-up.
 void Sha256Stream::Begin() {
-  Require(EVP_DigestInit_ex(state_->context.get(), nullptr, nullptr) == 1);
+  Require(EVP_DigestInit_ex(context_.get(), nullptr, nullptr) == 1);
 }
 
 void Sha256Stream::Add(std::string_view bytes) {
-  Require(EVP_DigestUpdate(state_->context.get(), bytes.data(), bytes.size()) ==
-          1);
+  Require(EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) == 1);
 }
 
 std::string Sha256Stream::Finish() {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned int length = 0;
-  Require(EVP_DigestFinal_ex(state_->context.get(), digest.data(), &length) ==
-          1);
+  Require(EVP_DigestFinal_ex(context_.get(), digest.data(), &length) == 1);
   Begin();
   return {digest.begin(), digest.begin() + length};
 }

@@ -4,25 +4,26 @@
 #include <string>
 #include <string_view>
 
+struct evp_md_ctx_st;  // OpenSSL's
+
 namespace errmap::data {
 
 /// SHA-256 (FIPS 180-4) of bytes given in pieces.
 class Sha256Stream {
  public:
   Sha256Stream();
-  ~Sha256Stream();
-  Sha256Stream(const Sha256Stream&) = delete;
-  Sha256Stream& operator=(const Sha256Stream&) = delete;
 
   void Add(std::string_view bytes);
   /// Returns the 32 bytes of the digest and starts again.
   std::string Finish();
 
  private:
-  struct State;
+  struct Free {
+    void operator()(evp_md_ctx_st* context) const;
+  };
   void Begin();
 
-  std::unique_ptr<State> state_;
+  std::unique_ptr<evp_md_ctx_st, Free> context_;
 };
 
 /// Two lower-case digits per byte.

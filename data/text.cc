@@ -35,9 +35,8 @@ std::string Escaped(unsigned char byte) {
   }
 }
 
-// Single-character insertions, deletions and substitutions from a to b
-// (Levenshtein 1966), row by row of the usual table.
-// Of letters inserted, left out, replaced, or two of them swapped.
+// Letters inserted, left out, replaced, or neighbours swapped, from a to b
+// (Damerau 1964, each letter edited once), row by row of the usual table.
 std::size_t EditDistance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::vector<std::size_t> above = row;
@@ -98,6 +97,17 @@ bool EqualsIgnoringCase(std::string_view a, std::string_view b) {
 bool StartsWithIgnoringCase(std::string_view text, std::string_view prefix) {
   return text.size() >= prefix.size() &&
          EqualsIgnoringCase(text.substr(0, prefix.size()), prefix);
+}
+
+bool EndsWithIgnoringCase(std::string_view text, std::string_view ending) {
+  return text.size() >= ending.size() &&
+         EqualsIgnoringCase(text.substr(text.size() - ending.size()), ending);
+}
+
+std::string LowerCase(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(), Lower);
+  return lower;
 }
 
 std::vector<std::string_view> SplitWords(std::string_view text) {
@@ -187,6 +197,11 @@ std::string QuotedText(std::string_view text) {
 
 std::string QuotedName(std::string_view name) {
   return "'" + Printable(name, kNameLimit) + "'";
+}
+
+std::string CountText(std::size_t count, std::string_view what) {
+  return std::to_string(count) + " " + std::string(what) +
+         (count == 1 ? "" : "s");
 }
 
 std::string AsUtf8(std::string_view text) {

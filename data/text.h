@@ -14,6 +14,9 @@ std::string_view Trimmed(std::string_view text);
 /// Compares texts without regard to the case of ASCII letters.
 bool EqualsIgnoringCase(std::string_view a, std::string_view b);
 bool StartsWithIgnoringCase(std::string_view text, std::string_view prefix);
+bool EndsWithIgnoringCase(std::string_view text, std::string_view ending);
+/// Returns the text with its ASCII letters in lower case.
+std::string LowerCase(std::string_view text);
 
 /// Returns the words of "one two", separated by single blanks; views into the
 /// text.
@@ -22,6 +25,7 @@ std::vector<std::string_view> SplitWords(std::string_view text);
 /// True if a word is among those of "one two", in any case.
 bool IsOneOf(std::string_view word, std::string_view words);
 
+constexpr bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 /// True if one of its characters is 0 to 9.
 bool HasDigit(std::string_view text);
 
@@ -49,6 +53,9 @@ std::string PrintablePath(std::string_view path);
 /// Returns printable text of a cell, or name of a column, in single quotes.
 std::string QuotedText(std::string_view text);
 std::string QuotedName(std::string_view name);
+
+/// Returns "1 row" or "3 rows".
+std::string CountText(std::size_t count, std::string_view what);
 
 /// Joins words with `between`. If there are more than `most`, "and 3 more"
 /// replaces the rest.

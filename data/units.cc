@@ -139,14 +139,6 @@ void ReplaceAll(std::string_view from, std::string_view to, std::string* text) {
   }
 }
 
-std::string LowerCase(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return lower;
-}
-
 // The case that a bare symbol stands in matters where it is short and the
 // quantity is none that errors have: "x_V" is in volts, "x_v" a name.
 bool AnyCaseServes(const KnownUnit& unit, UnitPlace place) {

@@ -11,12 +11,10 @@ SheetPath SplitSheetPath(const std::string& path) {
   constexpr auto kEndings = std::to_array<std::string_view>({".xlsx", ".xlsm"});
   // No sheet's name may hold a colon.
   const std::size_t colon = path.rfind(':');
+  const std::string file = path.substr(0, colon);
   for (const std::string_view ending : kEndings) {
-    if (colon == std::string::npos || colon < ending.size()) break;
-    if (EqualsIgnoringCase(
-            std::string_view(path).substr(colon - ending.size(), ending.size()),
-            ending)) {
-      return {path.substr(0, colon), path.substr(colon + 1)};
+    if (colon != path.npos && EndsWithIgnoringCase(file, ending)) {
+      return {file, path.substr(colon + 1)};
     }
   }
   return {path, ""};

@@ -412,12 +412,9 @@ std::string StackedText(const PatternTable& table) {
 }  // namespace
 
 PatternForm PatternFormOf(std::string_view path) {
-  const auto ends_with = [&](std::string_view ending) {
-    return path.size() >= ending.size() &&
-           EqualsIgnoringCase(path.substr(path.size() - ending.size()), ending);
-  };
-  if (ends_with(".tab")) return PatternForm::kPlain;
-  return ends_with(".csv") ? PatternForm::kCsv : PatternForm::kStacked;
+  if (EndsWithIgnoringCase(path, ".tab")) return PatternForm::kPlain;
+  return EndsWithIgnoringCase(path, ".csv") ? PatternForm::kCsv
+                                            : PatternForm::kStacked;
 }
 
 PatternTable ReadPatterns(const std::string& path) {

@@ -194,13 +194,14 @@ std::string ValueText(const ColumnFilter& filter);
 /// command line's defaults. (The `= {}` let designated initialisers leave
 /// fields out.)
 struct DatasetSelection {
-  /// Default: the only column "error*". Also derived: "-correction_um",
+  /// Default: the only column of errors, by its name (ErrorSign, in several
+  /// languages) or its unit. Also derived: "-correction_um",
   /// "actual_mm-nominal_mm", "Error [um]" (reading/derived_columns.h).
   std::string target = {};
   std::vector<std::string> inputs = {};   // default: every other numeric column
   std::vector<std::string> exclude = {};  // never inputs
   std::string group = {};                 // default: "cycle" if there is one
-  std::string time = {};       // default: the only "time*", "zeit*"; sessions.h
+  std::string time = {};       // default: by name and values; clock_columns.h
   std::string session = {};    // default: the first of kSessionColumns
   std::string weight = {};     // default: none
   std::string position = {};   // default: by values and name; reading/axis.h
@@ -249,7 +250,7 @@ struct PreparedDataset {
 /// machine or tool, are not. Errors measured beside the target are left out
 /// with a remark unless named in `inputs`. These are columns of its stem
 /// (StemOfColumn), columns of its unit whose name differs only in the letter of
-/// an axis, and columns named `error*`. So are columns in nm, um, uin, arcsec
+/// an axis, and columns named as errors. So are columns in nm, um, uin, arcsec
 /// or urad, except positions and axes of one letter. Dead inputs are dropped
 /// with a remark unless `keep_dead`: one value in all rows, or an unnamed
 /// thermometer stuck from a row on. So are inputs that together give the target

@@ -25,10 +25,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kResults = "results.json";
 
-bool IsDigit(char c) {
-  return std::isdigit(static_cast<unsigned char>(c)) != 0;
-}
-
 std::string NameWithoutEndings(const std::string& path) {
   if (std::string sheet = SplitSheetPath(path).sheet; !sheet.empty()) {
     return sheet;
@@ -93,10 +89,7 @@ bool IsTable(const fs::path& path) {
       {".csv", ".tsv", ".csv.gz", ".tsv.gz", ".xlsx", ".xlsm", ".lvm"});
   const std::string name = path.filename().string();
   return std::ranges::any_of(kEndings, [&](std::string_view ending) {
-    return name.size() > ending.size() &&
-           EqualsIgnoringCase(
-               std::string_view(name).substr(name.size() - ending.size()),
-               ending);
+    return name.size() > ending.size() && EndsWithIgnoringCase(name, ending);
   });
 }
 
@@ -122,7 +115,6 @@ std::string KindOf(const std::string& path) {
 }
 
 std::vector<std::string> TablesOf(const std::string& folder,
-                                  const std::string& command,
                                   std::vector<std::string>* remarks) {
   const std::string shown = PrintablePath(folder);
   std::error_code error;
@@ -166,8 +158,8 @@ std::vector<std::string> TablesOf(const std::string& folder,
     throw InputError(
         shown + ": is a folder of several components, by the names of its " +
         std::to_string(tables.size()) + " files; map each: " + init +
-        " writes a study of them. If they are days of one: errmap " + command +
-        " " + shown + "/*");
+        " writes a study of them. If they are days of one: errmap compare " +
+        shown + "/*");
   }
   if (!others.empty()) {
     std::ranges::sort(others);
@@ -190,8 +182,7 @@ bool IsOfComparison(const std::string& table) {
   return fs::exists(folder / kResults, ignored);
 }
 
-MeasuredFiles FindFiles(const std::vector<std::string>& given,
-                        const std::string& command) {
+MeasuredFiles FindFiles(const std::vector<std::string>& given) {
   MeasuredFiles found;
   for (const std::string& path : given) {
     std::error_code ignored;
@@ -219,8 +210,7 @@ MeasuredFiles FindFiles(const std::vector<std::string>& given,
       found.paths.push_back(path);
       continue;
     }
-    const std::vector<std::string> tables =
-        TablesOf(path, command, &found.remarks);
+    const std::vector<std::string> tables = TablesOf(path, &found.remarks);
     found.paths.insert(found.paths.end(), tables.begin(), tables.end());
   }
   std::set<std::string> seen;

@@ -18,9 +18,8 @@ struct MeasuredFiles {
 /// Otherwise those of a folder are sorted alphabetically, with numbers by value
 /// (day2 before day10). Throws InputError for a study file, a comparison's
 /// residuals, and a folder without tables or with tables of several components
-/// by their names. `command` is how the message continues ("compare").
-MeasuredFiles FindFiles(const std::vector<std::string>& given,
-                        const std::string& command = "compare");
+/// by their names.
+MeasuredFiles FindFiles(const std::vector<std::string>& given);
 
 /// True if a table is one that `compare --out` wrote beside its results.json:
 /// residuals.csv, or one in residuals/.

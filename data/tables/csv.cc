@@ -72,6 +72,10 @@ std::string CsvTable::CellText(const CsvColumn& column, std::size_t row) const {
   return text != nullptr ? *text : CsvNumber(column.values[row]);
 }
 
+void CsvTable::Remark(const std::string& what) {
+  remarks.push_back(PrintablePath(file) + ": " + what);
+}
+
 CsvTable ReadCsv(const std::string& path, OddRows odd) {
   if (const CsvTable* const table = FilesInMemory::FindTable(path)) {
     return *table;

@@ -20,10 +20,6 @@ namespace {
 
 constexpr std::size_t kNone = std::string::npos;
 
-std::string NumberOf(std::size_t count, const char* what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 class LayoutFinder {
  public:
   LayoutFinder(const CsvCells& cells,
@@ -333,7 +329,7 @@ class LayoutFinder {
       list += (list.empty() ? "" : ", ") + QuotedText(title);
     }
     if (layout_.titles.size() > kMostShown) list += " and more";
-    Say(NumberOf(layout_.titles.size(), "line") + " above the table: " + list);
+    Say(CountText(layout_.titles.size(), "line") + " above the table: " + list);
   }
 
   // Cells of a row, by the rows from `first` on.
@@ -381,7 +377,7 @@ class LayoutFinder {
     } else if (all_alike && std::find(names.begin(), beyond, "") == beyond &&
                std::none_of(beyond, names.end(), HasUnit)) {
       layout_.width = usual;
-      Say("the rows end before " + NumberOf(names.size() - usual, "column") +
+      Say("the rows end before " + CountText(names.size() - usual, "column") +
           " (" + QuotedName(AsUtf8(*beyond)) +
           (beyond + 1 == names.end() ? "" : ", ...") + "), which stay" +
           (beyond + 1 == names.end() ? "s" : "") + " empty");

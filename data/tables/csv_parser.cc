@@ -46,7 +46,7 @@ class Parser {
                   .decimal_comma = cells_.delimiter != ','};
     }
     layout_ = FindLayout(cells_, dialect_, text_);
-    for (const std::string& remark : layout_.remarks) Say(remark);
+    for (const std::string& remark : layout_.remarks) table_.Remark(remark);
     TakeNames();
     cells_.GoTo(layout_.data);
     TakeUnitsRow();
@@ -56,7 +56,7 @@ class Parser {
     const CsvCells::Position begin = cells_.position();
     rows_.emplace(&table_);
     ReadRows();
-    if (rows_->PartThousands([this](const std::string& what) { Say(what); })) {
+    if (rows_->PartThousands()) {
       odd_rows_ = {};
       title_lines_.clear();
       blanks_.clear();
@@ -67,8 +67,8 @@ class Parser {
     }
     JudgeOddRows();
     rows_->DropTextsOfUndone();
-    for (const std::string& line : odd_rows_.PassedOver()) Say(line);
-    for (const std::string& line : loose_.Remarks()) Say(line);
+    for (const std::string& line : odd_rows_.PassedOver()) table_.Remark(line);
+    for (const std::string& line : loose_.Remarks()) table_.Remark(line);
     LeaveEmptyColumns();
     TakeUnitsOfCells(dialect_.decimal_comma, &table_);
     TakeTitles();
@@ -96,10 +96,6 @@ class Parser {
 
   [[noreturn]] void ThrowAt(std::size_t line, const std::string& what) const {
     throw InputError(Place(line) + ": " + what);
-  }
-
-  void Say(const std::string& what) {
-    table_.remarks.push_back(File() + ": " + what);
   }
 
   bool AtMark() const {
@@ -172,7 +168,8 @@ class Parser {
     if (num == 0) return;
     constexpr std::size_t kMostShown = 5;
     named.again.resize(std::min(num, kMostShown));
-    Say("columns of one name: the later " +
+    table_.Remark(
+        "columns of one name: the later " +
         std::string(num == 1 ? "is" : "are") + " read as " +
         JoinWords(named.again, ", ") + (num > kMostShown ? ", ..." : "") +
         (IsSideBySide() ? "; of tables side by side put one below the other"
@@ -307,8 +304,9 @@ class Parser {
         FindCutLine(cells_.rest(), cells_.delimiter);
     if (!cut) return;
     cells_.LeaveOutEnd(cut->start);
-    Say("the last line breaks off in mid number (" + QuotedText(cut->number) +
-        ") and is left out; complete it, or end it with a line end");
+    table_.Remark("the last line breaks off in mid number (" +
+                  QuotedText(cut->number) +
+                  ") and is left out; complete it, or end it with a line end");
   }
 
   // No more rows than lines, and none shorter than its delimiters. Memory that
@@ -449,7 +447,8 @@ class Parser {
   [[noreturn]] void ThrowAnotherTable(std::size_t line,
                                       std::size_t found) const {
     throw InputError(File() + ": line " + std::to_string(line) +
-                     ": another table begins here (" + FieldsText(found) +
+                     ": another table begins here (" +
+                     CountText(found, "field") +
                      "); keep one table in a file, and the others in files of "
                      "their own");
   }
@@ -486,7 +485,7 @@ class Parser {
       throw InputError(File() + ": " +
                        odd_rows_.RefusalText(
                            layout_, table_.num_rows, odd_, cells_.delimiter));
-    Say(odd_rows_.LeftOutText(layout_));
+    table_.Remark(odd_rows_.LeftOutText(layout_));
   }
 
   // ---- Cells.

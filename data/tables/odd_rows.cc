@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "data/argument_name.h"
+#include "data/text.h"
 
 namespace errmap::data {
 namespace {
@@ -13,10 +14,6 @@ std::string ExpectedText(const CsvLayout& layout) {
 }
 
 }  // namespace
-
-std::string FieldsText(std::size_t count) {
-  return std::to_string(count) + (count == 1 ? " field" : " fields");
-}
 
 void OddRowList::Add(std::size_t line,
                      std::size_t cells,
@@ -63,13 +60,14 @@ std::string OddRowList::RefusalText(const CsvLayout& layout,
   std::string what;
   if (is_all) {
     what = "line " + std::to_string(first.first) + ": " +
-           FieldsText(first.cells) + ", in all rows, where the header has " +
+           CountText(first.cells, "field") +
+           ", in all rows, where the header has " +
            std::to_string(layout.width) +
            "; give it a name for each, or take the others out";
   } else if (is_one) {
     what =
         "line " + std::to_string(first.first) + " (data row " +
-        std::to_string(first_row_) + "): " + FieldsText(first.cells) +
+        std::to_string(first_row_) + "): " + CountText(first.cells, "field") +
         " where " +
         (layout.header_line == 0 ? "the other rows have " : "the header has ") +
         std::to_string(layout.width) + "; complete the row or remove it";
@@ -94,18 +92,15 @@ std::vector<std::string> OddRowList::PassedOver() const {
   std::vector<std::string> lines;
   if (blank_ > 0) {
     lines.push_back("blank lines between rows are passed over, in " +
-                    std::to_string(blank_) +
-                    (blank_ == 1 ? " place" : " places"));
+                    CountText(blank_, "place"));
   }
   if (names_ > 0) {
     lines.push_back("the names stand between the rows again, " +
-                    std::to_string(names_) +
-                    (names_ == 1 ? " time" : " times") +
+                    CountText(names_, "time") +
                     ": what is below them is read as the same table");
   }
   if (!words_.empty()) {
-    lines.push_back(std::to_string(words_.size()) +
-                    (words_.size() == 1 ? " line" : " lines") +
+    lines.push_back(CountText(words_.size(), "line") +
                     " of words among the rows: " + QuotedText(words_.front()) +
                     (words_.size() == 1 ? "" : ", ..."));
   }

@@ -9,9 +9,6 @@
 
 namespace errmap::data {
 
-/// "1 field", "3 fields".
-std::string FieldsText(std::size_t count);
-
 /// The lines of a file that are not rows of its table: rows with another number
 /// of cells than the header, blank lines between rows, repeated names.
 class OddRowList {

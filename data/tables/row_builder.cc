@@ -71,9 +71,8 @@ void RowBuilder::Undo(std::size_t cells) {
   }
 }
 
-bool RowBuilder::PartThousands(
-    const std::function<void(const std::string&)>& say) {
-  if (!data::PartThousands(table_, &shapes_, say)) return false;
+bool RowBuilder::PartThousands() {
+  if (!data::PartThousands(&shapes_, &table_)) return false;
   for (CsvColumn& column : table_.columns) {
     column.values = {};
     column.exceptions.clear();

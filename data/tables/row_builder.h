@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,7 +37,7 @@ class RowBuilder {
 
   /// Returns true, and removes all rows, if they must be read again because
   /// columns have thousands separators.
-  bool PartThousands(const std::function<void(const std::string&)>& say);
+  bool PartThousands();
   /// Drops texts that only removed rows had.
   void DropTextsOfUndone();
 

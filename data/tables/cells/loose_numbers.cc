@@ -20,8 +20,6 @@
 namespace errmap::data {
 namespace {
 
-bool IsNumeral(char c) { return c >= '0' && c <= '9'; }
-
 std::size_t DigitsOf(std::string_view text) {
   return std::min(text.find_first_not_of("0123456789"), text.size());
 }
@@ -98,7 +96,7 @@ Loose ReadLooseNumber(std::string_view cell,
     sign = dash == "+" ? "" : "-";
     break;
   }
-  if (cell.empty() || !IsNumeral(cell.front())) return Loose::kNone;
+  if (cell.empty() || !IsDigit(cell.front())) return Loose::kNone;
   if (sign.empty() && cell.ends_with('-')) {  // as SAP writes it
     cell.remove_suffix(1);
     sign = "-";
@@ -132,7 +130,7 @@ Loose ReadLooseNumber(std::string_view cell,
 CellLabel TakeLabel(std::string_view* cell) {
   std::string_view rest = *cell;
   while (rest.size() > 2 && (rest[0] == 'N' || rest[0] == 'G') &&
-         IsNumeral(rest[1])) {
+         IsDigit(rest[1])) {
     rest = Trimmed(rest.substr(1 + DigitsOf(rest.substr(1))));
   }
   constexpr std::string_view kAxes = "XYZUVWABC";
@@ -149,7 +147,7 @@ CellLabel TakeLabel(std::string_view* cell) {
   // "X1" may be the name of a place, "run-1" that of a run.
   const std::size_t mark = rest.find_first_of(".,");
   const bool has_decimals = mark != rest.npos && mark > 0 &&
-                            mark + 1 < rest.size() && IsNumeral(rest[mark - 1]);
+                            mark + 1 < rest.size() && IsDigit(rest[mark - 1]);
   const bool is_number =
       has_sign || has_decimals ||
       (label.is_axis &&
@@ -218,7 +216,7 @@ std::optional<UnitCells> ReadUnitCells(const CsvColumn& column,
     std::string unit(Trimmed(cell.substr(size)));
     const bool is_bare = unit.empty() && label.text.empty();
     const bool is_first = cells.unit.empty() && cells.label.text.empty();
-    if (is_bare || (!unit.empty() && IsNumeral(unit.back())) ||
+    if (is_bare || (!unit.empty() && IsDigit(unit.back())) ||
         !ReadNumberForm(cell.substr(0, size), decimal_comma, &form) ||
         !ReadUnitCell(&unit) || (unit.empty() && label.text.empty()) ||
         !(is_first || (cells.unit == unit && cells.label.text == label.text))) {
@@ -270,12 +268,11 @@ void TakeUnitsOfCells(bool decimal_comma, CsvTable* table) {
     const std::string& label = cells->label.text;
     if (!label.empty()) {
       TakeNumbers(*cells, &column);
-      table->remarks.push_back(
-          PrintablePath(table->file) + ": the cells of " +
-          QuotedName(column.name) +
-          (cells->label.is_axis ? " are words of a program, read as positions "
-                                : " begin with their name, ") +
-          label);
+      table->Remark("the cells of " + QuotedName(column.name) +
+                    (cells->label.is_axis
+                         ? " are words of a program, read as positions "
+                         : " begin with their name, ") +
+                    label);
       if (column.name == unnamed ||
           (cells->label.is_axis && !IsCalledPosition(column.name))) {
         column.name = FreeName(*table, label);
@@ -286,9 +283,9 @@ void TakeUnitsOfCells(bool decimal_comma, CsvTable* table) {
     if (!name) continue;
     column.name = *name;
     if (label.empty()) TakeNumbers(*cells, &column);
-    table->remarks.push_back(PrintablePath(table->file) + ": the cells of " +
-                             QuotedName(column.name) + " carry their unit (" +
-                             cells->unit + "), which is read as the column's");
+    table->Remark("the cells of " + QuotedName(column.name) +
+                  " carry their unit (" + cells->unit +
+                  "), which is read as the column's");
   }
 }
 

@@ -7,29 +7,6 @@
 
 namespace errmap::data {
 
-namespace {
-
-std::string TextOfRead(const std::string& column,
-                       const std::string& number,
-                       const std::string& line) {
-  return "column " + column +
-         " is read with marks between thousands, as its other numbers are "
-         "whole: " +
-         number + " (line " + line + ")";
-}
-
-std::string TextOfDoubt(const std::string& column,
-                        const std::string& number,
-                        const std::string& as_thousands,
-                        const std::string& line) {
-  return "column " + column +
-         " has numbers with three decimals among whole ones: " + number +
-         " (line " + line + "); if its mark parts thousands, write " +
-         as_thousands;
-}
-
-}  // namespace
-
 bool MayPartThousands(std::string_view number, std::size_t point) {
   const std::string_view behind = number.substr(point + 1);
   if (behind.size() != 3 ||
@@ -43,9 +20,7 @@ bool MayPartThousands(std::string_view number, std::size_t point) {
   return !before.empty() && before.size() <= 3 && before.front() != '0';
 }
 
-bool PartThousands(const CsvTable& table,
-                   std::vector<ColumnShape>* shapes,
-                   const std::function<void(const std::string&)>& say) {
+bool PartThousands(std::vector<ColumnShape>* shapes, CsvTable* table) {
   bool any = false;
   for (std::size_t i = 0; i < shapes->size(); ++i) {
     ColumnShape& shape = (*shapes)[i];
@@ -61,21 +36,27 @@ bool PartThousands(const CsvTable& table,
     }
     const bool go_on =
         kFourDigits * shape.least_parted <= kNext * shape.most_whole;
-    const CsvColumn& column = table.columns[i];
+    const CsvColumn& column = table->columns[i];
     const auto first =
         std::max(column.first_decimal_comma, column.first_decimal_point);
     const double value = column.values[static_cast<std::size_t>(first)];
     const std::string column_name = QuotedName(column.name);
     const std::string as_thousands = CsvNumber(kFourDigits * value);
     const std::string line =
-        std::to_string(table.LineOfRow(static_cast<std::size_t>(first)));
+        std::to_string(table->LineOfRow(static_cast<std::size_t>(first)));
     if (go_on && shape.most_whole >= kThreeDigits &&
         shape.most_whole < kFourDigits) {
       shape.by_thousands = true;
       any = true;
-      say(TextOfRead(column_name, as_thousands, line));
+      table->Remark("column " + column_name +
+                    " is read with marks between thousands, as its other "
+                    "numbers are whole: " +
+                    as_thousands + " (line " + line + ")");
     } else {
-      say(TextOfDoubt(column_name, CsvNumber(value), as_thousands, line));
+      table->Remark("column " + column_name +
+                    " has numbers with three decimals among whole ones: " +
+                    CsvNumber(value) + " (line " + line +
+                    "); if its mark parts thousands, write " + as_thousands);
     }
   }
   return any;

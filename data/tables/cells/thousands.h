@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -27,9 +26,7 @@ struct ColumnShape {
 bool MayPartThousands(std::string_view number, std::size_t point);
 
 /// Finds the columns of numbers in which points or commas separate thousands,
-/// and says so. Returns true if there is one: the rows must be read again.
-bool PartThousands(const CsvTable& table,
-                   std::vector<ColumnShape>* shapes,
-                   const std::function<void(const std::string&)>& say);
+/// with a remark. Returns true if there is one: the rows must be read again.
+bool PartThousands(std::vector<ColumnShape>* shapes, CsvTable* table);
 
 }  // namespace errmap::data

@@ -10,6 +10,7 @@
 #include "data/columns.h"
 #include "data/counted_labels.h"
 #include "data/text.h"
+#include "data/text_index.h"
 
 namespace errmap::data {
 namespace {
@@ -103,9 +104,6 @@ bool NamesSession(const std::string& text) {
 void PartByTitles(const std::vector<TitleLine>& lines,
                   std::size_t names_again,
                   CsvTable* table) {
-  const auto say = [&](const std::string& what) {
-    table->remarks.push_back(PrintablePath(table->file) + ": " + what);
-  };
   const std::vector<TitleLine> blocks = TitlesOfBlocks(lines, table->num_rows);
   std::vector<std::string> labels;
   for (const TitleLine& block : blocks) labels.push_back(block.text);
@@ -118,25 +116,26 @@ void PartByTitles(const std::vector<TitleLine>& lines,
              (Says(line.text, Word::kSession) || HoldsDate(line.text));
     });
     if (told != lines.end() && !tell) {
-      say("lines among the rows part no sessions: " + QuotedText(told->text) +
+      table->Remark(
+          "lines among the rows part no sessions: " + QuotedText(told->text) +
           "; a column 'day' or 'session' does");
     }
     return;
   }
   std::vector<std::ptrdiff_t> codes;
   std::vector<std::string> words;
+  TextIndex index;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const auto word = std::ranges::find(words, labels[i]);
-    const auto code = word - words.begin();
-    if (word == words.end()) words.push_back(labels[i]);
+    const std::ptrdiff_t code = index.IndexOf(labels[i], &words);
     const std::size_t end =
         i + 1 < blocks.size() ? blocks[i + 1].row : table->num_rows;
     codes.resize(end, code);
   }
-  say(std::to_string(blocks.size()) +
-      " lines that part the rows are read as a column " + QuotedName(name) +
-      ": " + QuotedText(blocks[0].text) + ", " + QuotedText(blocks[1].text) +
-      (blocks.size() > 2 ? ", ..." : ""));
+  table->Remark(std::to_string(blocks.size()) +
+                " lines that part the rows are read as a column " +
+                QuotedName(name) + ": " + QuotedText(blocks[0].text) + ", " +
+                QuotedText(blocks[1].text) +
+                (blocks.size() > 2 ? ", ..." : ""));
   table->columns.push_back(WordColumn(name, codes, std::move(words)));
 }
 
@@ -158,9 +157,8 @@ void PartByBlankLines(const std::vector<BlankLines>& blanks, CsvTable* table) {
     numbers.resize(starts[i + 1], static_cast<double>(i + 1));
   }
   table->columns.push_back(NumberColumn(name, std::move(numbers)));
-  table->remarks.push_back(PrintablePath(table->file) +
-                           ": the rows between blank lines are numbered in a "
-                           "column 'block'");
+  table->Remark(
+      "the rows between blank lines are numbered in a column 'block'");
 }
 
 }  // namespace errmap::data

@@ -387,9 +387,8 @@ void MentionNumbered(CsvTable* table) {
   }
   for (const auto& [quantity, names] : numbered) {
     if (names.size() < kFewestPositions) continue;
-    table->remarks.push_back(
-        PrintablePath(table->file) + ": " + names.front() + " to " +
-        names.back() +
+    table->Remark(
+        names.front() + " to " + names.back() +
         " are columns of their own; a column for each position is called "
         "error_um@50mm, one for each run 'Run 1 [um]'");
   }
@@ -435,13 +434,12 @@ void FoldPositions(CsvTable* table) {
     runs.emplace_back(
         row, table->LineOfRow(static_cast<std::size_t>(places.rows[row])));
   }
-  table->remarks.push_back(
-      PrintablePath(table->file) + ": " + std::to_string(table->num_rows) +
-      " rows with " + fold->what + " are read as " + std::to_string(rows) +
-      " rows, of " + JoinWords(names, ", ") +
-      (fold->made.empty()
-           ? ""
-           : "; " + JoinWords(fold->made, ", ") + " made of these left out"));
+  table->Remark(std::to_string(table->num_rows) + " rows with " + fold->what +
+                " are read as " + std::to_string(rows) + " rows, of " +
+                JoinWords(names, ", ") +
+                (fold->made.empty() ? ""
+                                    : "; " + JoinWords(fold->made, ", ") +
+                                          " made of these left out"));
   table->columns = std::move(columns);
   table->line_runs = std::move(runs);
   table->num_rows = rows;

@@ -172,11 +172,11 @@ void SpreadReadings(CsvTable* table) {
     std::optional<CsvTable> spread =
         Spreader(*table, i, std::move(found)).Spread(at);
     if (!spread) continue;
-    spread->remarks.push_back(
-        PrintablePath(table->file) + ": " + std::to_string(table->num_rows) +
-        " rows of one reading each are read as " +
-        std::to_string(spread->num_rows) + ", with a column for each " +
-        QuotedName(table->columns[i].name));
+    spread->Remark(std::to_string(table->num_rows) +
+                   " rows of one reading each are read as " +
+                   std::to_string(spread->num_rows) +
+                   ", with a column for each " +
+                   QuotedName(table->columns[i].name));
     *table = std::move(*spread);
     return;
   }

@@ -21,8 +21,6 @@ bool IsErrorWord(std::string_view word) {
   return IsOneOf(word, "e") || IsWord(PlainText(word), Word::kError);
 }
 
-bool IsDigitOfName(char c) { return kDigits.find(c) != kDigits.npos; }
-
 std::string QuantityOf(std::string_view before, std::string_view after) {
   std::string name(Trimmed(before));
   if (name.empty() || EqualsIgnoringCase(name, "e") ||
@@ -69,8 +67,7 @@ std::optional<std::string_view> BeforePlace(std::string_view before) {
 std::string WithPoints(std::string_view name) {
   std::string text(name);
   for (std::size_t i = 1; i + 1 < text.size(); ++i) {
-    if (text[i] == ',' && IsDigitOfName(text[i - 1]) &&
-        IsDigitOfName(text[i + 1])) {
+    if (text[i] == ',' && IsDigit(text[i - 1]) && IsDigit(text[i + 1])) {
       text[i] = '.';
     }
   }
@@ -125,10 +122,10 @@ std::string_view TakePart(std::string_view* rest) {
   rest->remove_prefix(
       std::min(rest->find_first_not_of(kBetween), rest->size()));
   if (rest->empty()) return "";
-  const bool digits = IsDigitOfName(rest->front());
+  const bool digits = IsDigit(rest->front());
   std::size_t end = 0;
   while (end < rest->size() && kBetween.find((*rest)[end]) == kBetween.npos &&
-         IsDigitOfName((*rest)[end]) == digits) {
+         IsDigit((*rest)[end]) == digits) {
     ++end;
   }
   const std::string_view part = rest->substr(0, end);
@@ -214,7 +211,7 @@ std::optional<RunName> ReadRunName(std::string_view name) {
     // Fans are numbered, too.
     const std::optional<bool> up =
         IsOneOf(word, "fan") ? std::nullopt : IsUpwards(word);
-    if (IsDigitOfName(word.front())) {
+    if (IsDigit(word.front())) {
       std::from_chars(word.data(), word.data() + word.size(), *number);
     } else if (IsOneOf(word, kRuns)) {
       is_run = true;
@@ -225,12 +222,12 @@ std::optional<RunName> ReadRunName(std::string_view name) {
       // "Pos 3" is a position.
       const bool is_place = IsWord(PlainText(word), Word::kPosition);
       const std::size_t next = rest.find_first_not_of(" _.#");
-      if (is_place && next != rest.npos && IsDigitOfName(rest[next])) {
+      if (is_place && next != rest.npos && IsDigit(rest[next])) {
         return std::nullopt;
       }
       said.direction = *up ? "up" : "down";
       said.is_letter =
-          word.size() == 1 && !rest.empty() && IsDigitOfName(rest.front());
+          word.size() == 1 && !rest.empty() && IsDigit(rest.front());
       // "f1" may be anything, "1 fwd" is a run.
       is_run = is_run || word.size() > 1;
     } else if (!IsErrorWord(word) && !IsOneOf(word, kLetters)) {

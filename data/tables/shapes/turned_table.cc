@@ -66,9 +66,8 @@ void TurnTable(CsvTable* table) {
     }
     columns.push_back(std::move(all));
   }
-  table->remarks.push_back(PrintablePath(table->file) + ": " +
-                           std::to_string(table->num_rows) +
-                           " rows of one variable each are read as columns");
+  table->Remark(std::to_string(table->num_rows) +
+                " rows of one variable each are read as columns");
   table->columns = std::move(columns);
   table->line_runs.clear();
   for (std::size_t row = 0; row < readings; ++row) {

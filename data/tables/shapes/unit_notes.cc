@@ -111,9 +111,8 @@ void TakeUnitsOfNotes(CsvTable* table) {
       any = true;
     }
     if (any) {
-      table->remarks.push_back(PrintablePath(table->file) + ": " +
-                               QuotedText(text) +
-                               " gives the unit of columns that have none");
+      table->Remark(QuotedText(text) +
+                    " gives the unit of columns that have none");
     }
   }
 }

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "data/text.h"
+
 namespace errmap::models {
 namespace {
 
@@ -12,17 +14,9 @@ namespace {
 bool IsLetter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
 void DropTrailingUnderscores(std::string* text) {
   while (!text->empty() && text->back() == '_') text->pop_back();
-}
-
-std::string LowerCase(std::string text) {
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return text;
 }
 
 }  // namespace
@@ -30,7 +24,7 @@ std::string LowerCase(std::string text) {
 std::string SafeIdentifier(std::string_view text, std::size_t longest) {
   std::string safe;
   for (const char c : text) {
-    if (IsLetter(c) || IsDigit(c)) {
+    if (IsLetter(c) || data::IsDigit(c)) {
       safe += c;
     } else if (!safe.empty() && safe.back() != '_') {
       safe += '_';
@@ -48,7 +42,8 @@ std::vector<std::string> SafeIdentifiers(const std::vector<std::string>& texts,
   std::set<std::string> taken;
   for (const std::string& text : texts) {
     std::string name = SafeIdentifier(text, longest);
-    for (int number = 2; !taken.insert(LowerCase(name)).second; ++number) {
+    for (int number = 2; !taken.insert(data::LowerCase(name)).second;
+         ++number) {
       const std::string end = fmt::format("_{}", number);
       name = SafeIdentifier(text, longest - end.size()) + end;
     }
