@@ -120,6 +120,13 @@ void CountRoutine(const MapProgram& program,
 
 ProgramCost CostOf(const MapProgram& program) {
   ProgramCost cost;
+  if (program.read.empty()) {  // the map alone, without its controller
+    for (const Part part : {Part::kAdvance, Part::kEvaluate}) {
+      for (const Instruction& it : program.part(part)) {
+        Count(program, it, &cost);
+      }
+    }
+  }
   CountRoutine(program, program.read, &cost);
   CountRoutine(program, program.move, &cost);
   constexpr int kBesideState = 2;  // the map's identity and the sum
