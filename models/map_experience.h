@@ -31,10 +31,12 @@ struct StandingStill {
   double silence = 0.0;
 };
 
-/// First rows of the training sessions, as x'.
+/// First readings of the training sessions, as x': means of their first 20 s,
+/// which have less noise than one row.
 struct SessionStarts {
   VectorXd mean;        // (s)
   MatrixXd covariance;  // (s x s)
+  MatrixXd changes;     // (s x s) mean product of the changes since then
   Index sessions = 0;
 };
 

@@ -228,6 +228,7 @@ Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
       const Node node_of_starts = node.At("sessions").At("starts");
       RequireSize(node_of_starts.At("mean"), starts->mean, size);
       RequireSquare(node_of_starts.At("covariance"), starts->covariance, size);
+      RequireSquare(node_of_starts.At("changes"), starts->changes, size);
       if (starts->sessions < 2) {
         node_of_starts.At("sessions").Refuse("must be at least 2");
       }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <set>
 #include <utility>
 
 #include "data/text.h"
@@ -192,25 +191,58 @@ void SetLimits(const MatrixXd& states,
   trained->sessions->scatter = (scatter / mean).cwiseMax(1.0);
 }
 
+// Rows of each session, in their order.
+std::vector<std::vector<Index>> RowsOfSessions(const data::Dataset& training) {
+  std::vector<std::vector<Index>> rows;
+  Index row = 0;
+  for (const Index session : training.session_codes()) {
+    const auto at = static_cast<std::size_t>(session);
+    if (rows.size() <= at) rows.resize(at + 1);
+    rows[at].push_back(row++);
+  }
+  std::erase_if(rows, [](const auto& of_one) { return of_one.empty(); });
+  return rows;
+}
+
+// How many of a session's rows are its first readings: one without times.
+std::size_t CountFirstReadings(const data::Dataset& training,
+                               const std::vector<Index>& rows) {
+  const auto& log = training.log();
+  if (log == nullptr || log->time_unit != "s") return 1;
+  const auto time_of = [&](Index row) {
+    return log->time[training.log_rows()[static_cast<std::size_t>(row)]];
+  };
+  constexpr double kSeconds = 20.0;  // in which no temperature moves
+  const double until = time_of(rows.front()) + kSeconds;
+  const auto end = std::ranges::find_if(
+      rows, [&](Index row) { return time_of(row) > until; });
+  return static_cast<std::size_t>(end - rows.begin());
+}
+
 std::optional<SessionStarts> StartsOf(const data::Dataset& training,
                                       const Applicability& trained,
                                       const MatrixXd& states) {
   constexpr std::size_t kFewestSessions = 4;
-  std::set<Index> sessions;
-  std::vector<Index> rows;
-  Index row = 0;
-  for (const Index session : training.session_codes()) {
-    if (sessions.insert(session).second) rows.push_back(row);
-    ++row;
+  const std::vector<std::vector<Index>> sessions = RowsOfSessions(training);
+  if (sessions.size() < kFewestSessions) return std::nullopt;
+  const MatrixXd scaled = Scaled(trained, states);
+  MatrixXd first(std::ssize(sessions), scaled.cols());
+  MatrixXd changes = MatrixXd::Zero(scaled.cols(), scaled.cols());
+  for (Index i = 0; i < first.rows(); ++i) {
+    const std::vector<Index>& rows = sessions[static_cast<std::size_t>(i)];
+    const MatrixXd of_session = scaled(rows, Eigen::all);
+    const auto count = static_cast<Index>(CountFirstReadings(training, rows));
+    first.row(i) = of_session.topRows(count).colwise().mean();
+    const MatrixXd since = of_session.rowwise() - first.row(i);
+    changes += since.transpose() * since;
   }
-  if (rows.size() < kFewestSessions) return std::nullopt;
-  const MatrixXd first = Scaled(trained, states(rows, Eigen::all));
   const VectorXd mean = first.colwise().mean();
   const MatrixXd apart = first.rowwise() - mean.transpose();
   return SessionStarts{.mean = mean,
                        .covariance = apart.transpose() * apart /
-                                     static_cast<double>(rows.size() - 1),
-                       .sessions = std::ssize(rows)};
+                                     static_cast<double>(sessions.size() - 1),
+                       .changes = changes / static_cast<double>(scaled.rows()),
+                       .sessions = std::ssize(sessions)};
 }
 
 // Applicability::repeats of the columns of these rows.

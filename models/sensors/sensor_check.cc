@@ -8,7 +8,7 @@
 
 #include "data/text.h"
 #include "models/map_experience.h"
-#include "models/sensors/first_readings.h"
+#include "models/sensors/session_readings.h"
 #include "models/trained_range.h"
 #include "stats/not_a_number.h"
 #include "stats/order_statistic.h"
@@ -76,62 +76,6 @@ std::optional<SensorFaultFound> Frozen(const FittedModel& fitted,
   return std::nullopt;
 }
 
-// The readings of a session, all columns together, against those of training.
-// Rows of a session are not independent: it counts as one draw, whose square
-// is the mean of theirs.
-class ReadingsTogether {
- public:
-  ReadingsTogether(const Applicability& trained, const MatrixXd& states)
-      : sessions_(*trained.sessions),
-        scale_(trained.scale),
-        scaled_(states.array().rowwise() / scale_.transpose().array()) {
-    const VectorXd mean = trained.mean.cwiseQuotient(scale_);
-    const MatrixXd apart = scaled_.rowwise() - mean.transpose();
-    pulled_ = apart * sessions_.precision;
-    square_ = apart.cwiseProduct(pulled_).rowwise().sum().mean();
-  }
-
-  // By how much a column is higher than all others tell, its unit.
-  double Shift(Index column) const {
-    return pulled_.col(column).mean() / sessions_.precision(column, column) *
-           scale_[column];
-  }
-  // Of the square, what such a shift, or an exchange of two, explains.
-  double ByShift(Index column) const {
-    const double mean = pulled_.col(column).mean();
-    return mean * mean / sessions_.precision(column, column);
-  }
-  double ByExchange(Index i, Index j) const {
-    const MatrixXd& precision = sessions_.precision;
-    const Eigen::ArrayXd apart = scaled_.col(i) - scaled_.col(j);
-    const double own =
-        precision(i, i) + precision(j, j) - 2.0 * precision(i, j);
-    return (2.0 * apart * (pulled_.col(i) - pulled_.col(j)).array() -
-            own * apart.square())
-        .mean();
-  }
-
-  // Log-likelihood gained, by a Student t of as many degrees of freedom as
-  // sessions were seen. What all columns leave tells its scale, of a column
-  // that scattered more than others `scatter` times that.
-  double Gain(double explained, double scatter = 1.0) const {
-    const auto freedom =
-        static_cast<double>(std::max<Index>(sessions_.units, 1));
-    const auto columns = static_cast<double>(scale_.size());
-    const double left = std::max(square_ - explained, 0.0);
-    const double scaled = std::max(explained, 0.0) * (freedom + columns) /
-                          (freedom + left) / scatter;
-    return 0.5 * (freedom + 1.0) * std::log1p(scaled / freedom);
-  }
-
- private:
-  const SessionReadings& sessions_;
-  const VectorXd& scale_;
-  MatrixXd scaled_;
-  MatrixXd pulled_;  // scaled, less their mean, times the precision
-  double square_ = 0.0;
-};
-
 // A fault that may be, and by how much more likely it makes the readings than
 // is asked of it.
 struct Suspect {
@@ -140,12 +84,9 @@ struct Suspect {
   double shown = 0.0;  // as `likelier`, by how its column itself scatters
 };
 
-// What is asked: more of a shift, which is fitted, than of an exchange. Of
-// sound sessions one in a hundred shows as much (tests/benchmarks/mornings.py).
-constexpr double kExchanged = 2.75;
-constexpr double kShifted = 3.75;
-// Of a fault of the first row, beyond the number of faults that may be.
-constexpr double kAtStart = 2.0;
+// What is asked of one, beyond the number of faults that may be: the more there
+// are, the likelier one of them fits by chance (tests/benchmarks/mornings.py).
+constexpr double kAsked = 0.5;
 
 // Calls off(i, found) for each state column and swapped(i, j, found) for each
 // pair in one unit.
@@ -172,20 +113,22 @@ void ForEachFault(const FittedModel& fitted, Off off, Swapped swapped) {
 std::vector<Suspect> SuspectsOf(const FittedModel& fitted,
                                 const MatrixXd& states) {
   std::vector<Suspect> suspects;
-  const ReadingsTogether readings(*fitted.applicability, states);
+  const SessionLikelihood readings(fitted, states);
   const VectorXd& scatter = fitted.applicability->sessions->scatter;
+  const auto columns = static_cast<double>(states.cols());
+  const double asked = readings.LogDensity() + kAsked +
+                       std::log(0.5 * columns * (columns + 1.0));
   const auto off = [&](Index i, SensorFaultFound found) {
     found.value = readings.Shift(i);
-    const double explained = readings.ByShift(i);
     suspects.push_back(
         {.found = std::move(found),
-         .likelier = readings.Gain(explained) - kShifted,
-         .shown = readings.Gain(explained, scatter[i]) - kShifted});
+         .likelier = readings.LogDensityShifted(i) - asked,
+         .shown = readings.LogDensityShifted(i, scatter[i]) - asked});
   };
   const auto swapped = [&](Index i, Index j, SensorFaultFound found) {
-    const double gain = readings.Gain(readings.ByExchange(i, j)) - kExchanged;
+    const double likelier = readings.LogDensitySwapped(i, j) - asked;
     suspects.push_back(
-        {.found = std::move(found), .likelier = gain, .shown = gain});
+        {.found = std::move(found), .likelier = likelier, .shown = likelier});
   };
   ForEachFault(fitted, off, swapped);
   return suspects;
@@ -238,39 +181,6 @@ std::optional<SensorFaultFound> AgainstTheOthers(const FittedModel& fitted,
   if (!(best->shown > 0.0)) return std::nullopt;
   if (IsExtrapolated(fitted, states, best->found)) return std::nullopt;
   return best->found;
-}
-
-// The fault that explains best how the first readings go together.
-std::optional<SensorFaultFound> AtTheStart(const FittedModel& fitted,
-                                           const MatrixXd& states) {
-  const Applicability& trained = *fitted.applicability;
-  if (!trained.sessions || !trained.sessions->starts || states.cols() < 3) {
-    return std::nullopt;
-  }
-  const FirstReadings readings(fitted);
-  const VectorXd first = states.row(0).transpose();
-  // The more faults may be, the likelier one of them fits by chance.
-  const auto columns = static_cast<double>(states.cols());
-  double likeliest = kAtStart + std::log(0.5 * columns * (columns + 1.0)) +
-                     readings.LogDensity(first);
-  std::optional<SensorFaultFound> found;
-  const auto suspect = [&](double log_density, SensorFaultFound fault) {
-    if (!(log_density > likeliest)) return;
-    likeliest = log_density;
-    found = std::move(fault);
-  };
-  const auto off = [&](Index i, SensorFaultFound fault) {
-    fault.value = readings.Shift(first, i);
-    suspect(readings.LogDensity(first, i), std::move(fault));
-  };
-  const auto swapped = [&](Index i, Index j, SensorFaultFound fault) {
-    VectorXd exchanged = first;
-    std::swap(exchanged[i], exchanged[j]);
-    suspect(readings.LogDensity(exchanged), std::move(fault));
-  };
-  ForEachFault(fitted, off, swapped);
-  if (found && IsExtrapolated(fitted, states, *found)) return std::nullopt;
-  return found;
 }
 
 std::vector<double> WithoutEmpty(const VectorXd& readings) {
@@ -356,7 +266,6 @@ std::optional<SensorFaultFound> FindSensorFault(const FittedModel& fitted,
   // What hangs soon stands elsewhere, too.
   auto found = Frozen(fitted, states);
   if (!found) found = AgainstTheOthers(fitted, states);
-  if (!found) found = AtTheStart(fitted, states);
   if (found) CallDead(fitted, readings, &*found);
   return found ? found : spike;
 }
