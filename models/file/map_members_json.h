@@ -120,7 +120,7 @@ void ReadMembers(const ModelJsonNode& node,
       } else if constexpr (requires { member.has_value(); }) {
         if (const auto found = node.Find(key)) {
           typename std::decay_t<decltype(member)>::value_type read{};
-          ReadMembers(*found, &read);
+          ReadMembers(*found, &read, {}, may_lack);
           member = std::move(read);
         }
       } else {

@@ -190,7 +190,12 @@ std::vector<Index> ReadColumnsOf(const Node& node,
 
 Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
   Applicability trained;
-  ReadMembers(node, &trained, {"columns"}, {"repeats", "standing"});
+  ReadMembers(node, &trained, {"columns"}, {"repeats", "standing", "changes"});
+  // The first starts were of single rows and without changes.
+  if (trained.sessions && trained.sessions->starts &&
+      trained.sessions->starts->changes.size() == 0) {
+    trained.sessions->starts.reset();
+  }
   for (std::size_t i = 0; i < trained.derived.size(); ++i) {
     if (fitted.history == nullptr ||
         std::ranges::find(fitted.history->form_inputs,

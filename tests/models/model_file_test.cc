@@ -9,6 +9,7 @@
 #include "data/input_error.h"
 #include "models/history/history.h"
 #include "models/history/with_history.h"
+#include "models/map_experience.h"
 #include "models/recipe_catalog.h"
 #include "models/uncertainty/promise.h"
 #include "tests/models/history/history_data.h"
@@ -220,6 +221,18 @@ TEST(ModelFile, RefusesReadingsWhosePrecisionIsIndefinite) {
       2.0 * (precision[0][0].get<double>() + precision[1][1].get<double>());
   precision[0][1] = precision[1][0] = beyond;
   EXPECT_THAT(RefusalOf(map), HasSubstr("must be positive definite"));
+}
+
+// The first starts of sessions were of single rows.
+TEST(ModelFile, ReadsFilesWhoseStartsHaveNoChanges) {
+  Json map = MapWithExperience();
+  Json& sessions = map["applicability"]["sessions"];
+  sessions["starts"] = {{"mean", sessions["scatter"]},
+                        {"covariance", sessions["precision"]},
+                        {"sessions", 4}};
+  const FittedModel read = ModelFromJson(map.dump(), "old.json");
+  ASSERT_TRUE(read.applicability->sessions.has_value());
+  EXPECT_FALSE(read.applicability->sessions->starts.has_value());
 }
 
 TEST(ModelFile, RefusesHeldOutErrorsThatGoBackInTime) {

@@ -9,6 +9,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
+#include "data/measurements/dataset.h"
+
 namespace errmap::data {
 namespace {
 
