@@ -1,6 +1,7 @@
 #include "models/history/rows_made_for.h"
 
 #include "data/measurements/axis/directions.h"
+#include "data/measurements/column_checks.h"
 #include "data/measurements/row_filters.h"
 
 namespace errmap::models {

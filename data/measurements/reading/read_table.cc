@@ -17,6 +17,7 @@
 #include "data/measurements/reading/passes.h"
 #include "data/measurements/reading/row_order.h"
 #include "data/measurements/row_filters.h"
+#include "data/text.h"
 
 namespace errmap::data {
 namespace {

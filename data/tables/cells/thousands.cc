@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "data/text.h"
 
 namespace errmap::data {
@@ -42,21 +44,26 @@ bool PartThousands(std::vector<ColumnShape>* shapes, CsvTable* table) {
     const double value = column.values[static_cast<std::size_t>(first)];
     const std::string column_name = QuotedName(column.name);
     const std::string as_thousands = CsvNumber(kFourDigits * value);
-    const std::string line =
-        std::to_string(table->LineOfRow(static_cast<std::size_t>(first)));
+    const auto line = table->LineOfRow(static_cast<std::size_t>(first));
     if (go_on && shape.most_whole >= kThreeDigits &&
         shape.most_whole < kFourDigits) {
       shape.by_thousands = true;
       any = true;
-      table->Remark("column " + column_name +
-                    " is read with marks between thousands, as its other "
-                    "numbers are whole: " +
-                    as_thousands + " (line " + line + ")");
+      table->Remark(
+          fmt::format("column {} is read with marks between thousands, as its "
+                      "other numbers are whole: {} (line {})",
+                      column_name,
+                      as_thousands,
+                      line));
     } else {
-      table->Remark("column " + column_name +
-                    " has numbers with three decimals among whole ones: " +
-                    CsvNumber(value) + " (line " + line +
-                    "); if its mark parts thousands, write " + as_thousands);
+      table->Remark(
+          fmt::format("column {} has numbers with three decimals among whole "
+                      "ones: {} (line {}); if its mark parts thousands, write "
+                      "{}",
+                      column_name,
+                      CsvNumber(value),
+                      line,
+                      as_thousands));
     }
   }
   return any;
