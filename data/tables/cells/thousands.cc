@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include <fmt/format.h>
-
 #include "data/text.h"
 
 namespace errmap::data {
@@ -42,29 +40,27 @@ bool PartThousands(std::vector<ColumnShape>* shapes, CsvTable* table) {
     const auto first =
         std::max(column.first_decimal_comma, column.first_decimal_point);
     const double value = column.values[static_cast<std::size_t>(first)];
-    const std::string column_name = QuotedName(column.name);
+    std::string remark = "column " + QuotedName(column.name);
     const std::string as_thousands = CsvNumber(kFourDigits * value);
     const auto line = table->LineOfRow(static_cast<std::size_t>(first));
+    std::string where = " (line ";
+    where.append(std::to_string(line)).append(")");
     if (go_on && shape.most_whole >= kThreeDigits &&
         shape.most_whole < kFourDigits) {
       shape.by_thousands = true;
       any = true;
-      table->Remark(
-          fmt::format("column {} is read with marks between thousands, as its "
-                      "other numbers are whole: {} (line {})",
-                      column_name,
-                      as_thousands,
-                      line));
+      remark.append(" is read with marks between thousands, as its other ")
+          .append("numbers are whole: ")
+          .append(as_thousands)
+          .append(where);
     } else {
-      table->Remark(
-          fmt::format("column {} has numbers with three decimals among whole "
-                      "ones: {} (line {}); if its mark parts thousands, write "
-                      "{}",
-                      column_name,
-                      CsvNumber(value),
-                      line,
-                      as_thousands));
+      remark.append(" has numbers with three decimals among whole ones: ")
+          .append(CsvNumber(value))
+          .append(where)
+          .append("; if its mark parts thousands, write ")
+          .append(as_thousands);
     }
+    table->Remark(remark);
   }
   return any;
 }

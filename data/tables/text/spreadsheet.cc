@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
 #include <pugixml.hpp>
 
 #include "data/files/atomic_file.h"
@@ -81,6 +80,10 @@ ShownTime ShownBy(std::string_view code) {
   return shown;
 }
 
+std::string PaddedNumber(std::int64_t number) {
+  return (number < 10 ? "0" : "") + std::to_string(number);
+}
+
 // A number of days as the moment that it stands for.
 std::string MomentText(double days, ShownTime shown, bool from_1904) {
   constexpr double kMillisecondsOfADay = 86'400'000.0;
@@ -101,23 +104,20 @@ std::string MomentText(double days, ShownTime shown, bool from_1904) {
     const std::chrono::year_month_day date{
         first + std::chrono::days(whole_days +
                                   (!from_1904 && whole_days < kNoDay ? 1 : 0))};
-    text = fmt::format("{}-{:02}-{:02}",
-                       static_cast<int>(date.year()),
-                       static_cast<unsigned>(date.month()),
-                       static_cast<unsigned>(date.day()));
+    const std::int64_t month = static_cast<unsigned>(date.month());
+    const std::int64_t day = static_cast<unsigned>(date.day());
+    text = std::to_string(static_cast<int>(date.year())) + "-" +
+           PaddedNumber(month) + "-" + PaddedNumber(day);
   }
   if (shown.hours) {
     const std::int64_t seconds = milliseconds / 1000;
     // Hours of a duration beyond a day.
     const std::int64_t hours =
         seconds / 3600 + (shown.date ? 0 : 24 * whole_days);
-    text += fmt::format("{}{:02}:{:02}:{:02}",
-                        text.empty() ? "" : " ",
-                        hours,
-                        seconds / 60 % 60,
-                        seconds % 60);
+    text += (text.empty() ? "" : " ") + PaddedNumber(hours) + ":" +
+            PaddedNumber(seconds / 60 % 60) + ":" + PaddedNumber(seconds % 60);
     if (const std::int64_t rest = milliseconds % 1000; rest != 0) {
-      text += fmt::format(".{:03}", rest);
+      text += "." + std::to_string(1000 + rest).substr(1);
     }
   }
   return text;
