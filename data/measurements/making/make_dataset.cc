@@ -2,12 +2,9 @@
 // column_roles.h chooses become values, checked and in their units.
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <limits>
 #include <optional>
-#include <set>
 #include <span>
 #include <utility>
 
@@ -21,13 +18,14 @@
 #include "data/measurements/faults/drift_faults.h"
 #include "data/measurements/faults/row_faults.h"
 #include "data/measurements/input_choice.h"
+#include "data/measurements/making/dataset_remarks.h"
 #include "data/measurements/making/idle_inputs.h"
+#include "data/measurements/making/inputs_in_use.h"
 #include "data/measurements/making/parts.h"
 #include "data/measurements/making/useless_inputs.h"
 #include "data/measurements/making/value_checks.h"
 #include "data/measurements/making/word_columns.h"
 #include "data/measurements/reading/read_table.h"
-#include "data/measurements/rounded.h"
 #include "data/measurements/session_log.h"
 #include "data/measurements/sessions.h"
 #include "data/text.h"
@@ -43,7 +41,7 @@ class DatasetBuilder {
       : table_(table),
         selection_(selection),
         read_(std::move(read)),
-        roles_(read_.roles) {}
+        said_(selection) {}
 
   PreparedDataset Build() {
     ChooseRows();
@@ -65,24 +63,32 @@ class DatasetBuilder {
       LookForParts();
       RequireSquaresOfInputs();
     }
-    if (roles_.group != kNoColumn) {
-      parts_.groups = GroupByColumn(table_, Name(roles_.group), parts_.rows);
+    if (read_.roles.group != kNoColumn) {
+      parts_.groups =
+          GroupByColumn(table_, Name(read_.roles.group), parts_.rows);
     }
     const std::string time_column =
-        found_.time_column >= 0 ? Name(found_.time_column) : "";
+        read_.found.time_column >= 0 ? Name(read_.found.time_column) : "";
     if (selection_.with_log) {
-      TakeLog(table_, log_rows_, BlankedInLog(), std::move(found_), &parts_);
+      TakeLog(table_,
+              read_.log_rows,
+              BlankedInLog(),
+              std::move(read_.found),
+              &parts_);
     }
     if (selection_.align == Alignment::kFirst) {
-      remarks_.push_back(AlignTarget(&parts_));
+      said_.remarks.push_back(AlignTarget(&parts_));
     }
     parts_.source = table_.file;
-    TakeRoles();
-    Reading reading = DescribedReading();
+    SetRoles(&parts_);
+    Reading reading = std::move(read_.reading);
+    reading.rows = std::ssize(parts_.rows);
+    reading.remarks = said_.remarks;
+    DescribeInputs(table_, parts_, records_, said_, &reading);
     return {.dataset = Dataset(std::move(parts_)),
-            .dropped = std::move(dropped_),
-            .remarks = std::move(remarks_),
-            .doubts = std::move(doubts_),
+            .dropped = std::move(said_.dropped),
+            .remarks = std::move(said_.remarks),
+            .doubts = std::move(said_.doubts),
             .time_column = time_column,
             .where = std::move(read_.where),
             .faults = std::move(faults_),
@@ -108,23 +114,21 @@ class DatasetBuilder {
   // Those that may be used, and their sessions.
   void ChooseRows() {
     RefuseUnreadTimes();
-    passes_ = std::move(read_.passes);
-    repeated_rows_ = std::move(read_.repeated_rows);
-    if (!selection_.with_log) return;
-    log_rows_ = std::move(read_.log_rows);
-    found_ = std::move(read_.found);
-    remarks_.insert(
-        remarks_.end(), found_.remarks.begin(), found_.remarks.end());
+    if (!selection_.with_log) {
+      read_.found = {};
+      return;
+    }
+    said_.Add(read_.found.remarks);
     std::size_t num_unknown = 0;
-    for (std::size_t i = 0; i < log_rows_.size(); ++i) {
-      if (found_.known[i]) continue;
-      passes_[static_cast<std::size_t>(log_rows_[i])] = false;
+    for (std::size_t i = 0; i < read_.log_rows.size(); ++i) {
+      if (read_.found.known[i]) continue;
+      read_.passes[static_cast<std::size_t>(read_.log_rows[i])] = false;
       ++num_unknown;
     }
     if (num_unknown > 0) {
-      remarks_.push_back(std::to_string(num_unknown) + " of " +
-                         std::to_string(log_rows_.size()) +
-                         " rows have no time or session and are dropped");
+      said_.remarks.push_back(std::to_string(num_unknown) + " of " +
+                              std::to_string(read_.log_rows.size()) +
+                              " rows have no time or session and are dropped");
     }
   }
 
@@ -138,67 +142,21 @@ class DatasetBuilder {
   }
 
   void TakeChosenInputs() {
-    DatasetSelection selection = selection_;
-    // An axis by its values is no error, whatever its unit.
-    if (selection.position.empty()) selection.position = read_.position;
-    ChosenInputs chosen = ChooseInputs(table_, selection, roles_, found_);
+    ChosenInputs chosen = ChooseInputsAsRead(table_, selection_, read_, &said_);
     inputs_ = std::move(chosen.inputs);
-    dropped_ = std::move(chosen.dropped);
     words_ = std::move(chosen.words);
     records_ = std::move(chosen.records);
-    LeaveOutWhatMeasuresNothing();
-    remarks_.insert(
-        remarks_.end(), chosen.remarks.begin(), chosen.remarks.end());
-  }
-
-  // Where a position was measured is known after the fact only; what numbers
-  // the positions says them once more, and what counts measures nothing.
-  void LeaveOutWhatMeasuresNothing() {
-    const std::string axis = NameInRemark(read_.position);
-    for (const std::size_t column : read_.axis.measured) {
-      LeaveOut(column,
-               read_.position.empty()
-                   ? "reads the position, which holds the error"
-                   : "reads the position that " + axis + " commands");
-    }
-    for (const std::size_t column : read_.axis.held) {
-      LeaveOut(column, "reads an axis that stands");
-    }
-    for (const std::size_t column : read_.axis.numbers) {
-      LeaveOut(column, "numbers the positions of " + axis);
-    }
-    for (const Counter& counter : read_.counters) {
-      if (counter.counts == Counted::kElapsed) continue;
-      LeaveOut(counter.column, std::string(ToString(counter.counts)));
-    }
-    for (const std::size_t column : read_.date_parts) {
-      LeaveOut(column, "is a part of the date");
-    }
-  }
-
-  void LeaveOut(std::size_t column, const std::string& why) {
-    const auto found = std::ranges::find(inputs_, column);
-    if (found == inputs_.end() || IsNamed(Name(column))) return;
-    inputs_.erase(found);
-    LeaveOutColumn(column, why);
-  }
-
-  // Of those that nobody named.
-  void LeaveOutColumn(std::size_t column, const std::string& why) {
-    LeaveOutInput(Name(column),
-                  why,
-                  "; name it in " + ArgumentName("inputs") + " to use it");
   }
 
   // ---- In which units.
 
   void ReadUnits() {
-    RequireKnownUnit(table_, {roles_.target, ColumnUse::kTarget});
-    if (const Header target = ReadHeader(Name(roles_.target));
+    RequireKnownUnit(table_, {read_.roles.target, ColumnUse::kTarget});
+    if (const Header target = ReadHeader(Name(read_.roles.target));
         target.source == UnitSource::kAssumed) {
-      remarks_.push_back(NameInRemark(Name(roles_.target)) +
-                         ": no unit in its name, taken as " +
-                         target.unit.symbol);
+      said_.remarks.push_back(NameInRemark(Name(read_.roles.target)) +
+                              ": no unit in its name, taken as " +
+                              target.unit.symbol);
     }
     std::vector<std::string> unread;
     for (const std::size_t input : inputs_) {
@@ -208,71 +166,35 @@ class DatasetBuilder {
       }
     }
     if (unread.empty()) return;
-    remarks_.push_back("no unit is read from " + ListOfNames(unread) + ": " +
-                       WhyNoUnit(ReadHeader(unread.front())));
+    said_.remarks.push_back("no unit is read from " + ListOfNames(unread) +
+                            ": " + WhyNoUnit(ReadHeader(unread.front())));
   }
 
   // ---- Which rows, and what is in them.
 
-  // Rows are dropped for what a map can use: an input with hardly a number, or
-  // with one number throughout, would cost rows and give nothing.
-  void LeaveOutInputsThatCostRows() {
-    if (selection_.missing != MissingPolicy::kDropRows ||
-        selection_.only_to_judge) {
-      return;
-    }
-    std::erase_if(inputs_, [&](std::size_t input) {
-      return !table_.At(input).exceptions.empty() && !IsNamed(Name(input)) &&
-             CostsRows(input);
-    });
-  }
-
-  bool CostsRows(std::size_t input) {
-    constexpr Eigen::Index kFewestRowsToTell = 12;
-    constexpr Eigen::Index kFewest = 10;  // percent
-    std::vector<Eigen::Index> rows;
-    std::vector<Eigen::Index> with_numbers;
-    for (std::size_t row = 0; row < table_.num_rows; ++row) {
-      if (!passes_[row]) continue;
-      rows.push_back(static_cast<Eigen::Index>(row));
-      if (table_.At(input).TextAt(row) == nullptr) {
-        with_numbers.push_back(rows.back());
-      }
-    }
-    if (std::ssize(rows) < kFewestRowsToTell) return false;
-    if (100 * std::ssize(with_numbers) < kFewest * std::ssize(rows)) {
-      LeaveOutColumn(input,
-                     "has a number in " + std::to_string(with_numbers.size()) +
-                         " of " + std::to_string(rows.size()) + " rows");
-      return true;
-    }
-    const IdleInput idle =
-        HowIdle(ValuesOfRows(table_.At(input), with_numbers));
-    if (!idle.dead || selection_.keep_dead) return false;
-    ReportIdle(Name(input), idle);
-    return true;
-  }
-
   void CheckColumns() {
-    LeaveOutInputsThatCostRows();
-    std::vector<ColumnInUse> columns = {{roles_.target, ColumnUse::kTarget}};
+    LeaveOutInputsThatCostRows(
+        table_, selection_, read_.passes, &inputs_, &said_);
+    std::vector<ColumnInUse> columns = {
+        {read_.roles.target, ColumnUse::kTarget}};
     for (const std::size_t input : inputs_) {
       columns.push_back({input, ColumnUse::kInput});
     }
-    if (roles_.group != kNoColumn) {
+    if (read_.roles.group != kNoColumn) {
       columns.push_back(
-          {static_cast<std::size_t>(roles_.group), ColumnUse::kGroup});
+          {static_cast<std::size_t>(read_.roles.group), ColumnUse::kGroup});
     }
-    if (roles_.weight != kNoColumn) {
+    if (read_.roles.weight != kNoColumn) {
       columns.push_back(
-          {static_cast<std::size_t>(roles_.weight), ColumnUse::kWeight});
+          {static_cast<std::size_t>(read_.roles.weight), ColumnUse::kWeight});
     }
     RefuseMixedDecimals(table_, columns);
-    KeptRows kept = CheckCells(table_, columns, passes_, selection_.missing);
+    KeptRows kept =
+        CheckCells(table_, columns, read_.passes, selection_.missing);
     if (!kept.first_missing.empty()) {
       const std::size_t dropped = kept.num_passed - kept.rows.size();
       // Readings without a target still run through a map's filters.
-      remarks_.push_back(
+      said_.remarks.push_back(
           std::to_string(dropped) + " of " + std::to_string(kept.num_passed) +
           (dropped == 1 ? " rows is " : " rows are ") +
           (selection_.only_to_judge ? "not judged" : "dropped") +
@@ -282,8 +204,9 @@ class DatasetBuilder {
   }
 
   void TakeTarget() {
-    parts_.target = Info(roles_.target);
-    parts_.target_values = ValuesOfRows(table_.At(roles_.target), parts_.rows);
+    parts_.target = Info(read_.roles.target);
+    parts_.target_values =
+        ValuesOfRows(table_.At(read_.roles.target), parts_.rows);
     RequireSquares(table_,
                    parts_.rows,
                    "target",
@@ -295,13 +218,13 @@ class DatasetBuilder {
                parts_.target_values,
                !selection_.target.empty());
     if (auto remark = UnlikelySize(parts_.target, parts_.target_values)) {
-      remarks_.push_back(std::move(*remark));
+      said_.remarks.push_back(std::move(*remark));
     }
     const double first = parts_.target_values(0);
     if (!(parts_.target_values.array() == first).all()) return;
     ThrowUnusable(
         table_,
-        "target " + QuotedName(Name(roles_.target)) +
+        "target " + QuotedName(Name(read_.roles.target)) +
             (parts_.rows.size() == 1
                  ? " has a single row"
                  : " is constant (" + CsvNumber(first) + " in all " +
@@ -321,8 +244,9 @@ class DatasetBuilder {
   }
 
   void TakeWeights() {
-    if (roles_.weight == kNoColumn) return;
-    parts_.weights = WeightsOf(table_, table_.At(roles_.weight), parts_.rows);
+    if (read_.roles.weight == kNoColumn) return;
+    parts_.weights =
+        WeightsOf(table_, table_.At(read_.roles.weight), parts_.rows);
   }
 
   void TakeInputs() {
@@ -337,7 +261,7 @@ class DatasetBuilder {
       const IdleInput idle = selection_.only_to_judge
                                  ? IdleInput{}
                                  : HowIdle(parts_.input_values.col(used));
-      if (!idle.how.empty()) ReportIdle(Name(input), idle);
+      if (!idle.how.empty()) said_.ReportIdle(Name(input), idle);
       if (idle.dead && !selection_.keep_dead) continue;
       parts_.inputs.push_back(Info(input));
       if (!idle.dead && !selection_.only_to_judge && IsRepeated(input)) {
@@ -346,7 +270,7 @@ class DatasetBuilder {
       }
       ++used;
     }
-    if (used == 0 && !inputs_.empty()) ThrowNoInputs(table_, dropped_);
+    if (used == 0 && !inputs_.empty()) ThrowNoInputs(table_, said_.dropped);
     parts_.input_values.conservativeResize(Eigen::NoChange, used);
   }
 
@@ -354,16 +278,16 @@ class DatasetBuilder {
   // a map would share its weight between them by chance.
   bool IsRepeated(std::size_t input) {
     RepeatedInputs::Found found = repeated_.Look(parts_);
-    std::ranges::move(found.remarks, std::back_inserter(remarks_));
+    std::ranges::move(found.remarks, std::back_inserter(said_.remarks));
     if (found.repeats.empty()) return false;
     const std::string why =
         "repeats " + NameInRemark(found.repeats) + " value for value";
-    if (IsNamed(Name(input))) {
-      remarks_.push_back("input " + NameInRemark(Name(input)) + " " + why +
-                         "; both are kept");
+    if (said_.IsNamed(Name(input))) {
+      said_.remarks.push_back("input " + NameInRemark(Name(input)) + " " + why +
+                              "; both are kept");
       return false;
     }
-    LeaveOutColumn(input, why);
+    said_.LeaveOutUnlessNamed(Name(input), why);
     return true;
   }
 
@@ -374,14 +298,15 @@ class DatasetBuilder {
   }
 
   Eigen::Index NumSessions() const {
-    return static_cast<Eigen::Index>(found_.sessions.labels.size());
+    return static_cast<Eigen::Index>(read_.found.sessions.labels.size());
   }
 
   std::vector<Eigen::Index> SessionOfRows() const {
     std::vector<Eigen::Index> sessions;
     for (const Eigen::Index row : parts_.rows) {
-      sessions.push_back(found_.sessions.codes[static_cast<std::size_t>(
-          std::ranges::lower_bound(log_rows_, row) - log_rows_.begin())]);
+      sessions.push_back(read_.found.sessions.codes[static_cast<std::size_t>(
+          std::ranges::lower_bound(read_.log_rows, row) -
+          read_.log_rows.begin())]);
     }
     return sessions;
   }
@@ -402,17 +327,17 @@ class DatasetBuilder {
                           faults_)) {
       faults_.push_back(*std::move(drift));
     }
-    if (!repeated_rows_.empty()) {
+    if (!read_.repeated_rows.empty()) {
       faults_.insert(faults_.begin(),
                      {.kind = FaultKind::kRepeated,
                       .input = -1,
-                      .rows = repeated_rows_,
+                      .rows = read_.repeated_rows,
                       .of_cells = true});
     }
     if (selection_.faults != FaultPolicy::kDropRows) {
       for (const ColumnFault& fault : faults_) {
         if (std::string doubt = DoubtOfRows(fault, measured); !doubt.empty()) {
-          doubts_.push_back(std::move(doubt));
+          said_.doubts.push_back(std::move(doubt));
         }
       }
       return;
@@ -427,66 +352,19 @@ class DatasetBuilder {
     KeepRows(kept, &parts_);
   }
 
-  bool IsNamed(const std::string& input) const {
-    return std::ranges::find(selection_.inputs, input) !=
-           selection_.inputs.end();
-  }
-
-  // A remark, which the answer repeats where somebody asked for the input.
-  void LeaveOutInput(const std::string& input,
-                     const std::string& why,
-                     const std::string& behind) {
-    dropped_.push_back({.column = input, .why = why});
-    const std::string what = why + " and is left out" + behind;
-    RemarkOnLeftOut(NameInRemark(input), what);
-    if (!IsNamed(input)) return;
-    doubts_.push_back("The input " + NameInRemark(input) + ", asked for by " +
-                      ArgumentName("inputs") + ", " + what + ".");
-  }
-
-  // One line for those that the same is said of, one after another.
-  void RemarkOnLeftOut(const std::string& name, const std::string& what) {
-    const std::string of_one = "input " + name + " " + what;
-    if (what != said_of_all_.what || remarks_.empty() ||
-        remarks_.back() != said_of_all_.remark) {
-      said_of_all_ = {.what = what, .names = {name}, .remark = of_one};
-      remarks_.push_back(of_one);
-      return;
-    }
-    said_of_all_.names.push_back(name);
-    said_of_all_.remark =
-        "inputs " + JoinWords(said_of_all_.names, ", ") + ": each " + what;
-    remarks_.back() = said_of_all_.remark;
-  }
-
-  void ReportIdle(const std::string& input, const IdleInput& idle) {
-    if (!idle.dead) {
-      remarks_.push_back("input " + NameInRemark(input) + " is " + idle.how +
-                         " and is kept: what it does rests on the others");
-      return;
-    }
-    const std::string why = "is dead (" + idle.how + ")";
-    if (selection_.keep_dead) {
-      remarks_.push_back("input " + NameInRemark(input) + " " + why +
-                         " and is kept");
-      return;
-    }
-    LeaveOutInput(input, why, "; " + ArgumentName("keep_dead") + " keeps it");
-  }
-
   // And the faults of these.
   void LeaveOutUseless(const std::vector<UselessInput>& useless) {
     std::vector<bool> left_out(parts_.inputs.size(), false);
     for (const UselessInput& one : useless) {
       const auto at = static_cast<std::size_t>(one.input);
       const std::string& name = parts_.inputs[at].name;
-      if (left_out[at] || (IsNamed(name) && !one.even_named)) continue;
+      if (left_out[at] || (said_.IsNamed(name) && !one.even_named)) continue;
       left_out[at] = true;
-      LeaveOutInput(name, one.why, one.behind);
+      said_.LeaveOut(name, one.why, one.behind);
     }
     if (std::ranges::count(left_out, true) == 0) return;
     if (std::ranges::count(left_out, false) == 0) {
-      ThrowNoInputs(table_, dropped_);
+      ThrowNoInputs(table_, said_.dropped);
     }
     std::erase_if(faults_, [&](const ColumnFault& fault) {
       return fault.input >= 0 &&
@@ -499,52 +377,6 @@ class DatasetBuilder {
     }
   }
 
-  // By name and values, where the axis has not said it.
-  void TakeRoles() {
-    const Eigen::MatrixXd& values =
-        parts_.input_values.cols() > 0 ? parts_.input_values : LogValues();
-    for (std::size_t i = 0; i < parts_.inputs.size(); ++i) {
-      ColumnInfo& input = parts_.inputs[i];
-      if (input.role != Role::kUnknown) continue;
-      input.role = RoleByName(input);
-      if (input.role == Role::kSensor && input.unit.symbol.empty() &&
-          HasTwoValues(values.col(static_cast<Eigen::Index>(i)))) {
-        input.role = Role::kSwitch;
-      }
-    }
-  }
-
-  const Eigen::MatrixXd& LogValues() const {
-    static const Eigen::MatrixXd kNone;
-    return parts_.log ? parts_.log->input_values : kNone;
-  }
-
-  // The reading, with what the values of the columns in use added.
-  Reading DescribedReading() {
-    Reading reading = std::move(read_.reading);
-    reading.rows = std::ssize(parts_.rows);
-    reading.remarks = remarks_;
-    for (const DroppedColumn& column : dropped_) {
-      reading.left_out.push_back({.column = column.column, .why = column.why});
-      if (reading.position.column == column.column) reading.position = {};
-    }
-    for (const std::size_t column : records_) {
-      if (reading.position.column != Name(column)) {
-        reading.left_out.push_back(
-            {.column = Name(column),
-             .why = "tells rows apart and measures nothing"});
-      }
-    }
-    for (const ColumnInfo& input : parts_.inputs) {
-      if (input.role == Role::kPosition) continue;
-      (input.role == Role::kSwitch    ? reading.switches
-       : input.role == Role::kCounter ? reading.counters
-                                      : reading.sensors)
-          .push_back(input.name);
-    }
-    return reading;
-  }
-
   // Rows of several machines, tools or directions, which err differently.
   void LookForParts() {
     for (PartingRemark& remark :
@@ -553,33 +385,21 @@ class DatasetBuilder {
                    parts_,
                    NumSessions() > 1 ? SessionOfRows()
                                      : std::vector<Eigen::Index>())) {
-      if (remark.is_doubt) doubts_.push_back(remark.text);
-      remarks_.push_back(std::move(remark.text));
+      if (remark.is_doubt) said_.doubts.push_back(remark.text);
+      said_.remarks.push_back(std::move(remark.text));
     }
   }
 
   const CsvTable& table_;
   const DatasetSelection& selection_;
   ReadTable read_;
-  ColumnRoles roles_;
+  DatasetRemarks said_;
   std::vector<std::size_t> inputs_;  // columns of the table
   Dataset::Parts parts_;
-  std::vector<bool> passes_;            // (rows of the table)
-  std::vector<Eigen::Index> log_rows_;  // rows that may be used
-  FoundSessions found_;                 // of those
   RepeatedInputs repeated_;
-  std::vector<DroppedColumn> dropped_;
-  std::vector<std::string> remarks_;
-  struct {
-    std::string what;
-    std::vector<std::string> names;
-    std::string remark;  // that is on all of them
-  } said_of_all_;
   std::vector<ColumnFault> faults_;
   std::vector<std::size_t> words_;  // columns that name things
   std::vector<std::size_t> records_;
-  std::vector<Eigen::Index> repeated_rows_;
-  std::vector<std::string> doubts_;
 };
 
 }  // namespace
