@@ -1,19 +1,56 @@
 #include "cli/desk/toml/toml_text.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace errmap::desk {
+namespace {
+
+// Where the string that begins at `begin` with a quotation mark ends; strings
+// in three marks may hold lines.
+std::size_t EndOfString(std::string_view text, std::size_t begin) {
+  const char mark = text[begin];
+  const std::string three(3, mark);
+  const bool is_long = text.substr(begin).starts_with(three);
+  std::size_t at = begin + (is_long ? 3 : 1);
+  while (at < text.size()) {
+    if (text[at] == '\\' && mark == '"') {
+      at += 2;
+    } else if (is_long ? text.substr(at).starts_with(three)
+                       : text[at] == mark) {
+      return at + (is_long ? 3 : 1);
+    } else if (!is_long && text[at] == '\n') {
+      return at;  // the parser will say so
+    } else {
+      ++at;
+    }
+  }
+  return text.size();
+}
+
+}  // namespace
+
 std::size_t LineOfLongKey(std::string_view text) {
   constexpr std::string_view kEndsAKeyOrValue = "\n=,{}[]";
   std::size_t dots = 0;  // since then
   std::size_t line = 1;
-  for (const char c : text) {
-    if (c == '.') {
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const char c = text[at];
+    std::size_t next = at + 1;
+    if (c == '"' || c == '\'') {
+      next = EndOfString(text, at);
+    } else if (c == '#') {
+      next = std::min(text.find('\n', at), text.size());
+    } else if (c == '.') {
       if (++dots >= kMostKeyParts) return line;
     } else if (kEndsAKeyOrValue.find(c) != std::string_view::npos) {
       dots = 0;
     }
-    if (c == '\n') ++line;
+    const std::string_view passed = text.substr(at, next - at);
+    line += static_cast<std::size_t>(std::ranges::count(passed, '\n'));
+    at = next;
   }
   return 0;
 }

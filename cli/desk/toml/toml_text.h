@@ -9,10 +9,9 @@ namespace errmap::desk {
 
 /// The most parts that a dotted key may have. The parser nests a table for each
 /// part, so a long key would overflow its stack.
-inline constexpr std::size_t kMostKeyParts = 1000;
+inline constexpr std::size_t kMostKeyParts = 64;
 
 /// Returns the line (from 1) of a key with more parts, or 0 if there is none.
-/// It takes a piece of a text or comment with as many dots for one.
 std::size_t LineOfLongKey(std::string_view text);
 
 /// Returns any text as a TOML string on one line.
