@@ -10,9 +10,7 @@ the whole session. --share draws so much of all these checks.
 
 An order is wrong where acting on it leaves 10 % more than leaving all as it is
 (re-zero, gain and sign on the rows after the last probe, on all rows where none
-are left; gain and sign, which belong to the map and not to the hour, also where
-less than a tenth is left: the map's own errors at a few places may hide them), or
-where "holds" is said of a session that errs more than 1.5 times
+are left), or where "holds" is said of a session that errs more than 1.5 times
 the promise. Printed: orders that are wrong and answers "not known", of all and
 of each cell, those of cut logs apart, which are not known until the map's memory
 is full; of sensors at fault that move the map by more than the promise, how many
@@ -38,7 +36,6 @@ KINDS = ("healthy", "offset 3", "offset 10", "gain 1.5", "sign", "shape",
          "cut 2/3", "duty", "warmer", "elsewhere")
 SENSOR_KINDS = ("dead", "frozen", "3 degC", "10 degC", "swapped", "spike")
 OFF = 1.5  # times the promise
-LEAST_REST = 0.1  # of a session's rows, to judge a gain or a sign by
 
 
 def rms(values):
@@ -181,13 +178,10 @@ def judge(machine, rows, predicted, chosen, answer):
     """What the answer orders, and whether that is wrong."""
     errors = [row[machine.target] - p for row, p in zip(rows, predicted)]
     last = max(chosen) + 1
+    rest = range(last, len(rows)) if last < len(rows) else range(len(rows))
     order = answer["remedy"] if answer["status"] == "off" else answer["status"]
     if answer["status"] == "sensor":
         order = "sensor"
-    rest = range(last, len(rows))
-    least = LEAST_REST * len(rows) if order in ("gain", "sign") else 1
-    if len(rest) < least:
-        rest = range(len(rows))
     left = [errors[i] for i in rest]
     wrong = False
     if order == "holds":
