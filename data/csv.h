@@ -102,8 +102,7 @@ enum class OddRows { kRefuse, kOffer, kLeaveOut };
 ///   [um]") or direction ("Error up [um]"): a row for each reading. Rows of one
 ///   reading or one variable each become such rows, too
 /// - numbers as people write them (tables/cells/loose_numbers.h), points
-/// between
-///   thousands, single quotes, and columns aligned by blanks
+///   between thousands, single quotes, and columns aligned by blanks
 ///   (tables/text/rewritten_text.h)
 /// An unnamed column is called column_N (`has_name` is false).
 ///

@@ -171,27 +171,24 @@ namespace {
 void TakeOutTotals(TableForMap* result) {
   CsvTable& table = result->table;
   std::vector<bool> passes(table.num_rows, true);
-  if (LeaveOutTotals(
-          table, CycleColumn(table), MissingPolicy::kDropRows, &passes)
-          .empty()) {
-    return;
-  }
-  std::vector<std::ptrdiff_t> kept;
-  for (std::size_t row = 0; row < passes.size(); ++row) {
-    if (passes[row]) kept.push_back(static_cast<std::ptrdiff_t>(row));
-  }
-  const auto first = static_cast<std::size_t>(std::ranges::find(passes, false) -
-                                              passes.begin());
+  const std::vector<std::ptrdiff_t> totals = LeaveOutTotals(
+      table, CycleColumn(table), MissingPolicy::kDropRows, &passes);
+  if (totals.empty()) return;
   result->remarks.push_back("rows of totals or remarks are left out: " +
-                            std::to_string(passes.size() - kept.size()) +
+                            std::to_string(totals.size()) +
                             ", the first on line " +
-                            std::to_string(table.LineOfRow(first)));
+                            std::to_string(table.LineOfRow(
+                                static_cast<std::size_t>(totals.front()))));
+  std::vector<std::ptrdiff_t> kept = AllRows(table.num_rows);
+  std::erase_if(kept, [&](std::ptrdiff_t row) {
+    return !passes[static_cast<std::size_t>(row)];
+  });
   auto parts = table.parts;
   for (auto& part : parts) {
-    part.first = static_cast<std::size_t>(
-        std::count(passes.begin(),
-                   passes.begin() + static_cast<std::ptrdiff_t>(part.first),
-                   true));
+    part.first -= static_cast<std::size_t>(
+        std::ranges::lower_bound(totals,
+                                 static_cast<std::ptrdiff_t>(part.first)) -
+        totals.begin());
   }
   table = TakeRows(table, kept);
   table.parts = std::move(parts);

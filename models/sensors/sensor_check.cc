@@ -88,28 +88,7 @@ struct Suspect {
 // are, the likelier one of them fits by chance (tests/benchmarks/mornings.py).
 constexpr double kAsked = 0.5;
 
-// Calls off(i, found) for each state column and swapped(i, j, found) for each
-// pair in one unit.
-template <typename Off, typename Swapped>
-void ForEachFault(const FittedModel& fitted, Off off, Swapped swapped) {
-  const Index columns = std::ssize(fitted.applicability->columns);
-  for (Index i = 0; i < columns; ++i) {
-    const data::ColumnInfo& one = ColumnOf(fitted, i);
-    off(i,
-        SensorFaultFound{
-            .fault = SensorFault::kOff, .columns = {one}, .looks_like = ""});
-    for (Index j = i + 1; j < columns; ++j) {
-      const data::ColumnInfo& other = ColumnOf(fitted, j);
-      if (one.unit.symbol != other.unit.symbol) continue;
-      swapped(i,
-              j,
-              SensorFaultFound{.fault = SensorFault::kSwapped,
-                               .columns = {one, other},
-                               .looks_like = ""});
-    }
-  }
-}
-
+// Each column, and each pair in one unit.
 std::vector<Suspect> SuspectsOf(const FittedModel& fitted,
                                 const MatrixXd& states) {
   std::vector<Suspect> suspects;
@@ -118,19 +97,24 @@ std::vector<Suspect> SuspectsOf(const FittedModel& fitted,
   const auto columns = static_cast<double>(states.cols());
   const double asked = readings.LogDensity() + kAsked +
                        std::log(0.5 * columns * (columns + 1.0));
-  const auto off = [&](Index i, SensorFaultFound found) {
-    found.value = readings.Shift(i);
+  for (Index i = 0; i < states.cols(); ++i) {
+    const data::ColumnInfo& one = ColumnOf(fitted, i);
     suspects.push_back(
-        {.found = std::move(found),
+        {.found = {.fault = SensorFault::kOff,
+                   .columns = {one},
+                   .value = readings.Shift(i)},
          .likelier = readings.LogDensityShifted(i) - asked,
          .shown = readings.LogDensityShifted(i, scatter[i]) - asked});
-  };
-  const auto swapped = [&](Index i, Index j, SensorFaultFound found) {
-    const double likelier = readings.LogDensitySwapped(i, j) - asked;
-    suspects.push_back(
-        {.found = std::move(found), .likelier = likelier, .shown = likelier});
-  };
-  ForEachFault(fitted, off, swapped);
+    for (Index j = i + 1; j < states.cols(); ++j) {
+      const data::ColumnInfo& other = ColumnOf(fitted, j);
+      if (one.unit.symbol != other.unit.symbol) continue;
+      const double likelier = readings.LogDensitySwapped(i, j) - asked;
+      suspects.push_back(
+          {.found = {.fault = SensorFault::kSwapped, .columns = {one, other}},
+           .likelier = likelier,
+           .shown = likelier});
+    }
+  }
   return suspects;
 }
 

@@ -176,7 +176,7 @@ void DescribeReading(TableInReading* in) {
   if (selection.faults == FaultPolicy::kDropRows) {
     reading.rows -= std::ssize(read->repeated_rows);
   }
-  if (!read->passes.empty()) {  // as those for a map in use are
+  if (!read->passes.empty()) {  // rows for a map in use are not filtered
     const std::int64_t in_use = std::ranges::count(read->passes, true);
     reading.rows_filtered = reading.rows - in_use;
     reading.rows = in_use;

@@ -132,12 +132,9 @@ std::string OffsetLine(const models::ProbeCorrection& correction,
         Count(track.offset.size(), "row"));
   }
   // Rows of another session behind them are not moved.
-  const Eigen::Index last =
-      track.used.rend() -
-      std::ranges::find_if(track.used.rbegin(),
-                           track.used.rend(),
-                           [](Eigen::Index used) { return used > 0; }) -
-      1;
+  std::size_t at = track.used.size() - 1;
+  while (track.used[at] == 0) --at;
+  const auto last = static_cast<Eigen::Index>(at);
   const double known = std::sqrt(track.variance[last]);
   const ErrorText error(unit, std::sqrt(correction.model.noise));
   std::string line =
@@ -148,7 +145,6 @@ std::string OffsetLine(const models::ProbeCorrection& correction,
                   Count(track.offset.size(), "row"),
                   error.WithUnit(track.offset[last]),
                   error.WithUnit(known));
-  const auto at = static_cast<std::size_t>(last);
   if (track.contradicted[at]) {
     line += fmt::format(
         "; warning: these probes show more than an offset, so the interval is "
