@@ -281,6 +281,11 @@ std::string_view WordFrom(std::string_view text, std::size_t at) {
   return text.substr(at, end - at);
 }
 
+bool IsLetterOfAxis(std::string_view word) {
+  constexpr std::string_view kAxes = "xyzuvwabc";
+  return word.size() == 1 && kAxes.find(word) != kAxes.npos;
+}
+
 // The sign of a difference in a name: 1, "actual - nominal" or "I-S"; -1, the
 // other way round or of words unknown here ("encoder - laser"); 0, no
 // difference ("X-error", "run-in").
@@ -294,10 +299,8 @@ int SignOfDifference(std::string_view column) {
         SayAny({b}, Word::kError)) {
       continue;
     }
-    constexpr std::string_view kAxes = "xyzuvwabc";
-    const bool letters =
-        a.size() == 1 && b.size() == 1 &&
-        !(kAxes.find(a) != kAxes.npos && kAxes.find(b) != kAxes.npos);
+    const bool letters = a.size() == 1 && b.size() == 1 &&
+                         !(IsLetterOfAxis(a) && IsLetterOfAxis(b));
     const bool apart = text[at - 1] == ' ' && text[at + 1] == ' ';
     const bool in_brackets =
         text.rfind('(', at) != text.npos && text.find(')', at) != text.npos;
@@ -369,15 +372,6 @@ bool IsCalledPosition(std::string_view name) {
            (SayAny(words, Word::kNominal) && words.size() <= 2) ||
            IsAxisLetter(name)));
 }
-
-namespace {
-
-bool IsLetterOfAxis(std::string_view word) {
-  constexpr std::string_view kAxes = "xyzuvwabc";
-  return word.size() == 1 && kAxes.find(word) != kAxes.npos;
-}
-
-}  // namespace
 
 bool IsAxisLetter(std::string_view column) {
   const std::vector<std::string> words = WordsOf(column);

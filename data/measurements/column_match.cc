@@ -200,8 +200,8 @@ TableForMap InMapUnits(CsvTable table,
                        const std::vector<ColumnInfo>& inputs,
                        const TargetOfMap* target) {
   TableForMap result{.table = std::move(table), .remarks = {}};
-  FillMergedCells(FindMergedCells(result.table), &result.table);
-  WriteDates(FindDigitDates(result.table), &result.table);
+  FillMergedCells(&result.table);
+  WriteDates(&result.table);
   // Told here, and to nobody again.
   result.remarks = std::exchange(result.table.remarks, {});
   TakeOutTotals(&result);

@@ -44,13 +44,15 @@ struct FoundSessions {
 /// Finds sessions, uninterrupted runs with rows in order of time, by the
 /// columns `time`, `session` and the policy `missing` of the selection.
 ///
-/// Time is the column named, else the only one that begins with "time", else
-/// with "zeit", else the only one with nothing but times of day. It holds
+/// Time is the column named, else the first usable of ColumnsOfTime. It holds
 /// numbers (s, ms, min, h by its unit), or what ParseDateTime reads. Without
-/// one, rows are counted. Sessions are the column named, else the first of
-/// kSessionColumns, else the file (kFileColumn), else the only column of dates,
-/// if time has none. Without one, sessions are cut where time goes back or
-/// leaps by more than 20 median steps. A word that returns after another
+/// one, rows are counted. Sessions are the column named, else of several files
+/// the file (kFileColumn), unless one clock goes on over all, else the first
+/// usable column called as in kSessionColumns or by other words for sessions
+/// and runs, else the only column of dates, if time has none. Without one,
+/// sessions are cut where time goes back or over a night (Nights); if that
+/// gives one, where a count of cycles restarts. A word that returns after
+/// another
 /// ("day", "night", "day") begins a new session. A default column that is
 /// unusable is skipped with a remark. "none" means no column, unless one has
 /// that name. The target and the weight are never used.

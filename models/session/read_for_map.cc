@@ -301,8 +301,7 @@ data::TableForMap ReadForMap(const FittedModel& fitted,
   if (!rows.order.empty()) {
     result.table = data::TakeRows(result.table, rows.order);
   }
-  if (auto ways = WaysOfRows(
-          fitted, rows.table ? *rows.table : result.table, rows.reading)) {
+  if (auto ways = WaysOfRows(fitted, rows.table, rows.reading)) {
     result.table.columns.push_back(*std::move(ways));
   }
   const std::string position = PositionOf(fitted);

@@ -202,10 +202,7 @@ int RunRead(const ReadArguments& arguments) {
         data::MakeDataset(joined.table, arguments.data.selection);
     if (!arguments.out.empty()) {
       data::WriteFileAtomically(
-          arguments.out,
-          CleanCsv(read.table ? *read.table : joined.table,
-                   read,
-                   prepared.dataset.rows()));
+          arguments.out, CleanCsv(read.table, read, prepared.dataset.rows()));
     }
     reading = prepared.reading;
     reading.remarks.insert(

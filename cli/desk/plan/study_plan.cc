@@ -5,6 +5,9 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -32,19 +35,23 @@
 namespace errmap::desk {
 namespace {
 
-// Several components may stand in one file: each is read and parsed once.
+// Several components may stand in one file: each is read and parsed once, or
+// twice if only some of them leave out rows of another length.
 class TableReader {
  public:
   explicit TableReader(std::vector<InputFile>* inputs) : inputs_(inputs) {}
 
   const data::CsvTable& Read(const std::string& file,
                              data::OddRows odd = data::OddRows::kRefuse) {
-    const auto found = tables_.find(file);
+    const std::pair key(file, odd == data::OddRows::kLeaveOut);
+    const auto found = tables_.find(key);
     if (found != tables_.end()) return found->second;
-    InputFile& input = inputs_->emplace_back();
-    input.file = file;
-    return tables_.emplace(file, data::ReadCsv(file, &input.sha256, odd))
-        .first->second;
+    InputFile input{.file = file, .sha256 = {}};
+    data::CsvTable table = data::ReadCsv(file, &input.sha256, odd);
+    if (!tables_.contains({file, !key.second})) {
+      inputs_->push_back(std::move(input));
+    }
+    return tables_.emplace(key, std::move(table)).first->second;
   }
 
   /// The rows of one component: of one file, or of several as one table. What
@@ -72,7 +79,8 @@ class TableReader {
 
  private:
   std::vector<InputFile>* inputs_;
-  std::map<std::string, data::CsvTable> tables_;
+  // By file, and whether rows of another length are left out.
+  std::map<std::pair<std::string, bool>, data::CsvTable> tables_;
   std::deque<data::CsvTable> joined_;
 };
 

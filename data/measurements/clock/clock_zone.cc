@@ -43,7 +43,7 @@ std::optional<double> OffsetAt(std::string_view text) {
   if (text.empty() || (text[0] != '+' && text[0] != '-')) return std::nullopt;
   std::string digits;
   for (const char c : text.substr(1)) {
-    if (c >= '0' && c <= '9') {
+    if (IsDigit(c)) {
       digits += c;
     } else if (c != ':') {
       break;

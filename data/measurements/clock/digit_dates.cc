@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -20,6 +19,7 @@
 #include "data/measurements/clock/text_times.h"
 #include "data/measurements/clock/time_units.h"
 #include "data/text.h"
+#include "data/text_index.h"
 
 namespace errmap::data {
 namespace {
@@ -29,16 +29,19 @@ template <typename TextOf>
 CsvColumn AsText(const std::string& name,
                  std::size_t num_rows,
                  const TextOf& text_of) {
-  std::map<std::string, std::ptrdiff_t> indices;
   std::vector<std::string> words;
   std::vector<std::ptrdiff_t> codes;
+  TextIndex index;
   for (std::size_t row = 0; row < num_rows; ++row) {
-    const auto [at, is_new] =
-        indices.try_emplace(text_of(row), std::ssize(words));
-    if (is_new) words.push_back(at->first);
-    codes.push_back(at->second);
+    codes.push_back(index.IndexOf(text_of(row), &words));
   }
   return WordColumn(name, codes, std::move(words));
+}
+
+void WriteAs(std::string (*text_of)(double), CsvColumn* column) {
+  *column = AsText(column->name, column->values.size(), [&](std::size_t row) {
+    return text_of(column->values[row]);
+  });
 }
 
 // Of each number that is none of the missing ones.
@@ -237,54 +240,33 @@ bool AreClocksOfPoints(const CsvColumn& column) {
 
 }  // namespace
 
-DigitDates FindDigitDates(const CsvTable& table) {
-  DigitDates found;
-  bool has_date = std::ranges::any_of(table.columns, HoldsDates);
-  const auto rewrite = [&](std::size_t i, std::string (*text_of)(double)) {
-    const CsvColumn& column = table.columns[i];
-    found.columns.push_back(
-        {i, AsText(column.name, table.num_rows, [&](std::size_t row) {
-           return text_of(column.values[row]);
-         })});
-  };
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    const CsvColumn& column = table.columns[i];
+std::vector<std::size_t> WriteDates(CsvTable* table) {
+  bool has_date = std::ranges::any_of(table->columns, HoldsDates);
+  for (CsvColumn& column : table->columns) {
     if (column.is_text()) continue;
     const bool is_excel =
         IsCalled(column.name, Word::kDate) &&
         All(column, [](double day) { return AreWholeDays({day}); });
     if (is_excel || AreDatesOfDigits(column)) {
-      rewrite(i, is_excel ? DateOfExcel : DateOfDigits);
+      WriteAs(is_excel ? DateOfExcel : DateOfDigits, &column);
       has_date = true;
     }
   }
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    const CsvColumn& column = table.columns[i];
+  for (CsvColumn& column : table->columns) {
     if (column.is_text() || !IsCalledTimeOfDay(column, has_date)) continue;
     if (AreClocksOfDigits(column)) {
-      rewrite(i, ClockOfDigits);
+      WriteAs(ClockOfDigits, &column);
     } else if (has_date && AreClocksOfPoints(column)) {
-      rewrite(i, ClockOfPoints);
+      WriteAs(ClockOfPoints, &column);
     }
   }
-  if (const DateParts parts(table); parts.are_found()) {
-    found.parts = parts.columns();
-    CsvColumn joined = parts.Joined();
-    if (table.Find(joined.name) < 0) {  // not written yet
-      found.columns.push_back({table.columns.size(), std::move(joined)});
-    }
+  const DateParts parts(*table);
+  if (!parts.are_found()) return {};
+  std::vector<std::size_t> used = parts.columns();
+  if (CsvColumn joined = parts.Joined(); table->Find(joined.name) < 0) {
+    table->columns.push_back(std::move(joined));  // not written yet
   }
-  return found;
-}
-
-void WriteDates(const DigitDates& dates, CsvTable* table) {
-  for (const DigitDates::Rewritten& rewritten : dates.columns) {
-    if (rewritten.column < table->columns.size()) {
-      table->columns[rewritten.column] = rewritten.text;
-    } else {
-      table->columns.push_back(rewritten.text);
-    }
-  }
+  return used;
 }
 
 }  // namespace errmap::data

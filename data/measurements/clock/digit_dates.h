@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "data/csv.h"
@@ -10,19 +11,7 @@ namespace errmap::data {
 /// whatever the name (20240304), Excel's day numbers if the name is that of a
 /// date (45355), hours, minutes and seconds (81446) if it is that of a time.
 /// Columns called year, month and day (hour, minute, second) become one
-/// additional column, named "Year + Month + Day". Returns indices and texts;
-/// the rest of the table is unchanged.
-struct DigitDates {
-  struct Rewritten {
-    std::size_t column;  // its index; the number of columns for one more
-    CsvColumn text;
-  };
-  std::vector<Rewritten> columns;
-  std::vector<std::size_t> parts;  // of the column that is one more
-};
-DigitDates FindDigitDates(const CsvTable& table);
-
-/// Puts them into a table.
-void WriteDates(const DigitDates& dates, CsvTable* table);
+/// additional column, named "Year + Month + Day". Returns the indices of these.
+std::vector<std::size_t> WriteDates(CsvTable* table);
 
 }  // namespace errmap::data

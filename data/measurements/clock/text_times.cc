@@ -98,7 +98,7 @@ bool LooksLikeTime(const std::string& text) {
   int numbers = 0;
   bool in_number = false;
   for (const char c : text) {
-    const bool is_digit = c >= '0' && c <= '9';
+    const bool is_digit = IsDigit(c);
     digits += is_digit ? 1 : 0;
     numbers += is_digit && !in_number ? 1 : 0;
     in_number = is_digit;

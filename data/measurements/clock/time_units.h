@@ -56,7 +56,7 @@ struct Epoch {
 
   bool counts_days() const { return unit->seconds == kSecondsOfDay; }
 };
-/// The unit in the column's name, which Excel's day numbers need.
+/// What a column's name says that it holds.
 enum class Named { kNothing, kTime, kDate };
 /// Recognises numbers that count from 1970, whatever the unit in their name. In
 /// each unit the years 1990 to 2060 give different numbers, also from Windows'

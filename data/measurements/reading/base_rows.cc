@@ -8,7 +8,6 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/faults/row_faults.h"
-#include "data/text.h"
 
 namespace errmap::data {
 
@@ -32,7 +31,7 @@ void LeaveOutWords(TableInReading* in, std::vector<bool>* passes) {
         {.row = row, .why = "holds words where the others have numbers"});
   }
   // Their words are no times either.
-  for (CsvColumn& column : in->Changed().columns) {
+  for (CsvColumn& column : in->read.table.columns) {
     if (column.is_text()) column = TakeRows(column, kept);
   }
 }
@@ -78,8 +77,8 @@ bool LeaveOutSavedTwice(TableInReading* in) {
   std::erase_if(in->base_rows, [&](Index row) {
     return !is_kept[static_cast<std::size_t>(row)];
   });
-  in->Changed().remarks.push_back(
-      PrintablePath(in->given.file) + ": " + std::to_string(again.size()) +
+  in->read.table.Remark(
+      std::to_string(again.size()) +
       " rows stand twice, with their times; each is read once");
   return true;
 }

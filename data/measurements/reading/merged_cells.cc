@@ -1,6 +1,6 @@
 #include "data/measurements/reading/merged_cells.h"
 
-#include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -69,22 +69,13 @@ std::optional<CsvColumn> FilledDown(const CsvTable& table,
 
 }  // namespace
 
-std::vector<FilledColumn> FindMergedCells(const CsvTable& table) {
-  std::vector<FilledColumn> found;
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    if (auto filled = FilledDown(table, table.columns[i])) {
-      found.push_back({i, *std::move(filled)});
-    }
-  }
-  return found;
-}
-
-void FillMergedCells(const std::vector<FilledColumn>& columns,
-                     CsvTable* table) {
+void FillMergedCells(CsvTable* table) {
   std::vector<std::string> names;
-  for (const FilledColumn& column : columns) {
-    table->columns[column.column] = column.filled;
-    names.push_back(column.filled.name);
+  for (CsvColumn& column : table->columns) {
+    if (auto filled = FilledDown(*table, column)) {
+      column = *std::move(filled);
+      names.push_back(column.name);
+    }
   }
   if (names.empty()) return;
   table->remarks.push_back("empty cells of " + ListOfNames(names) +

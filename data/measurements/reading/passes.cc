@@ -149,7 +149,7 @@ void FindWays(TableInReading* in) {
                               in->Passes(),
                               in->ordered);
   } else if (tells) {
-    in->AddColumn(
+    in->read.table.columns.push_back(
         DirectionColumn(in->table(), in->base_rows, in->read.axis.motion));
     direction = {.column = kDirectionColumn,
                  .by = "position",
@@ -232,7 +232,7 @@ void FindBlocksInLabels(TableInReading* in) {
     }
     auto sessions = FindSessionsInLabels(in->table(), column, in->base_rows);
     if (!sessions) continue;
-    in->AddColumn(std::move(*sessions));
+    in->read.table.columns.push_back(std::move(*sessions));
     in->read.counters.push_back(
         {in->table().columns.size() - 1, Counted::kBlocks});
     return;

@@ -28,11 +28,9 @@ constexpr std::size_t kNoTarget = static_cast<std::size_t>(-1);
 
 // What a spreadsheet or a program wrote otherwise than it was meant.
 void TakeAsMeant(TableInReading* in) {
-  const std::vector<FilledColumn> merged = FindMergedCells(in->given);
-  if (!merged.empty()) FillMergedCells(merged, &in->Changed());
-  DigitDates dates = FindDigitDates(in->table());
-  if (!dates.columns.empty()) WriteDates(dates, &in->Changed());
-  in->read.date_parts = std::move(dates.parts);
+  in->read.table = Borrowed(in->given);
+  FillMergedCells(&in->read.table);
+  in->read.date_parts = WriteDates(&in->read.table);
 }
 
 // "-correction_um": the error that a correction is against; or a difference.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,9 +16,7 @@ namespace errmap::data {
 /// A table with what was found in it: rows in order of time, and columns
 /// derived from its values (direction, cycle, an error from a correction).
 struct ReadTable {
-  /// Nothing: the table is used as given. It may use the numbers of that table,
-  /// which must outlive it.
-  std::optional<CsvTable> table;
+  CsvTable table;  // may use the numbers of the one given: do not outlive it
   ColumnRoles roles;
   /// Rows of the given table, if they were put in order of time.
   std::vector<Eigen::Index> order;

@@ -3,21 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "data/measurements/reading/derived_columns.h"
-
 namespace errmap::data {
 
-CsvTable& TableInReading::Changed() {
-  if (!read.table) read.table = Borrowed(given);
-  return *read.table;
-}
-
-void TableInReading::AddColumn(CsvColumn column) {
-  Changed().columns.push_back(std::move(column));
-}
-
 void TableInReading::PutColumn(std::size_t place, CsvColumn column) {
-  std::vector<CsvColumn>& columns = Changed().columns;
+  std::vector<CsvColumn>& columns = read.table.columns;
   if (place < columns.size()) {
     columns[place] = std::move(column);
   } else {

@@ -27,10 +27,7 @@ struct TableInReading {
   std::ptrdiff_t cycles_in_sessions = -1;  // of columns that nest
   bool ordered = true;  // whether the rows stand in the order of time
 
-  const CsvTable& table() const { return read.table ? *read.table : given; }
-  /// Gives write access: the table is its own copy from then on.
-  CsvTable& Changed();
-  void AddColumn(CsvColumn column);
+  const CsvTable& table() const { return read.table; }
   /// Replaces a column, or appends one.
   void PutColumn(std::size_t place, CsvColumn column);
 

@@ -6,6 +6,7 @@
 #include "data/column_header.h"
 #include "data/tables/cells/csv_cells.h"
 #include "data/text.h"
+#include "data/units.h"
 
 namespace errmap::data {
 
@@ -23,8 +24,7 @@ bool ReadUnitCell(std::string* cell) {
   if (ParseNumber(text, &number) || text.find_first_of("[]()") != text.npos) {
     return false;
   }
-  const bool is_unit =
-      ReadHeader("x [" + std::string(text) + "]").source == UnitSource::kStated;
+  const bool is_unit = ReadUnit(text, UnitPlace::kBracketed).has_value();
   *cell = std::string(text);
   return is_unit;
 }
@@ -70,7 +70,7 @@ std::optional<std::string> NameWithUnit(const std::string& name,
   const std::string with_unit = name + " [" + std::string(unit) + "]";
   const Header header = ReadHeader(name);
   if (header.source != UnitSource::kStated) return with_unit;
-  if (header.unit == ReadHeader("x [" + std::string(unit) + "]").unit) {
+  if (header.unit == ReadUnit(unit, UnitPlace::kBracketed).value_or(Unit{})) {
     return name;
   }
   // "Temp_A" over degC is the first of several.

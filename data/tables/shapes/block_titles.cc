@@ -9,32 +9,22 @@
 #include "data/column_words.h"
 #include "data/columns.h"
 #include "data/counted_labels.h"
+#include "data/tables/shapes/numbered_names.h"
 #include "data/text.h"
 #include "data/text_index.h"
 
 namespace errmap::data {
 namespace {
 
-constexpr std::string_view kDigitsOfDates = "0123456789";
-
-// "2024-07-14" of "day 1, 2024-07-14": three numbers between the same marks;
-// "" where there is none.
+// "2024-07-14" of "day 1, 2024-07-14"; "" where there is none.
 std::string DateTokenIn(std::string_view text) {
-  for (std::size_t at = text.find_first_of(kDigitsOfDates); at != text.npos;) {
+  constexpr std::string_view kDigits = "0123456789";
+  for (std::size_t at = text.find_first_of(kDigits); at != text.npos;) {
     const std::size_t end =
         std::min(text.find_first_not_of("0123456789-./", at), text.size());
     const std::string_view token = text.substr(at, end - at);
-    for (const char mark : {'-', '.', '/'}) {
-      const std::size_t first = token.find(mark);
-      const std::size_t last = token.rfind(mark);
-      if (std::ranges::count(token, mark) == 2 && first > 0 &&
-          last > first + 1 && last + 1 < token.size() && token.size() >= 6 &&
-          token.find_first_not_of(std::string(kDigitsOfDates) + mark) ==
-              token.npos) {
-        return std::string(token);
-      }
-    }
-    at = text.find_first_of(kDigitsOfDates, end);
+    if (IsNumericDate(token)) return std::string(token);
+    at = text.find_first_of(kDigits, end);
   }
   return "";
 }

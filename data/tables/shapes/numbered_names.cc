@@ -133,8 +133,9 @@ std::string_view TakePart(std::string_view* rest) {
   return part;
 }
 
-// "2026-03-02", "02.03.2026", "2.3.26": numbers of a day, a month and a year.
-bool IsDate(std::string_view text) {
+}  // namespace
+
+bool IsNumericDate(std::string_view text) {
   std::size_t parts = 0;
   std::size_t longest = 0;
   const std::size_t first = text.find_first_not_of(kDigits);
@@ -153,8 +154,6 @@ bool IsDate(std::string_view text) {
   }
   return parts == 3 && longest >= 2;
 }
-
-}  // namespace
 
 std::optional<PlacedName> ReadPlacedName(std::string_view name) {
   std::string text = WithPoints(name);
@@ -202,7 +201,7 @@ std::optional<RunName> ReadRunName(std::string_view name) {
   constexpr std::string_view kLetters = "x y z m";
   const Header header = ReadHeader(name);
   RunName said{.direction = SignBehind(name, header.unit_text)};
-  bool is_run = IsDate(header.base);
+  bool is_run = IsNumericDate(header.base);
   if (is_run) said.date = header.base;
   int* number = &said.run;
   std::string_view rest = is_run ? std::string_view() : header.base;

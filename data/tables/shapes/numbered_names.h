@@ -17,6 +17,10 @@ struct PlacedName {
 };
 std::optional<PlacedName> ReadPlacedName(std::string_view name);
 
+/// True for numbers of a day, a month and a year: "2026-03-02", "02.03.2026",
+/// "2.3.26".
+bool IsNumericDate(std::string_view text);
+
 /// The parts of the name of a column of one run, such as "Run 3 up [um]", "Lauf
 /// 1 rückwärts", "x2↓ (µm)", "Day 2 Run 1", "2026-03-02". Missing parts are 0
 /// or "", as the run of "Error up [um]".

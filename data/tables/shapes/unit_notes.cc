@@ -36,15 +36,14 @@ void ReadUnits(const std::string& text, UnitNote* note) {
   std::string_view rest = text;
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find_first_of(kBetween), rest.size());
-    const std::string word(rest.substr(0, end));
+    const std::string_view word = rest.substr(0, end);
     rest.remove_prefix(std::min(end + 1, rest.size()));
-    const Header header = ReadHeader("x [" + word + "]");
-    // "in" is a word, too.
-    if (word == "in" || header.source != UnitSource::kStated) continue;
-    if (header.unit.quantity == Quantity::kTemperature) {
-      temperatures.insert(header.unit.symbol);
-    } else if (IsLengthOrAngle(header.unit)) {
-      sizes.insert(header.unit.symbol);
+    const std::optional<Unit> unit = ReadUnit(word, UnitPlace::kBracketed);
+    if (word == "in" || !unit) continue;  // "in" is a word, too
+    if (unit->quantity == Quantity::kTemperature) {
+      temperatures.insert(unit->symbol);
+    } else if (IsLengthOrAngle(*unit)) {
+      sizes.insert(unit->symbol);
     }
   }
   if (!temperatures.empty()) sizes.erase("deg");  // "degrees Fahrenheit"

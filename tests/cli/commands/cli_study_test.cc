@@ -1,5 +1,6 @@
 // Study files: read, overridden, planned, written and run by the program.
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -227,6 +228,35 @@ TEST_F(CliStudy, PathsAreRelativeToTheStudyFile) {
   EXPECT_EQ(component["data"]["file"], "sub/both.csv");
   EXPECT_EQ(component["holdouts"][0]["name"], "file:sub/both.csv");
   EXPECT_EQ(component["holdouts"][0]["test_rows"][0].size(), 60U);
+}
+
+// Of one file, too, and whichever comes first.
+TEST_F(CliStudy, EachComponentRefusesOrLeavesOutRowsOfAnotherLength) {
+  const std::vector<std::string> rules = {"missing = \"drop-rows\"\n", ""};
+  const auto compare = [&](const std::string& more, std::size_t first) {
+    Write("both.csv", BothWays() + more);
+    std::string study = "models = [\"mean\"]\n";
+    for (const std::size_t i : {first, 1 - first}) {
+      study += "[[component]]\ndata = \"both.csv\"\n" + rules[i] +
+               "where = { direction = \"" + (i == 0 ? "up" : "down") + "\" }\n";
+    }
+    Write("study.toml", study);
+    return Run({"compare", "--config", "study.toml", "--format", "json"});
+  };
+  for (const std::size_t first : {0U, 1U}) {
+    EXPECT_THAT(RefusalOf(compare("11,up,0\n", first), kUnusable),
+                HasSubstr("line 122 (data row 120): 3 fields where the header "
+                          "has 4"));
+    const Outcome done = compare("", first);
+    ASSERT_EQ(done.status, 0) << done.err;
+    const Json inputs = Json::parse(done.out)["provenance"]["inputs"];
+    EXPECT_EQ(std::ranges::count(inputs,
+                                 "both.csv",
+                                 [](const Json& input) {
+                                   return input["file"].get<std::string>();
+                                 }),
+              1);
+  }
 }
 
 // Each way in a file of its own: by the name of that file, whichever is first.

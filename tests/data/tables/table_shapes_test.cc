@@ -243,9 +243,11 @@ TEST(TableShape, MakesAColumnOfLinesThatPartTheRows) {
   }
   // What is no session and no date, or comes once.
   for (const std::vector<std::string>& titles :
-       std::vector<std::vector<std::string>>{{"# zero 1", "# zero 2"},
-                                             {"# day 1", "# oil changed"},
-                                             {"# day 1"}}) {
+       std::vector<std::vector<std::string>>{
+           {"# zero 1", "# zero 2"},
+           {"# tool 100-20-300", "# tool 100-20-301"},
+           {"# day 1", "# oil changed"},
+           {"# day 1"}}) {
     EXPECT_THAT(ParseCsv(Blocks(titles, ""), "f.csv").columns, SizeIs(3));
   }
 }
