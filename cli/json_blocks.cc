@@ -1,6 +1,6 @@
 #include "cli/json_blocks.h"
 
-#include "models/study/record/record_json.h"
+#include "models/record_json.h"
 
 namespace errmap::cli {
 

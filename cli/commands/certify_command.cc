@@ -10,7 +10,7 @@
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "models/certification/certification.h"
-#include "models/study/record/record_json.h"
+#include "models/record_json.h"
 #include "models/version.h"
 
 namespace errmap::cli {

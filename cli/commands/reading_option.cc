@@ -6,7 +6,7 @@
 #include "data/input_error.h"
 #include "data/measurements/reading/reading.h"
 #include "data/throwing_as.h"
-#include "models/study/record/record_json.h"
+#include "models/record_json.h"
 
 namespace errmap::cli {
 

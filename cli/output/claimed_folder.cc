@@ -15,7 +15,7 @@
 #include "data/formats/nesting.h"
 #include "data/sha256.h"
 #include "data/text.h"
-#include "models/study/record/record_json.h"
+#include "models/record_json.h"
 
 namespace errmap::cli {
 

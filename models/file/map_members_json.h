@@ -1,12 +1,10 @@
 #pragma once
 
-// Conversion of a map's parts to and from the JSON of model files, member by
-// member (members.h); not for public headers. A column is stored as its name
-// and unit beside the other members. Callers read and write the rest of the
-// file.
+// Reads a map's parts from the JSON of model files, member by member, as
+// record_json.h writes them; not for public headers. Callers read the rest of
+// the file.
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -39,49 +37,6 @@ void VisitKeys(T& record, const Visit& visit) {
         std::is_same_v<Member, decltype(BlendForm::Member::form)>;
     if constexpr (!kIsForm) visit(std::string(key), member);
   });
-}
-
-/// Writes non-finite numbers as null, since JSON has none. Passes numbers
-/// through `shown` first.
-template <typename T>
-ModelJson MembersToJson(const T& value, double (*shown)(double) = nullptr) {
-  if constexpr (Record<T>) {
-    ModelJson json = ModelJson::object();
-    VisitKeys(value, [&](const std::string& key, const auto& member) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(member)>,
-                                   data::ColumnInfo>) {
-        json["name"] = member.name;
-        json["unit"] = member.unit.symbol;
-        if (member.role != data::Role::kUnknown) {
-          json["role"] = data::ToString(member.role);
-        }
-      } else {
-        json[key] = MembersToJson(member, shown);
-      }
-    });
-    return json;
-  } else if constexpr (std::is_floating_point_v<T>) {
-    if (!std::isfinite(value)) return nullptr;
-    return shown == nullptr ? value : shown(value);
-  } else if constexpr (std::is_enum_v<T>) {
-    return ToString(value);
-  } else if constexpr (requires { value.array(); }) {
-    return NumbersToJson(
-        shown == nullptr
-            ? value
-            : T(value.unaryExpr([&](double number) { return shown(number); })));
-  } else if constexpr (requires { value.has_value(); }) {
-    return value ? ModelJson(MembersToJson(*value, shown)) : ModelJson();
-  } else if constexpr (requires { value.front(); } &&
-                       !std::is_same_v<T, std::string>) {
-    ModelJson json = ModelJson::array();
-    for (const auto& element : value) {
-      json.push_back(MembersToJson(element, shown));
-    }
-    return json;
-  } else {
-    return value;
-  }
 }
 
 /// Returns the enumerator with this name in ToString.

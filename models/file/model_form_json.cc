@@ -8,6 +8,7 @@
 #include "models/blend/form_to_model.h"
 #include "models/file/map_members_json.h"
 #include "models/file/model_json.h"
+#include "models/record_json.h"
 
 // Each kind of form in a model file: written, and read.
 
@@ -21,25 +22,26 @@ using Node = ModelJsonNode;
 
 template <typename Form>
 Json FormToJson(const Form& form, const std::string& /*equation*/) {
-  return MembersToJson(form);
+  return ToJson(form);
 }
 
 Json FormToJson(const PolynomialForm& form, const std::string& equation) {
-  Json json = MembersToJson(form);
+  Json json = ToJson(form);
   json["equation"] = equation;
   return json;
 }
 
 Json FormToJson(const NetForm& form, const std::string& /*equation*/) {
   Json json = {{"nodes", {form.w1.cols() - 1, form.w1.rows(), form.w2.rows()}}};
-  json.update(MembersToJson(form));
+  json.update(ToJson(form));
   return json;
 }
 
 Json FormToJson(const BlendForm& form, const std::string& /*equation*/) {
   Json members = Json::array();
   for (const BlendForm::Member& member : form.members) {
-    Json json = MembersToJson(member);
+    Json json = ToJson(member);
+    json.erase("form");  // it is told by its key
     std::visit(
         [&json](const auto& of_member) {
           json[FileKeyOf(&of_member)] = FormToJson(of_member, "");

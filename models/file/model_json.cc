@@ -26,18 +26,6 @@ std::string EitherOf(const std::vector<std::string>& words) {
 
 }  // namespace
 
-ModelJson NumbersToJson(const VectorXd& vector) {
-  return std::vector<double>(vector.begin(), vector.end());
-}
-
-ModelJson NumbersToJson(const MatrixXd& matrix) {
-  ModelJson rows = ModelJson::array();
-  for (Index i = 0; i < matrix.rows(); ++i) {
-    rows.push_back(NumbersToJson(VectorXd(matrix.row(i).transpose())));
-  }
-  return rows;
-}
-
 ModelJsonNode::ModelJsonNode(const ModelJson& value,
                              std::string path,
                              const std::string& source)

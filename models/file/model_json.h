@@ -29,10 +29,6 @@ inline std::string CoverageKey(double coverage) {
   return std::to_string(std::lround(coverage * kPercent));
 }
 
-ModelJson NumbersToJson(const VectorXd& vector);
-/// By rows.
-ModelJson NumbersToJson(const MatrixXd& matrix);
-
 /// A value of a model file and its place, for messages. Refers to the document
 /// and the file's name, which must outlive it. Every reader throws
 /// data::InputError naming file and key if the value is of another kind.

@@ -8,11 +8,11 @@
 
 #include "data/files/atomic_file.h"
 #include "models/file/checksum.h"
-#include "models/file/map_members_json.h"
 #include "models/file/model_json.h"
 #include "models/history/history.h"
 #include "models/map_experience.h"
 #include "models/model_file.h"
+#include "models/record_json.h"
 #include "models/version.h"
 
 namespace errmap::models {
@@ -20,8 +20,8 @@ namespace {
 
 using Json = ModelJson;
 
-Json ToJson(const History& history) {
-  Json json = MembersToJson(history);
+Json HistoryToJson(const History& history) {
+  Json json = ToJson(history);
   for (std::size_t i = 0; i < history.derived.size(); ++i) {
     if (RunsInTime(history.derived[i].filter)) continue;
     json["derived"][i].erase("tau");
@@ -30,7 +30,7 @@ Json ToJson(const History& history) {
   return json;
 }
 
-Json ToJson(const PredictionInterval& interval) {
+Json IntervalToJson(const PredictionInterval& interval) {
   Json json = {{"holdout", interval.holdout},
                {"unit", interval.unit},
                {"groups", interval.units}};
@@ -63,20 +63,28 @@ Json ToJson(const PredictionInterval& interval) {
 // Digits of numbers on which no prediction depends.
 constexpr int kDigits = 6;
 
-double Rounded(double value) {
-  return std::strtod(fmt::format("{:.{}g}", value, kDigits).c_str(), nullptr);
+Json Rounded(Json json) {
+  if (json.is_number_float()) {
+    const std::string text =
+        fmt::format("{:.{}g}", json.get<double>(), kDigits);
+    return std::strtod(text.c_str(), nullptr);
+  }
+  if (json.is_structured()) {
+    for (Json& part : json) part = Rounded(std::move(part));
+  }
+  return json;
 }
 
-Json ToJson(const Applicability& trained,
-            const std::vector<TrainedInput>& inputs) {
-  Json json = MembersToJson(trained, Rounded);
+Json ApplicabilityToJson(const Applicability& trained,
+                         const std::vector<TrainedInput>& inputs) {
+  Json json = Rounded(ToJson(trained));
   for (Json& column : json["columns"]) {
     column = inputs[column.get<std::size_t>()].column.name;
   }
   return json;
 }
 
-Json ToJson(const std::vector<data::ColumnFilter>& where) {
+Json FiltersToJson(const std::vector<data::ColumnFilter>& where) {
   Json filters = Json::array();
   for (const data::ColumnFilter& filter : where) {
     Json& json = filters.emplace_back(Json{{"column", filter.column}});
@@ -100,27 +108,28 @@ std::string ModelToJson(const FittedModel& fitted,
       {"kind", ToString(fitted.kind)},
       {"target",
        {{"name", fitted.target.name}, {"unit", fitted.target.unit.symbol}}},
-      {"inputs", MembersToJson(fitted.inputs)},
+      {"inputs", ToJson(fitted.inputs)},
       {"parameters", fitted.model->num_parameters()}};
   WriteForm(*fitted.model, fitted.equation, &document);
   if (fitted.align != data::Alignment::kNone) {
     document["target"]["align"] = data::ToString(fitted.align);
   }
-  if (!fitted.where.empty()) document["where"] = ToJson(fitted.where);
+  if (!fitted.where.empty()) document["where"] = FiltersToJson(fitted.where);
   document["history"] =
-      fitted.history != nullptr ? ToJson(*fitted.history) : Json();
-  document["guards"] = fitted.guards ? MembersToJson(*fitted.guards) : Json();
-  document["interval"] = fitted.interval ? ToJson(*fitted.interval) : Json();
-  document["applicability"] = fitted.applicability != nullptr
-                                  ? ToJson(*fitted.applicability, fitted.inputs)
-                                  : Json();
-  document["held_out"] = fitted.held_out != nullptr
-                             ? MembersToJson(*fitted.held_out, Rounded)
-                             : Json();
+      fitted.history != nullptr ? HistoryToJson(*fitted.history) : Json();
+  document["guards"] = ToJson(fitted.guards);
+  document["interval"] =
+      fitted.interval ? IntervalToJson(*fitted.interval) : Json();
+  document["applicability"] =
+      fitted.applicability != nullptr
+          ? ApplicabilityToJson(*fitted.applicability, fitted.inputs)
+          : Json();
+  document["held_out"] =
+      fitted.held_out != nullptr ? Rounded(ToJson(*fitted.held_out)) : Json();
   document["learnt"] =
-      fitted.learnt != nullptr ? MembersToJson(*fitted.learnt) : Json();
+      fitted.learnt != nullptr ? ToJson(*fitted.learnt) : Json();
   document["reading"] =
-      fitted.reading != nullptr ? MembersToJson(*fitted.reading) : Json();
+      fitted.reading != nullptr ? ToJson(*fitted.reading) : Json();
   document["provenance"] = Json::object();
   for (const auto& [key, value] : provenance) {
     document["provenance"][key] = value;

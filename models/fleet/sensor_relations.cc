@@ -4,7 +4,7 @@
 #include "data/input_error.h"
 #include "fitting/least_squares/decompositions.h"
 #include "models/fleet/watch.h"
-#include "models/study/record/record_json.h"
+#include "models/record_json.h"
 #include "stats/order_statistic.h"
 
 namespace errmap::models {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "data/argument_name.h"
-#include "models/study/record/record_json.h"
+#include "models/record_json.h"
 
 namespace errmap::models {
 namespace {

@@ -24,11 +24,11 @@
 #include "data/measurements/measured_files.h"
 #include "data/text.h"
 #include "models/history/map_log.h"
+#include "models/record_json.h"
 #include "models/sensors/sensor_check.h"
 #include "models/session/map_rows.h"
 #include "models/session/session_check.h"
 #include "models/session/zero_schedule.h"
-#include "models/study/record/record_json.h"
 
 namespace errmap::cli {
 namespace {

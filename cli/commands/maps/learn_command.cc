@@ -34,9 +34,9 @@
 #include "models/learning/learning_record.h"
 #include "models/learning/next_states.h"
 #include "models/learning/sensor_curve.h"
+#include "models/record_json.h"
 #include "models/study/journal/fit_label.h"
 #include "models/study/journal/kept_fits.h"
-#include "models/study/record/record_json.h"
 #include "models/study/study_defaults.h"
 #include "stats/error_metrics.h"
 

@@ -22,7 +22,7 @@
 #include "data/text.h"
 #include "models/history/rows_made_for.h"
 #include "models/model_file.h"
-#include "models/study/record/record_json.h"
+#include "models/record_json.h"
 #include "models/study/study_defaults.h"
 #include "models/uncertainty/learnt_rows.h"
 #include "models/uncertainty/map_update.h"

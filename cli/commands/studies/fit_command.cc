@@ -26,10 +26,10 @@
 #include "fitting/interruption.h"
 #include "models/file_recipe.h"
 #include "models/model_file.h"
+#include "models/record_json.h"
 #include "models/sensors/sensitivity.h"
 #include "models/study/fold_pool.h"
 #include "models/study/record/making/parts.h"
-#include "models/study/record/record_json.h"
 #include "models/study/study_defaults.h"
 #include "models/uncertainty/promise.h"
 

@@ -17,7 +17,7 @@
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/reading/read_table.h"
 #include "data/text.h"
-#include "models/study/record/record_json.h"
+#include "models/record_json.h"
 
 namespace errmap::cli {
 namespace {

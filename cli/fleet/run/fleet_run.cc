@@ -23,7 +23,7 @@
 #include "fitting/parallel_for.h"
 #include "models/file_recipe.h"
 #include "models/fleet/watch.h"
-#include "models/study/record/record_json.h"
+#include "models/record_json.h"
 #include "models/version.h"
 #include "stats/holdout.h"
 

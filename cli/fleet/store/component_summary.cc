@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "models/study/record/record_json.h"
+#include "models/record_json.h"
 
 namespace errmap::fleet {
 namespace {

@@ -6,7 +6,7 @@
 #include "cli/fleet/store/merge.h"
 #include "cli/report/table.h"
 #include "data/text.h"
-#include "models/study/record/record_json.h"
+#include "models/record_json.h"
 
 namespace errmap::fleet {
 

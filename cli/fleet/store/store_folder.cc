@@ -12,7 +12,7 @@
 #include "data/tables/text/gzip.h"
 #include "data/text.h"
 #include "data/throwing_as.h"
-#include "models/study/record/record_json.h"
+#include "models/record_json.h"
 
 namespace errmap::fleet {
 

@@ -25,7 +25,7 @@
 #include "data/text.h"
 #include "data/way_words.h"
 #include "models/kinematics/iso230.h"
-#include "models/study/record/record_json.h"
+#include "models/record_json.h"
 
 namespace errmap::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include "cli/machine/record/machine_tables.h"
 #include "cli/report/figures/figures.h"
 #include "data/argument_name.h"
-#include "models/study/record/record_json.h"
+#include "models/record_json.h"
 
 namespace errmap::machine {
 namespace {

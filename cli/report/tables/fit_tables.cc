@@ -7,7 +7,7 @@
 #include "cli/report/number_text.h"
 #include "cli/report/plot.h"
 #include "cli/report/tables/report_tables.h"
-#include "models/study/record/record_json.h"
+#include "models/record_json.h"
 #include "stats/holdout.h"
 
 namespace errmap::report {

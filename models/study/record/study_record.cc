@@ -9,7 +9,7 @@
 #include "data/argument_name.h"
 #include "data/sha256.h"
 #include "data/text.h"
-#include "models/study/record/record_json.h"
+#include "models/record_json.h"
 
 namespace errmap::models {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "models/study/record/record_json.h"
+#include "models/record_json.h"
 #include "models/study/record/study_record.h"
 
 namespace errmap {

@@ -14,7 +14,7 @@
 #include "data/input_error.h"
 #include "data/measurements/dataset.h"
 #include "models/comparison/compare.h"
-#include "models/study/record/record_json.h"
+#include "models/record_json.h"
 #include "tests/places.h"
 
 namespace errmap::report {

@@ -187,12 +187,7 @@ std::vector<VerdictRecord> JudgementRecord::Verdicts() const {
     if (verdict->best_baseline) {
       record.best_baseline = Name(*verdict->best_baseline);
     }
-    if (tests.obstacle.exists()) {
-      record.obstacle = {.kind = tests.obstacle.kind,
-                         .units = tests.obstacle.units,
-                         .needed = tests.obstacle.needed,
-                         .pairs = tests.obstacle.pairs};
-    }
+    if (tests.obstacle.exists()) record.obstacle = tests.obstacle;
     verdicts.push_back(std::move(record));
   }
   return verdicts;

@@ -9,7 +9,7 @@
 
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
-#include "models/study/record/record_json.h"
+#include "models/record_json.h"
 #include "tests/places.h"
 
 namespace errmap::models {

@@ -17,6 +17,10 @@
 
 #include "models/record.h"
 
+namespace errmap::data {
+struct ColumnInfo;
+}
+
 namespace errmap::models {
 
 using RecordJson = nlohmann::ordered_json;
@@ -68,6 +72,13 @@ bool IsWord(const RecordJson& json, std::string_view word);
 std::string PlaceOf(std::string_view key);
 std::string PlaceOf(std::size_t i);
 
+/// Adds name, unit and, if known, role. A column among a record's members is
+/// stored by these keys among theirs.
+void AddColumn(const data::ColumnInfo& column, RecordJson* json);
+bool ColumnFrom(const RecordJson& json,
+                data::ColumnInfo* column,
+                std::string* misfit);
+
 template <typename T>
 concept Named = std::is_enum_v<T> && requires(T value) {
   ToString(value);
@@ -111,6 +122,8 @@ void Add(const T& record, RecordJson* json) {
       } else {
         Add(member.value, json);
       }
+    } else if constexpr (std::same_as<Held, data::ColumnInfo>) {
+      AddColumn(member, json);
     } else if constexpr (IsLeftOut<Held>::value) {
       if (member) Write(*member, Member(key, json));
     } else {
@@ -119,10 +132,24 @@ void Add(const T& record, RecordJson* json) {
   });
 }
 
-/// Writes values that are not finite as null.
+template <typename T>
+concept Tabular = requires(T value) {
+  value.rowwise();
+  requires T::ColsAtCompileTime != 1;
+};
+
+/// Writes values that are not finite as null, and matrices by rows.
 template <typename T>
 void Write(const T& value, RecordJson* json) {
-  if constexpr (Record<T>) {
+  if constexpr (std::same_as<T, data::ColumnInfo>) {
+    SetObject(json);
+    AddColumn(value, json);
+  } else if constexpr (Tabular<T>) {
+    SetArray(json);
+    for (const auto& row : value.rowwise()) {
+      Write(std::vector<double>(row.begin(), row.end()), Append(json));
+    }
+  } else if constexpr (Record<T>) {
     SetObject(json);
     Add(value, json);
   } else if constexpr (Named<T>) {
@@ -283,9 +310,24 @@ bool MapFrom(const RecordJson& json, T* value, std::string* misfit) {
 template <typename T>
 bool ListFrom(const RecordJson& json, T* value, std::string* misfit) {
   if (!IsArray(json)) return false;
-  value->resize(Size(json));
-  for (std::size_t i = 0; i < value->size(); ++i) {
-    if (!FromPart(At(json, i), i, &(*value)[i], misfit)) return false;
+  value->resize(static_cast<decltype(value->size())>(Size(json)));
+  std::size_t i = 0;
+  for (auto& held : *value) {
+    if (!FromPart(At(json, i), i, &held, misfit)) return false;
+    ++i;
+  }
+  return true;
+}
+
+template <typename T>
+bool MatrixFrom(const RecordJson& json, T* value, std::string* misfit) {
+  std::vector<std::vector<double>> rows;
+  if (!ListFrom(json, &rows, misfit)) return false;
+  value->resize(std::ssize(rows), rows.empty() ? 0 : std::ssize(rows.front()));
+  auto to = value->rowwise().begin();
+  for (const std::vector<double>& row : rows) {
+    if (std::ssize(row) != value->cols()) return false;
+    std::copy(row.begin(), row.end(), (*to++).begin());
   }
   return true;
 }
@@ -305,7 +347,11 @@ void ParseAs(std::string_view text,
 template <typename T>
 bool FromJson(const RecordJson& json, T* value, std::string* misfit) {
   using namespace record_json;
-  if constexpr (Record<T>) {
+  if constexpr (std::same_as<T, data::ColumnInfo>) {
+    return ColumnFrom(json, value, misfit);
+  } else if constexpr (Tabular<T>) {
+    return MatrixFrom(json, value, misfit);
+  } else if constexpr (Record<T>) {
     return MembersFrom(json, value, misfit);
   } else if constexpr (Named<T>) {
     return WordFrom(json, value);

@@ -1,4 +1,4 @@
-#include "models/study/record/record_json.h"
+#include "models/record_json.h"
 
 #include <algorithm>
 
@@ -7,9 +7,33 @@
 
 #include "data/formats/nesting.h"
 #include "data/input_error.h"
+#include "data/measurements/dataset.h"
 #include "data/text.h"
 
 namespace errmap::models::record_json {
+
+struct ColumnRecord {
+  std::string name;
+  std::string unit;
+  LeftOut<data::Role> role;
+};
+
+void AddColumn(const data::ColumnInfo& column, RecordJson* json) {
+  ColumnRecord record{column.name, column.unit.symbol, {}};
+  if (column.role != data::Role::kUnknown) record.role.emplace(column.role);
+  Add(record, json);
+}
+
+bool ColumnFrom(const RecordJson& json,
+                data::ColumnInfo* column,
+                std::string* misfit) {
+  ColumnRecord record;
+  if (!MembersFrom(json, &record, misfit)) return false;
+  *column = {.name = record.name,
+             .unit = data::UnitOfSymbol(record.unit),
+             .role = record.role.value_or(data::Role::kUnknown)};
+  return true;
+}
 
 void SetNull(RecordJson* json) { *json = nullptr; }
 void Set(double value, RecordJson* json) {
