@@ -339,6 +339,12 @@ class ModelRecipe {
   virtual FittedModel Fit(const data::Dataset& training,
                           const FitContext& context) const = 0;
 };
+/// Returns a map of these rows without its inputs and its model, as if solved
+/// directly.
+FittedModel NewMap(std::string name,
+                   ModelKind kind,
+                   const data::Dataset& training);
+
 
 /// Wraps a model as a recipe's Fit returns it. For models that read every input
 /// of `training` as it is and need no iterations.

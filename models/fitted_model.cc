@@ -131,19 +131,26 @@ VectorXd FittedModel::Predict(const data::Dataset& dataset) const {
   return PredictForm(FormInputs(dataset)).errors;
 }
 
+FittedModel NewMap(std::string name,
+                   ModelKind kind,
+                   const data::Dataset& training) {
+  FittedModel fitted;
+  fitted.name = std::move(name);
+  fitted.kind = kind;
+  fitted.target = training.target();
+  fitted.align = training.align();
+  fitted.summary.termination = fitting::Termination::kDirect;
+  fitted.summary.message.clear();
+  return fitted;
+}
+
 FittedModel MapOfModel(const ModelRecipe& recipe,
                        const data::Dataset& training,
                        std::shared_ptr<const ErrorModel> model) {
-  FittedModel fitted;
-  fitted.name = recipe.name();
-  fitted.kind = recipe.kind();
-  fitted.target = training.target();
-  fitted.align = training.align();
+  FittedModel fitted = NewMap(recipe.name(), recipe.kind(), training);
   const std::vector<Index> columns = stats::AllIndices(training.num_inputs());
   fitted.inputs = DescribeInputs(training, columns);
   fitted.model = std::move(model);
-  fitted.summary.termination = fitting::Termination::kDirect;
-  fitted.summary.message.clear();
   return fitted;
 }
 

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "stats/holdout.h"
+#include "stats/indices.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::models {
@@ -21,14 +21,10 @@ Index NumGroups(const data::Dataset& dataset) {
 }
 
 // A fold for each row: group after group to the next of `count`.
-std::vector<Index> DealtInTurn(const std::vector<Index>& groups, Index count) {
-  std::map<Index, Index> fold_of;
-  for (const Index group : groups) fold_of[group] = 0;
-  Index next = 0;
-  for (auto& [group, fold] : fold_of) fold = next++ % count;
-  std::vector<Index> folds;
-  for (const Index group : groups) folds.push_back(fold_of.at(group));
-  return folds;
+std::vector<Index> DealtInTurn(std::vector<Index> groups, Index count) {
+  stats::Renumber(&groups);
+  for (Index& group : groups) group %= count;
+  return groups;
 }
 
 // The kind that the rows allow.

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "data/measurements/dataset.h"
@@ -119,6 +122,25 @@ struct HeldOutErrors {
   std::string temperature = {};
   double rmse = 0.0;  // over all units: the predicted error
   std::vector<Unit> units;
+
+  /// Returns the longest time since a session's start.
+  double longest() const {
+    double most = 0.0;
+    for (const Unit& unit : units) {
+      most = std::max(most, unit.elapsed.maxCoeff());
+    }
+    return most;
+  }
+  /// Returns the lowest and the highest position; needs a position.
+  std::pair<double, double> travel() const {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const Unit& unit : units) {
+      low = std::min(low, unit.position.minCoeff());
+      high = std::max(high, unit.position.maxCoeff());
+    }
+    return {low, high};
+  }
 };
 
 /// The training rows, to recognise them without the training file. They are

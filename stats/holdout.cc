@@ -79,15 +79,8 @@ class Units {
   Units(Index num_rows, const std::vector<Index>& group_codes)
       : num_rows_(num_rows),
         codes_(group_codes.empty() ? AllIndices(num_rows) : group_codes) {
-    // Groups whose rows were all dropped do not count: renumber those present.
-    std::vector<Index> present = codes_;
-    std::sort(present.begin(), present.end());
-    present.erase(std::unique(present.begin(), present.end()), present.end());
-    for (Index& code : codes_) {
-      code = std::lower_bound(present.begin(), present.end(), code) -
-             present.begin();
-    }
-    count_ = std::ssize(present);
+    // Groups whose rows were all dropped do not count.
+    count_ = Renumber(&codes_);
   }
 
   Index count() const { return count_; }

@@ -36,4 +36,26 @@ std::vector<Index> SpreadSample(const std::vector<Index>& all, Index most) {
   return chosen;
 }
 
+Index Renumber(std::vector<Index>* codes) {
+  std::vector<Index> present = *codes;
+  std::sort(present.begin(), present.end());
+  present.erase(std::unique(present.begin(), present.end()), present.end());
+  for (Index& code : *codes) {
+    code = std::lower_bound(present.begin(), present.end(), code) -
+           present.begin();
+  }
+  return std::ssize(present);
+}
+
+std::vector<std::vector<Index>> IndicesByCode(const std::vector<Index>& codes) {
+  std::vector<std::vector<Index>> indices;
+  Index i = 0;
+  for (const Index code : codes) {
+    const auto at = static_cast<std::size_t>(code);
+    if (at >= indices.size()) indices.resize(at + 1);
+    indices[at].push_back(i++);
+  }
+  return indices;
+}
+
 }  // namespace errmap::stats

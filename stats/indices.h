@@ -20,4 +20,11 @@ std::vector<Index> SpreadSample(Index count, Index most);
 /// Returns the elements of `all` at these indices.
 std::vector<Index> SpreadSample(const std::vector<Index>& all, Index most);
 
+/// Numbers the codes anew, in their order, without those that are missing.
+/// Returns how many there are.
+Index Renumber(std::vector<Index>* codes);
+
+/// Returns the indices of each code from 0 to the largest, ascending.
+std::vector<std::vector<Index>> IndicesByCode(const std::vector<Index>& codes);
+
 }  // namespace errmap::stats

@@ -200,6 +200,12 @@ Dataset::Dataset(Parts parts) : parts_(std::move(parts)) {
   }
 }
 
+std::vector<std::string> Dataset::InputNames() const {
+  std::vector<std::string> names;
+  for (const ColumnInfo& input : inputs()) names.push_back(input.name);
+  return names;
+}
+
 std::vector<Eigen::Index> Dataset::session_codes() const {
   std::vector<Eigen::Index> codes;
   codes.reserve(parts_.log_rows.size());

@@ -116,6 +116,7 @@ class Dataset {
     return static_cast<Eigen::Index>(parts_.inputs.size());
   }
   const std::vector<ColumnInfo>& inputs() const { return parts_.inputs; }
+  std::vector<std::string> InputNames() const;
   const Eigen::MatrixXd& input_values() const {
     // NOLINTNEXTLINE(clang-analyzer-core.uninitialized.UndefReturn): has a log
     return reads_log() ? parts_.log->input_values : parts_.input_values;

@@ -310,7 +310,6 @@ class BlendRecipe final : public ModelRecipe {
                       bool grows,
                       const std::vector<Part>& parts) const {
     ReadByMembers read_by;
-    FittedModel fitted;
     std::vector<AveragedMember> members;
     for (const Part& part : parts) {
       constexpr double kNoBound = std::numeric_limits<double>::infinity();
@@ -328,12 +327,8 @@ class BlendRecipe final : public ModelRecipe {
     const Dataset read = DeriveDataset(training, history);
     const std::vector<Index> all =
         stats::AllIndices(std::ssize(history.form_inputs));
-    fitted.name = name_;
+    FittedModel fitted = NewMap(name_, ModelKind::kBlend, training);
     fitted.remarks = SharesOf(parts);
-    fitted.kind = ModelKind::kBlend;
-    fitted.align = training.align();
-    fitted.target = training.target();
-    fitted.summary.termination = fitting::Termination::kDirect;
     fitted.inputs = DescribeInputs(read, all);
     if (options_.bases.clip) {
       fitted.guards =

@@ -13,10 +13,7 @@ namespace errmap::models {
 data::DatasetSelection SelectionLike(const data::Dataset& like,
                                      data::DatasetSelection selection) {
   selection.target = like.target().name;
-  selection.inputs.clear();
-  for (const data::ColumnInfo& input : like.inputs()) {
-    selection.inputs.push_back(input.name);
-  }
+  selection.inputs = like.InputNames();
   selection.exclude.clear();
   selection.group = like.groups().column;
   selection.keep_dead = true;

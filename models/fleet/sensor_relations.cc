@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstdint>
 
 #include "data/input_error.h"
 #include "fitting/least_squares/decompositions.h"
@@ -9,22 +8,9 @@
 
 namespace errmap::models {
 
-struct RelationsColumn {
-  std::string name;
-  std::string unit;
-};
-/// The members of SensorRelations as the file has them.
 struct RelationsRecord {
   std::string schema;
-  std::vector<RelationsColumn> columns;
-  std::vector<double> mean;
-  std::vector<std::vector<double>> weights;  // rows
-  std::vector<double> variance;
-  std::vector<double> distance;
-  std::vector<double> spread;
-  LeftOut<std::vector<double>> within;  // since 0.1.0, as is `rows`
-  std::int64_t sessions = 0;
-  std::int64_t rows = 0;
+  Inline<SensorRelations> relations;
 };
 
 namespace {
@@ -64,65 +50,36 @@ std::vector<Index> SensorsOf(const data::Dataset& dataset) {
   return sensors;
 }
 
-std::vector<double> ToList(const VectorXd& values) {
-  return {values.begin(), values.end()};
-}
+constexpr const char* kSchema = "errmap-relations-1";
 
-VectorXd ToVector(const std::vector<double>& values, Index size) {
-  if (std::ssize(values) != size) {
+void Require(bool fits) {
+  if (!fits) {
     throw data::InputError("has lists of other lengths than its columns");
   }
-  return Eigen::Map<const VectorXd>(values.data(), size);
 }
-
-constexpr const char* kSchema = "errmap-relations-1";
 
 }  // namespace
 
 std::string SensorRelations::ToJsonText() const {
-  RelationsRecord record{.schema = kSchema,
-                         .columns = {},
-                         .mean = ToList(mean),
-                         .weights = {},
-                         .variance = ToList(variance),
-                         .distance = ToList(distance),
-                         .spread = ToList(spread),
-                         .within = ToList(within),
-                         .sessions = sessions,
-                         .rows = rows};
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    record.columns.push_back({columns[i].name, columns[i].unit.symbol});
-    record.weights.push_back(ToList(weights.row(Index(i)).transpose()));
-  }
-  return JsonText(record, -1) + "\n";
+  return JsonText(RelationsRecord{kSchema, {*this}}, -1) + "\n";
 }
 
 SensorRelations SensorRelations::FromJsonText(std::string_view text) {
-  const auto record = RecordFromText<RelationsRecord>(
+  auto [schema, inlined] = RecordFromText<RelationsRecord>(
       text, kSchema, "errmap compare and errmap deploy rewrite it");
-  SensorRelations found;
-  for (const RelationsColumn& column : record.columns) {
-    found.columns.push_back(
-        {.name = column.name, .unit = data::UnitOfSymbol(column.unit)});
-  }
+  SensorRelations& found = inlined.value;
   const Index size = std::ssize(found.columns);
-  found.mean = ToVector(record.mean, size);
-  found.variance = ToVector(record.variance, size);
-  found.distance = ToVector(record.distance, size);
-  found.spread = ToVector(record.spread, size);
-  if (std::ssize(record.weights) != size) {
-    throw data::InputError("has lists of other lengths than its columns");
+  // Files of before 0.1.0 have none.
+  if (found.within.size() == 0) found.within = VectorXd::Zero(size);
+  for (const VectorXd* list : {&found.mean,
+                               &found.variance,
+                               &found.distance,
+                               &found.spread,
+                               &found.within}) {
+    Require(list->size() == size);
   }
-  found.weights.resize(size, size);
-  for (Index i = 0; i < size; ++i) {
-    found.weights.row(i) =
-        ToVector(record.weights[std::size_t(i)], size).transpose();
-  }
-  found.within = record.within ? ToVector(*record.within, size)
-                               : VectorXd(VectorXd::Zero(size));
-  found.sessions = record.sessions;
-  found.rows = record.rows;
-  return found;
+  Require(found.weights.rows() == size && found.weights.cols() == size);
+  return std::move(found);
 }
 
 std::optional<SensorRelations> LearnRelations(const data::Dataset& training) {
@@ -159,7 +116,8 @@ std::optional<SensorRelations> LearnRelations(const data::Dataset& training) {
   distances.conservativeResize(used, Eigen::NoChange);
   SensorRelations found = RegressOnOthers(values);
   for (const Index sensor : sensors) {
-    found.columns.push_back(training.inputs()[std::size_t(sensor)]);
+    const data::ColumnInfo& column = training.inputs()[std::size_t(sensor)];
+    found.columns.push_back({.name = column.name, .unit = column.unit});
   }
   found.sessions = used;
   found.rows = stats::UpperMedian(std::move(sizes));

@@ -19,12 +19,7 @@ constexpr double kSensorWidening = 1.25;
 
 // Length of the travel over all units, which have positions.
 double TravelOf(const HeldOutErrors& errors) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (const HeldOutErrors::Unit& unit : errors.units) {
-    low = std::min(low, unit.position.minCoeff());
-    high = std::max(high, unit.position.maxCoeff());
-  }
+  const auto [low, high] = errors.travel();
   return high - low;
 }
 
@@ -37,10 +32,7 @@ class Neighbours {
              const VectorXd& position)
       : elapsed_(elapsed), position_(position) {
     if (elapsed.size() > 0) {
-      double longest = 0.0;
-      for (const HeldOutErrors::Unit& unit : errors.units) {
-        longest = std::max(longest, unit.elapsed.maxCoeff());
-      }
+      const double longest = errors.longest();
       if (longest > 0.0) per_time_ = 1.0 / longest;
     }
     if (position.size() > 0) {

@@ -18,6 +18,7 @@
 #include "data/text.h"
 #include "models/history/history_state.h"
 #include "models/history/session_start.h"
+#include "stats/indices.h"
 
 namespace errmap::models {
 namespace {
@@ -51,19 +52,10 @@ std::vector<data::ColumnInfo> InfoOf(const data::Dataset& dataset,
   return info;
 }
 
-// Rows of every session in the order of the log.
-std::vector<std::vector<Index>> RowsOfSessions(const data::SessionLog& log) {
-  std::vector<std::vector<Index>> rows(log.sessions.labels.size());
-  Index row = 0;
-  for (const Index code : log.sessions.codes) {
-    rows[static_cast<std::size_t>(code)].push_back(row++);
-  }
-  return rows;
-}
-
 double StepOf(const data::SessionLog& log) {
   std::vector<double> steps;
-  for (const std::vector<Index>& rows : RowsOfSessions(log)) {
+  for (const std::vector<Index>& rows :
+       stats::IndicesByCode(log.sessions.codes)) {
     for (std::size_t i = 1; i < rows.size(); ++i) {
       steps.push_back(log.time[rows[i]] - log.time[rows[i - 1]]);
     }
@@ -85,7 +77,8 @@ Derived DeriveLog(const data::SessionLog& log,
   }
   MatrixXd derived(std::ssize(log_rows), std::ssize(state.form_columns()));
   VectorXd reading(std::ssize(columns));
-  const std::vector<std::vector<Index>> sessions = RowsOfSessions(log);
+  const std::vector<std::vector<Index>> sessions =
+      stats::IndicesByCode(log.sessions.codes);
   for (std::size_t s = 0; s < sessions.size(); ++s) {
     Index before = -1;
     for (const Index row : sessions[s]) {
@@ -196,16 +189,6 @@ class StepsApart {
   bool in_rows_ = false;
 };
 
-// The column that `name` is, or is derived from in the end.
-std::string RootOf(const History& history, std::string name) {
-  // Backwards, since each derived input builds on earlier ones only.
-  for (auto input = history.derived.rbegin(); input != history.derived.rend();
-       ++input) {
-    if (input->column.name == name) name = input->of;
-  }
-  return name;
-}
-
 DerivedInput Unitless(const data::ColumnInfo& of,
                       const char* name,
                       Filter filter) {
@@ -241,6 +224,14 @@ bool Remembers(Filter filter) {
 
 std::string_view ToString(Between between) {
   return between == Between::kLinear ? "linear" : "held";
+}
+
+std::string History::RootOf(std::string name) const {
+  // Backwards, since each derived input builds on earlier ones only.
+  for (auto input = derived.rbegin(); input != derived.rend(); ++input) {
+    if (input->column.name == name) name = input->of;
+  }
+  return name;
 }
 
 double History::longest_bridged() const {
@@ -285,7 +276,7 @@ bool History::needs_sessions() const {
 std::vector<std::string> History::columns() const {
   std::vector<std::string> names;
   const auto add_root = [&](const std::string& name) {
-    const std::string root = RootOf(*this, name);
+    const std::string root = RootOf(name);
     if (std::ranges::find(names, root) == names.end()) names.push_back(root);
   };
   for (const std::string& name : form_inputs) add_root(name);
@@ -298,8 +289,7 @@ std::vector<Index> History::remembered() const {
   std::set<Index> found;
   for (const DerivedInput& input : derived) {
     if (!Remembers(input.filter)) continue;
-    found.insert(std::ranges::find(names, RootOf(*this, input.of)) -
-                 names.begin());
+    found.insert(std::ranges::find(names, RootOf(input.of)) - names.begin());
   }
   return {found.begin(), found.end()};
 }
@@ -412,7 +402,8 @@ std::vector<Missing> FindMissing(const data::SessionLog& log,
                                  bool from_rest) {
   const StepsApart steps(log, history);
   std::vector<Missing> missing(log.sessions.codes.size(), Missing::kNothing);
-  for (const std::vector<Index>& rows : RowsOfSessions(log)) {
+  for (const std::vector<Index>& rows :
+       stats::IndicesByCode(log.sessions.codes)) {
     if (rows.empty()) continue;
     const bool begins_inside =
         !from_rest && BeginsInside(log, rows.front(), history);

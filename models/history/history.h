@@ -89,6 +89,8 @@ struct History {
   std::vector<DerivedInput> derived;
   std::vector<std::string> form_inputs;  // columns or derived inputs, in order
 
+  /// Returns the column that `name` is, or is derived from in the end.
+  std::string RootOf(std::string name) const;
   /// Returns the longest step between readings that the filters can bridge
   /// (models/history/README.md). It is twice the longest step of training, or
   /// three times the shortest time constant if that is more. Infinity if

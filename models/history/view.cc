@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "models/history/session_start.h"
 #include "models/history/view_options.h"
 #include "models/shared_work.h"
+#include "stats/indices.h"
 #include "stats/not_a_number.h"
 #include "stats/order_statistic.h"
 
@@ -142,11 +142,8 @@ std::vector<bool> ColumnsThatOnlyGrow(const Dataset& rows) {
   constexpr double kHardly = 0.1;
   std::vector<bool> only_grow(static_cast<std::size_t>(rows.num_inputs()),
                               false);
-  std::map<Index, std::vector<Index>> sessions;
-  const std::vector<Index> codes = rows.session_codes();
-  for (std::size_t i = 0; i < codes.size(); ++i) {
-    sessions[codes[i]].push_back(static_cast<Index>(i));
-  }
+  auto sessions = stats::IndicesByCode(rows.session_codes());
+  std::erase_if(sessions, [](const auto& of_one) { return of_one.empty(); });
   if (sessions.size() < kFewestSessions) return only_grow;
   for (Index j = 0; j < rows.num_inputs(); ++j) {
     const auto column = rows.input_values().col(j);
@@ -156,7 +153,7 @@ std::vector<bool> ColumnsThatOnlyGrow(const Dataset& rows) {
     double returned = 0.0;  // shares of the later sessions
     bool rises = true;
     bool falls = true;
-    for (const auto& [session, places] : sessions) {
+    for (const std::vector<Index>& places : sessions) {
       const Eigen::ArrayXd values = column(places);
       if (!std::isnan(mean_before)) {
         rises = rises && values.mean() > mean_before;

@@ -11,6 +11,7 @@
 
 #include "models/study/judgement/units_of_analysis.h"
 #include "stats/distributions.h"
+#include "stats/indices.h"
 #include "stats/not_a_number.h"
 #include "stats/random.h"
 
@@ -40,12 +41,7 @@ Units UnitsOf(const data::Dataset& dataset, LearnBy by) {
   Units units;
   units.name = data::WordFor(grouping);
   units.codes = sessions ? dataset.session_codes() : dataset.groups().codes;
-  std::map<Index, Index> place;
-  for (const Index code :
-       std::set<Index>(units.codes.begin(), units.codes.end())) {
-    place.emplace(code, units.count++);
-  }
-  for (Index& code : units.codes) code = place.at(code);
+  units.count = stats::Renumber(&units.codes);
   return units;
 }
 

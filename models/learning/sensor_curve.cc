@@ -38,15 +38,6 @@ struct Design {
   std::vector<std::vector<Index>> columns;  // of each sensor
 };
 
-// The column of the data that a column of the form is made of.
-std::string SourceOf(const History* history, const std::string& column) {
-  if (history == nullptr) return column;
-  const auto derived = std::ranges::find(
-      history->derived, column, [](const auto& d) { return d.column.name; });
-  return derived == history->derived.end() ? column
-                                           : SourceOf(history, derived->of);
-}
-
 // Columns less their mean, in spreads of their unit.
 MatrixXd Standardised(const data::Dataset& rows,
                       const std::vector<Index>& columns) {
@@ -71,8 +62,9 @@ Design MakeDesign(const ViewedRows& viewed) {
   for (Index i = 0; i < rows.num_inputs(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     if (viewed.is_position[at]) continue;
+    const std::string& name = rows.inputs()[at].name;
     const std::string source =
-        SourceOf(viewed.history.get(), rows.inputs()[at].name);
+        viewed.history == nullptr ? name : viewed.history->RootOf(name);
     const auto known = std::ranges::find(design.names, source);
     sensor_of.push_back(known - design.names.begin());
     made.push_back(i);

@@ -118,17 +118,11 @@ FittedModel MapOfWeights(const NetShape& shape,
         std::to_string(training.num_inputs()) + " inputs");
   }
   const std::vector<Index> columns = stats::AllIndices(training.num_inputs());
-  FittedModel map;
-  map.name = name;
-  map.kind = ModelKind::kNet;
-  map.target = training.target();
-  map.align = training.align();
+  FittedModel map = NewMap(name, ModelKind::kNet, training);
   map.inputs = DescribeInputs(training, columns);
   map.model =
       std::make_shared<FeedforwardNet>(FormOfWeights(shape, w, inputs, target));
   map.guards = MakeGuards(map.inputs, training.target_values());
-  map.summary.termination = fitting::Termination::kDirect;
-  map.summary.message.clear();
   return map;
 }
 

@@ -236,11 +236,7 @@ class OneLayerRecipe final : public NetRecipe {
   FittedModel FitView(const Dataset& training,
                       const TunedNet& tuned,
                       const FitContext& context) const {
-    FittedModel fitted;
-    fitted.name = name_;
-    fitted.kind = ModelKind::kNet;
-    fitted.target = training.target();
-    fitted.align = training.align();
+    FittedModel fitted = NewMap(name_, ModelKind::kNet, training);
     fitted.inputs = DescribeAllInputs(training);
     NetDesign design = design_;
     design.hidden = tuned.hidden;

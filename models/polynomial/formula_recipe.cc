@@ -65,10 +65,7 @@ class FormulaRecipe final : public PolynomialRecipe {
  private:
   FittedModel FitRows(const Dataset& training,
                       const FitContext& context) const {
-    std::vector<std::string> names;
-    for (const data::ColumnInfo& input : training.inputs()) {
-      names.push_back(input.name);
-    }
+    const std::vector<std::string> names = training.InputNames();
     const std::vector<TermPowers> terms =
         ResolveTerms(terms_, names, "formula");
     const UsedTerms used =

@@ -11,6 +11,7 @@
 #include "models/polynomial/penalized_fit.h"
 #include "models/polynomial/polynomial_fit.h"
 #include "models/polynomial/polynomial_model.h"
+#include "stats/indices.h"
 #include "stats/not_a_number.h"
 
 namespace errmap::models {
@@ -47,10 +48,7 @@ std::vector<bool> ExcludedTerms(const PenalizedBasis& basis,
                                 const PolynomialDesign& design) {
   std::vector<bool> excluded(static_cast<std::size_t>(design.num_terms()),
                              false);
-  std::vector<std::string> names;
-  for (const data::ColumnInfo& input : design.dataset().inputs()) {
-    names.push_back(input.name);
-  }
+  const std::vector<std::string> names = design.dataset().InputNames();
   for (const TermPowers& powers :
        ResolveTerms(basis.exclude, names, "exclude")) {
     const auto at = std::ranges::find(design.terms(), powers);
@@ -142,12 +140,9 @@ SummedBasis::SummedBasis(std::shared_ptr<const ViewedRows> viewed,
         "the penalty is chosen by cross-validation, which needs a fold for "
         "each row and at least 2 folds");
   }
-  members_.resize(folds_ ? static_cast<std::size_t>(folds_->folds.count()) : 1);
-  for (Index row = 0; row < n; ++row) {
-    const Index fold =
-        folds_ ? folds_->folds.codes[static_cast<std::size_t>(row)] : 0;
-    members_[static_cast<std::size_t>(fold)].push_back(row);
-  }
+  members_ = stats::IndicesByCode(
+      folds_ ? folds_->folds.codes
+             : std::vector<Index>(static_cast<std::size_t>(n), 0));
   if (basis.between < 1.0) {
     offsets_ = SessionOffsets(
         design_.dataset().session_codes(), design_.num_terms(), basis.between);

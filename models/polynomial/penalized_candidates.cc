@@ -116,8 +116,7 @@ class BasisJudge {
       const std::shared_ptr<const ViewedRows>& viewed,
       const PenalizedBasis& basis,
       const std::vector<Penalty>& wanted) const {
-    const SummedBasis sums(
-        viewed, basis, rule_.strength ? nullptr : &folds_, context_);
+    const SummedBasis sums(viewed, basis, rule_.strength ? nullptr : &folds_);
     auto fits = std::make_shared<FitsByPenalty>();
     for (const Penalty penalty : wanted) {
       fits->emplace(

@@ -201,12 +201,7 @@ FittedModel MapOfCandidate(const std::string& name,
     form.terms.push_back({used.terms[i], candidate.coefficients[chosen[i]]});
   }
   const Dataset& rows = design.dataset();
-  FittedModel fitted;
-  fitted.name = name;
-  fitted.kind = ModelKind::kPolynomial;
-  fitted.target = rows.target();
-  fitted.align = rows.align();
-  fitted.summary.termination = fitting::Termination::kDirect;
+  FittedModel fitted = NewMap(name, ModelKind::kPolynomial, rows);
   fitted.inner_rmse = candidate.held_out_rmse;
   fitted.inputs = DescribeInputs(rows, columns);
   if (guarded) {

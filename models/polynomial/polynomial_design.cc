@@ -10,6 +10,7 @@
 #include "fitting/least_squares/triangular_reduction.h"
 #include "models/error_model.h"
 #include "models/shared_work.h"
+#include "stats/indices.h"
 
 namespace errmap::models {
 namespace {
@@ -227,15 +228,7 @@ DesignRows CollectRows(const PolynomialDesign& design,
     return rows;
   }
   const Index columns = terms + 2;  // intercept, terms, response
-  std::vector<std::vector<Index>> members;
-  if (!parts.empty()) {
-    members.resize(static_cast<std::size_t>(
-        *std::max_element(parts.begin(), parts.end()) + 1));
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      members[static_cast<std::size_t>(parts[i])].push_back(
-          static_cast<Index>(i));
-    }
-  }
+  const std::vector<std::vector<Index>> members = stats::IndicesByCode(parts);
   const std::size_t triangles = std::max<std::size_t>(1, members.size());
   const Index stacked = static_cast<Index>(triangles) * columns;
   rows.terms.resize(stacked, terms);

@@ -280,17 +280,6 @@ UsedTerms KeepUsedInputs(const std::vector<TermPowers>& terms,
   return used;
 }
 
-FittedModel PolynomialRecipe::NewModel(const Dataset& training) const {
-  FittedModel fitted;
-  fitted.name = name_;
-  fitted.kind = kind();
-  fitted.target = training.target();
-  fitted.align = training.align();
-  fitted.summary.termination = fitting::Termination::kDirect;
-  fitted.summary.message = "solved by QR";
-  return fitted;
-}
-
 FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
                                        const std::vector<Index>& inputs,
                                        const std::vector<TermPowers>& terms,
@@ -314,7 +303,7 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
   const DesignRows& rows = solved.rows;
   const fitting::LeastSquaresFit& solution = solved.solution;
 
-  FittedModel fitted = NewModel(training);
+  FittedModel fitted = NewMap(name_, kind(), training);
   fitted.inputs = DescribeInputs(training, inputs);
   FittedTerms kept = TermsOf(design, terms, solution);
   PolynomialForm& form = kept.form;

@@ -29,9 +29,6 @@ class PolynomialRecipe : public ModelRecipe {
   ModelKind kind() const override { return ModelKind::kPolynomial; }
 
  protected:
-  /// Returns a fit that states its origin, without a model yet.
-  FittedModel NewModel(const data::Dataset& training) const;
-
   /// Fits intercept and `terms` by least squares in the columns `inputs` of
   /// `training`. Terms that depend on earlier ones are omitted and named.
   /// Coefficients are refined in 106 bits if the condition leaves double fewer

@@ -29,7 +29,7 @@ class ConstantRecipe final : public PolynomialRecipe {
   FittedModel Fit(const Dataset& training,
                   const FitContext& context) const override {
     if (!is_zero_) return FitTerms(training, {}, {}, context);
-    FittedModel fitted = NewModel(training);
+    FittedModel fitted = NewMap(name(), kind(), training);
     fitted.summary.message = "nothing to fit";
     PolynomialForm form;
     fitted.equation = EquationText(form, fitted.target, {}, 1.0);

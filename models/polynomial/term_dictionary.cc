@@ -34,14 +34,6 @@ struct Terms {
   OptionText Write(const Value& value) const { return TermsText(value); }
 };
 
-std::vector<std::string> InputNames(const Dataset& dataset) {
-  std::vector<std::string> names;
-  for (const data::ColumnInfo& input : dataset.inputs()) {
-    names.push_back(input.name);
-  }
-  return names;
-}
-
 std::vector<TermPowers> CheckedTerms(const Dataset& training,
                                      TermSet set,
                                      int degree) {
@@ -75,7 +67,7 @@ std::vector<Index> Find(const std::vector<NamedTerm>& named,
                         const PolynomialDesign& design,
                         int degree,
                         const std::string& what) {
-  const std::vector<std::string> names = InputNames(design.dataset());
+  const std::vector<std::string> names = design.dataset().InputNames();
   std::vector<Index> found;
   for (const TermPowers& powers : ResolveTerms(named, names, what)) {
     const auto at =

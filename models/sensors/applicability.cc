@@ -193,13 +193,7 @@ void SetLimits(const MatrixXd& states,
 
 // Rows of each session, in their order.
 std::vector<std::vector<Index>> RowsOfSessions(const data::Dataset& training) {
-  std::vector<std::vector<Index>> rows;
-  Index row = 0;
-  for (const Index session : training.session_codes()) {
-    const auto at = static_cast<std::size_t>(session);
-    if (rows.size() <= at) rows.resize(at + 1);
-    rows[at].push_back(row++);
-  }
+  auto rows = stats::IndicesByCode(training.session_codes());
   std::erase_if(rows, [](const auto& of_one) { return of_one.empty(); });
   return rows;
 }
@@ -487,8 +481,7 @@ std::vector<RowFlag> FlagRows(const FittedModel& fitted,
 std::vector<bool> InsideOfFolds(const FittedModel& fitted,
                                 const data::Dataset& dataset,
                                 const Holdout& holdout) {
-  const data::Dataset& judged =
-      holdout.test_data == nullptr ? dataset : *holdout.test_data;
+  const data::Dataset& judged = holdout.Source(dataset);
   std::vector<Index> columns;
   std::vector<Index> of_judged;
   for (const TrainedInput& input : fitted.inputs) {

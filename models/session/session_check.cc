@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -291,15 +290,8 @@ std::vector<ProbeSite> RankProbeSites(const HeldOutErrors& errors) {
   constexpr std::size_t kFewestProbes = 6;
   const bool timed = errors.time_unit == "s";
   const bool placed = !errors.position.empty();
-  double longest = 0.0;
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (const HeldOutErrors::Unit& unit : errors.units) {
-    longest = std::max(longest, unit.elapsed.maxCoeff());
-    if (!placed) continue;
-    low = std::min(low, unit.position.minCoeff());
-    high = std::max(high, unit.position.maxCoeff());
-  }
+  const double longest = errors.longest();
+  const auto [low, high] = placed ? errors.travel() : std::pair(0.0, 0.0);
   const auto part = [](double value, double from, double to, int parts) {
     if (!(to > from)) return 0;
     return std::clamp(

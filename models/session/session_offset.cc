@@ -39,14 +39,6 @@ Products ProductsOf(const HeldOutErrors& errors) {
   return products;
 }
 
-double LongestUnit(const HeldOutErrors& errors) {
-  double longest = 0.0;
-  for (const HeldOutErrors::Unit& unit : errors.units) {
-    longest = std::max(longest, unit.elapsed.maxCoeff());
-  }
-  return longest;
-}
-
 double MeanSquare(const HeldOutErrors& errors) {
   double sum = 0.0;
   for (const HeldOutErrors::Unit& unit : errors.units) {
@@ -85,7 +77,7 @@ OffsetModel FitOffset(const HeldOutErrors& errors) {
   constexpr double kLongest = 8.0;
   const Products products = ProductsOf(errors);
   Candidate best = FitVariance(products, kUnbounded);
-  const double longest = LongestUnit(errors);
+  const double longest = errors.longest();
   for (double share = kShortest; longest > 0.0 && share <= kLongest;
        share *= 2.0) {
     const Candidate candidate = FitVariance(products, share * longest);

@@ -52,11 +52,9 @@ PreparedFold PrepareFold(const Dataset& dataset,
                          const Holdout& holdout,
                          std::size_t fold) {
   const stats::Fold& rows = holdout.folds[fold];
-  auto test =
-      holdout.test_data != nullptr
-          ? holdout.test_data
-          : std::make_shared<const Dataset>(dataset.SelectRows(rows.test));
-  return {dataset.SelectRows(rows.train), std::move(test)};
+  return {dataset.SelectRows(rows.train),
+          std::make_shared<const Dataset>(
+              holdout.Source(dataset).SelectRows(rows.test))};
 }
 
 FoldOutcome JudgeFold(const Dataset& dataset,
@@ -88,9 +86,7 @@ void PoolTest(const Dataset& dataset,
     FoldResult& fold = result->folds[i];
     const Index size = fold.test_predictions.size();
     targets.segment(begin, size) =
-        holdout.test_data != nullptr
-            ? holdout.test_data->target_values()
-            : VectorXd(dataset.target_values()(rows.test));
+        holdout.Source(dataset).target_values()(rows.test);
     residuals.segment(begin, size) =
         targets.segment(begin, size) - fold.test_predictions;
     const VectorXd trained = dataset.target_values()(rows.train);

@@ -18,6 +18,7 @@
 #include "models/shared_work.h"
 #include "models/study/fold_pool.h"
 #include "models/study/repeated_rows.h"
+#include "stats/indices.h"
 
 namespace errmap::models {
 namespace {
@@ -127,38 +128,6 @@ InnerHoldout InnerHoldoutLike(stats::HoldoutKind kind) {
   return InnerHoldout::kDecisive;
 }
 
-// Held-out errors of folds that end in any order.
-class HeldOutSoFar {
- public:
-  HeldOutSoFar(std::size_t models, const std::vector<Holdout>& holdouts)
-      : sums_(models, std::vector<Sum>(holdouts.size())) {}
-
-  // Returns the RMSE of the task's model if this was the last fold of
-  // `num_folds`, else NaN.
-  double Add(const StudyTask& task,
-             std::size_t num_folds,
-             const VectorXd& target,
-             const VectorXd& predicted) {
-    const std::lock_guard lock(mutex_);
-    Sum& sum = sums_[task.model][static_cast<std::size_t>(task.holdout)];
-    sum.squares += predicted.size() == target.size()
-                       ? (target - predicted).squaredNorm()
-                       : stats::kNaN;
-    sum.rows += target.size();
-    if (++sum.folds < num_folds) return stats::kNaN;
-    return std::sqrt(sum.squares / static_cast<double>(sum.rows));
-  }
-
- private:
-  struct Sum {
-    std::size_t folds = 0;
-    double squares = 0.0;
-    Index rows = 0;
-  };
-  std::mutex mutex_;
-  std::vector<std::vector<Sum>> sums_;  // (models x hold-outs)
-};
-
 // MakeFolds knows codes, and not which column they may come from.
 void RequireUnits(const stats::HoldoutSpec& spec,
                   const Dataset& dataset,
@@ -223,8 +192,7 @@ class StudyRun {
         options_(options),
         tasks_(StudyTasks(holdouts, recipes)),
         final_outcomes_(recipes.size()),
-        outcomes_(recipes.size()),
-        held_out_(recipes.size(), holdouts) {
+        outcomes_(recipes.size()) {
     if (!options.fit_all_rows) {
       std::erase_if(tasks_, [](const StudyTask& t) { return t.holdout < 0; });
     }
@@ -279,9 +247,9 @@ class StudyRun {
     if (task.holdout < 0) {
       final_outcomes_[task.model] = std::move(outcome);
     } else {
-      if (options_.progress) progress.holdout_rmse = RmseSoFar(task, outcome);
       outcomes_[task.model][static_cast<std::size_t>(task.holdout)][task.fold] =
           JudgeFold(dataset_, HoldoutOf(task), task.fold, std::move(outcome));
+      if (options_.progress) progress.holdout_rmse = RmseAfter(task);
     }
     progress.done = ++done_;
     if (options_.progress) options_.progress(progress);
@@ -315,15 +283,27 @@ class StudyRun {
     return FitOnce(recipe, fold.training, fold.test.get(), context);
   }
 
-  double RmseSoFar(const StudyTask& task, const FitOutcome& outcome) {
+  // RMSE of the task's model if this was the last fold to end, else NaN.
+  double RmseAfter(const StudyTask& task) {
     const Holdout& holdout = HoldoutOf(task);
-    return held_out_.Add(
-        task,
-        holdout.folds.size(),
-        holdout.test_data != nullptr
-            ? holdout.test_data->target_values()
-            : VectorXd(dataset_.target_values()(holdout.folds[task.fold].test)),
-        outcome.test_predictions);
+    const std::lock_guard lock(ended_mutex_);
+    if (++ended_[{task.model, task.holdout}] < holdout.folds.size()) {
+      return stats::kNaN;
+    }
+    double squares = 0.0;
+    double rows = 0.0;
+    for (std::size_t fold = 0; fold < holdout.folds.size(); ++fold) {
+      const std::vector<Index>& test = holdout.folds[fold].test;
+      const FitOutcome& fit =
+          outcomes_[task.model][static_cast<std::size_t>(task.holdout)][fold]
+              .fit;
+      if (fit.test_predictions.size() != std::ssize(test)) return stats::kNaN;
+      squares += (holdout.Source(dataset_).target_values()(test) -
+                  fit.test_predictions)
+                     .squaredNorm();
+      rows += static_cast<double>(test.size());
+    }
+    return std::sqrt(squares / rows);
   }
 
   const Dataset& dataset_;
@@ -337,7 +317,9 @@ class StudyRun {
   // What the recipes share of the same rows: all rows, then fold by fold.
   SharedWork of_all_rows_;
   std::map<std::pair<std::ptrdiff_t, std::size_t>, SharedWork> of_folds_;
-  HeldOutSoFar held_out_;
+  std::mutex ended_mutex_;
+  // Folds by model and hold-out.
+  std::map<std::pair<std::size_t, std::ptrdiff_t>, std::size_t> ended_;
   std::atomic<int> done_{0};
   std::atomic<int> short_of_memory_{0};
 };
@@ -397,6 +379,7 @@ Holdout MakeHoldout(const stats::HoldoutSpec& spec,
   if (test_data != nullptr) {
     holdout.rows_of_training = CountRowsOf(dataset, *test_data);
     holdout.among_neighbours = holdout.rows_of_training > 0;
+    holdout.folds.front().test = stats::AllIndices(test_data->num_rows());
   }
   holdout.test_data = std::move(test_data);
   // What was measured before is chosen from as all of it will be; a cut of

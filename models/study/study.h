@@ -26,8 +26,9 @@ struct Holdout {
   bool among_neighbours = false;
   bool forward = false;  // earlier rows predict later ones
   Index repeats = 1;     // different splits of the same rows, in order
-  std::vector<stats::Fold> folds;  // indices into the data set
-  /// Rows of file:TEST.csv, judged instead of the folds' own; or null.
+  /// Indices into the data set, and for testing into Source.
+  std::vector<stats::Fold> folds;
+  /// file:TEST.csv, or null.
   std::shared_ptr<const data::Dataset> test_data;
   /// Number of those rows that the data set also contains. The model has learnt
   /// from them, so their errors say nothing about another day; among_neighbours
@@ -35,6 +36,11 @@ struct Holdout {
   Index rows_of_training = 0;
   /// The inner hold-out for choices inside the training rows of a fold.
   InnerHoldout inner = InnerHoldout::kDecisive;
+
+  /// Returns where the test rows are: another file, or the data set `all`.
+  const data::Dataset& Source(const data::Dataset& all) const {
+    return test_data != nullptr ? *test_data : all;
+  }
 };
 
 /// True if whole sessions of `dataset`, and nothing coarser, are held out. It

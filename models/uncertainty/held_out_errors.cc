@@ -17,12 +17,8 @@ constexpr Index kMostUnits = 40;
 
 // The held-out rows of each unit, in order of time.
 std::vector<std::vector<Index>> PlacesOfUnits(const std::vector<Index>& codes,
-                                              std::size_t units,
                                               const VectorXd& elapsed) {
-  std::vector<std::vector<Index>> places(units);
-  for (std::size_t i = 0; i < codes.size(); ++i) {
-    places[static_cast<std::size_t>(codes[i])].push_back(static_cast<Index>(i));
-  }
+  auto places = stats::IndicesByCode(codes);
   for (std::vector<Index>& of_unit : places) {
     std::ranges::stable_sort(of_unit, {}, [&](Index i) { return elapsed[i]; });
   }
@@ -92,7 +88,7 @@ std::optional<HeldOutErrors> HeldOutErrorsOf(
   if (position >= 0) {
     errors.position = source.inputs()[static_cast<std::size_t>(position)].name;
   }
-  const auto places = PlacesOfUnits(codes, units.labels.size(), elapsed);
+  const auto places = PlacesOfUnits(codes, elapsed);
   KeptRows kept_of;
   for (const Index u : stats::SpreadSample(std::ssize(places), kMostUnits)) {
     const std::vector<Index>& all = places[static_cast<std::size_t>(u)];

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <stdexcept>
 #include <string>
+
+#include "stats/indices.h"
 
 namespace errmap::stats {
 namespace {
@@ -65,16 +66,14 @@ UnitLosses GatherByUnit(const MatrixXd& residuals,
         "GatherByUnit: " + std::to_string(unit_codes.size()) +
         " unit codes for " + std::to_string(residuals.rows()) + " rows");
   }
-  std::map<Index, Index> unit_of;  // by code
   for (const Index code : unit_codes) {
     if (code < 0) {
       throw std::invalid_argument("GatherByUnit: negative unit code " +
                                   std::to_string(code));
     }
-    unit_of[code] = 0;
   }
-  Index units = 0;
-  for (auto& [code, unit] : unit_of) unit = units++;
+  std::vector<Index> unit_of = unit_codes;
+  const Index units = Renumber(&unit_of);
   UnitLosses losses;
   losses.rows = VectorXd::Zero(units);
   losses.mean_squares = MatrixXd::Zero(units, residuals.cols());
@@ -84,7 +83,7 @@ UnitLosses GatherByUnit(const MatrixXd& residuals,
       throw std::invalid_argument("GatherByUnit: row " + std::to_string(row) +
                                   " has a residual that is not finite");
     }
-    const Index unit = unit_of[unit_codes[static_cast<std::size_t>(row)]];
+    const Index unit = unit_of[static_cast<std::size_t>(row)];
     losses.rows[unit] += 1.0;
     losses.mean_squares.row(unit) += residuals.row(row).cwiseAbs2();
     losses.means.row(unit) += residuals.row(row);

@@ -48,5 +48,19 @@ TEST(AllIndices, AreThoseFromZero) {
   EXPECT_TRUE(AllIndices(0).empty());
 }
 
+TEST(Renumber, LeavesNoGapsAndKeepsTheOrder) {
+  std::vector<Index> codes = {7, 2, 7, 9, 2};
+  EXPECT_EQ(Renumber(&codes), 3);
+  EXPECT_EQ(codes, (std::vector<Index>{1, 0, 1, 2, 0}));
+  codes.clear();
+  EXPECT_EQ(Renumber(&codes), 0);
+}
+
+TEST(IndicesByCode, ListsEachCodeEvenThoseThatAreMissing) {
+  EXPECT_EQ(IndicesByCode({2, 0, 2}),
+            (std::vector<std::vector<Index>>{{1}, {}, {0, 2}}));
+  EXPECT_TRUE(IndicesByCode({}).empty());
+}
+
 }  // namespace
 }  // namespace errmap::stats

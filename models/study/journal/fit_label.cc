@@ -2,6 +2,7 @@
 
 #include <array>
 #include <dlfcn.h>
+#include <optional>
 #include <variant>
 
 #include <fmt/format.h>
@@ -110,25 +111,18 @@ class RowDigests {
   std::vector<double> numbers_;
 };
 
-// Training and test rows of every fold. A test file is hashed once as well.
+// Training and test rows of every fold.
 std::vector<std::string> FoldDigests(const RowDigests& digests,
                                      const Holdout& holdout) {
   Sha256Stream stream;
-  std::string test_file;
-  if (holdout.test_data != nullptr) {
-    RowDigests(*holdout.test_data).AddAll(&stream);
-    test_file = stream.Finish();
-  }
+  std::optional<RowDigests> of_file;
+  if (holdout.test_data != nullptr) of_file.emplace(*holdout.test_data);
   std::vector<std::string> folds;
   for (const stats::Fold& fold : holdout.folds) {
     digests.AddRows(fold.train, &stream);
     const std::string training = stream.Finish();
-    std::string test = test_file;
-    if (holdout.test_data == nullptr) {
-      digests.AddRows(fold.test, &stream);
-      test = stream.Finish();
-    }
-    folds.push_back(data::Sha256(training + test));
+    (of_file ? *of_file : digests).AddRows(fold.test, &stream);
+    folds.push_back(data::Sha256(training + stream.Finish()));
   }
   return folds;
 }

@@ -333,9 +333,7 @@ bool ComponentJournal::IsOf(const StudyTask& task,
     const stats::Fold& fold = holdout.folds[task.fold];
     return outcome.train_predictions.allFinite() &&
            outcome.train_predictions.size() == std::ssize(fold.train) &&
-           predicts(holdout.test_data != nullptr
-                        ? *holdout.test_data
-                        : dataset_.SelectRows(fold.test));
+           predicts(holdout.Source(dataset_).SelectRows(fold.test));
   } catch (const std::invalid_argument&) {
     return false;  // inputs that the data have not, or another number of them
   }

@@ -10,9 +10,7 @@ FoldValues ValuesOfFold(const data::Dataset& dataset,
   const VectorXd trained = values(fold.train);
   return {trained.minCoeff(),
           trained.maxCoeff(),
-          holdout.test_data != nullptr
-              ? VectorXd(holdout.test_data->input_values().col(input))
-              : VectorXd(values(fold.test))};
+          holdout.Source(dataset).input_values().col(input)(fold.test)};
 }
 
 std::vector<RowFlags> ExtrapolatedRows(const data::Dataset& dataset,
@@ -21,10 +19,7 @@ std::vector<RowFlags> ExtrapolatedRows(const data::Dataset& dataset,
   std::vector<RowFlags> outside;
   for (const stats::Fold& fold : holdout.folds) {
     auto& rows = outside.emplace_back();
-    rows.setConstant(holdout.test_data != nullptr
-                         ? holdout.test_data->num_rows()
-                         : std::ssize(fold.test),
-                     false);
+    rows.setConstant(std::ssize(fold.test), false);
     for (const TrainedInput& input : map.inputs) {
       const FoldValues values = ValuesOfFold(
           dataset, holdout, fold, dataset.FindInput(input.column.name));

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "stats/comparison/unit_losses.h"
+#include "stats/indices.h"
 
 namespace errmap::models {
 namespace {
@@ -24,15 +25,13 @@ bool TakeUnits(const HeldOutRows& held,
   for (const Index row : held.rows) {
     found.push_back(codes[static_cast<std::size_t>(row)]);
   }
-  std::map<Index, Index> unit_of;  // by code: units never held out have none
-  for (const Index code : found) unit_of[code] = 0;
-  if (unit_of.size() < 2) return false;
+  const std::set<Index> present(found.begin(), found.end());
+  if (present.size() < 2) return false;
   units->name = data::WordFor(grouping);
-  for (auto& [code, unit] : unit_of) {
-    unit = std::ssize(units->labels);
+  for (const Index code : present) {
     units->labels.push_back(grouping.labels[static_cast<std::size_t>(code)]);
   }
-  for (Index& code : found) code = unit_of[code];
+  stats::Renumber(&found);
   *of_held = std::move(found);
   return true;
 }
@@ -58,28 +57,22 @@ std::vector<Index> UnitCodes(const Holdout& holdout,
     return codes;
   }
   units->name = kBlockOfRows;
-  std::vector<Index> ordered = held.rows;
-  std::ranges::sort(ordered);
-  ordered.erase(std::unique(ordered.begin(), ordered.end()), ordered.end());
-  const std::vector<Index> blocks = stats::BlocksInOrder(std::ssize(ordered));
-  std::vector<Index> block_of(
-      static_cast<std::size_t>(ordered.empty() ? 0 : ordered.back() + 1));
-  std::vector<std::pair<Index, Index>> ends;  // data rows of each block
-  std::size_t at = 0;
-  for (const Index row : ordered) {
-    const Index block = blocks[at++];
-    block_of[static_cast<std::size_t>(row)] = block;
-    const Index data_row = held.source->rows()[static_cast<std::size_t>(row)];
-    if (block == std::ssize(ends)) {
-      ends.emplace_back(data_row, data_row);
-    }
-    ends.back().second = data_row;
+  std::vector<Index> places = held.rows;
+  const std::vector<Index> blocks =
+      stats::BlocksInOrder(stats::Renumber(&places));
+  std::map<Index, std::pair<std::size_t, std::size_t>> ends;  // of each block
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto row = static_cast<std::size_t>(held.rows[i]);
+    codes.push_back(blocks[static_cast<std::size_t>(places[i])]);
+    auto& [first, last] =
+        ends.try_emplace(codes.back(), row, row).first->second;
+    first = std::min(first, row);
+    last = std::max(last, row);
   }
-  for (const auto& [first, last] : ends) {
-    units->labels.push_back(fmt::format("rows {}-{}", first, last));
-  }
-  for (const Index row : held.rows) {
-    codes.push_back(block_of[static_cast<std::size_t>(row)]);
+  const std::vector<Index>& data_rows = source.rows();
+  for (const auto& [block, rows] : ends) {
+    units->labels.push_back(fmt::format(
+        "rows {}-{}", data_rows[rows.first], data_rows[rows.second]));
   }
   return codes;
 }
@@ -121,19 +114,11 @@ bool AreSeparateSessions(const HeldOutRows& held,
 HeldOutRows GatherHeldOut(const data::Dataset& dataset,
                           const Holdout& holdout) {
   HeldOutRows held;
-  held.source =
-      holdout.test_data != nullptr ? holdout.test_data.get() : &dataset;
+  held.source = &holdout.Source(dataset);
   for (std::size_t fold = 0; fold < holdout.folds.size(); ++fold) {
-    const Index size = holdout.test_data != nullptr
-                           ? held.source->num_rows()
-                           : std::ssize(holdout.folds[fold].test);
-    for (Index i = 0; i < size; ++i) {
-      held.rows.push_back(
-          holdout.test_data != nullptr
-              ? i
-              : holdout.folds[fold].test[static_cast<std::size_t>(i)]);
-      held.fold_of.push_back(fold);
-    }
+    const std::vector<Index>& rows = holdout.folds[fold].test;
+    held.rows.insert(held.rows.end(), rows.begin(), rows.end());
+    held.fold_of.insert(held.fold_of.end(), rows.size(), fold);
   }
   return held;
 }

@@ -11,6 +11,7 @@
 #include "data/argument_name.h"
 #include "models/study/fold_pool.h"
 #include "models/study/rezero/zero_plan.h"
+#include "stats/indices.h"
 
 namespace errmap::models {
 namespace {
@@ -32,18 +33,15 @@ Holdout WithRowsOf(const ZeroPlan& plan,
                    const Holdout& holdout) {
   Holdout scored = holdout;
   for (stats::Fold& fold : scored.folds) fold.test.clear();
-  std::vector<Index> of_file;
   for (const Index place : plan.scored) {
     const auto at = static_cast<std::size_t>(place);
-    if (holdout.test_data != nullptr) {
-      of_file.push_back(held.rows[at]);
-    } else {
-      scored.folds[held.fold_of[at]].test.push_back(held.rows[at]);
-    }
+    scored.folds[held.fold_of[at]].test.push_back(held.rows[at]);
   }
   if (holdout.test_data != nullptr) {
+    std::vector<Index>& rows = scored.folds.front().test;
     scored.test_data = std::make_shared<const data::Dataset>(
-        holdout.test_data->SelectRows(of_file));
+        holdout.test_data->SelectRows(rows));
+    rows = stats::AllIndices(std::ssize(rows));
   }
   return scored;
 }

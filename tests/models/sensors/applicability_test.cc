@@ -222,5 +222,28 @@ TEST(InsideOfFolds, HoldsEachRowAgainstTheTrainingOfItsOwnFold) {
       std::ranges::count(inside, false));
 }
 
+TEST(InsideOfFolds, HoldsTheRowsOfAnotherFileAgainstAllOfTraining) {
+  const data::Dataset days = SimulatedDays(3, 4, 16);
+  std::vector<Index> first;
+  std::vector<Index> last;
+  for (Index row = 0; row < days.num_rows(); ++row) {
+    (row < 3 * days.num_rows() / 4 ? first : last).push_back(row);
+  }
+  const data::Dataset training = days.SelectRows(first);
+  const auto test =
+      std::make_shared<const data::Dataset>(days.SelectRows(last));
+  FittedModel fitted = MakeRecipe("poly:full:degree=1")->Fit(training, {});
+  AddExperience(training, &fitted);
+  const Holdout holdout =
+      MakeHoldout(stats::ParseHoldout("file:last.csv"), training, 1, test);
+  const std::vector<bool> inside = InsideOfFolds(fitted, training, holdout);
+  const std::vector<RowFlag> flags =
+      FlagRows(fitted, test->input_values(), test->input_values());
+  ASSERT_EQ(inside.size(), flags.size());
+  for (std::size_t row = 0; row < flags.size(); ++row) {
+    EXPECT_EQ(inside[row], !flags[row].outside()) << row;
+  }
+}
+
 }  // namespace
 }  // namespace errmap::models

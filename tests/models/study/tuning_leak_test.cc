@@ -13,6 +13,7 @@
 
 #include "models/recipe_catalog.h"
 #include "models/study/study.h"
+#include "stats/indices.h"
 #include "stats/random.h"
 #include "tests/decompositions.h"
 #include "tests/models/history/history_data.h"
@@ -108,6 +109,7 @@ Holdout OnProbe(const Holdout& holdout, std::size_t fold) {
       std::make_shared<const data::Dataset>(errmap::testing::QuadraticData(31));
   Holdout one = holdout;
   one.folds = {holdout.folds[fold]};
+  one.folds.front().test = stats::AllIndices(probe->num_rows());
   one.test_data = probe;
   return one;
 }

@@ -12,10 +12,7 @@ VectorXd HeldOutPredictions(const Holdout& holdout,
   for (std::size_t fold = 0; fold < result.folds.size(); ++fold) {
     const VectorXd& values = result.folds[fold].test_predictions;
     for (Index i = 0; i < values.size(); ++i) {
-      const Index row =
-          holdout.test_data != nullptr
-              ? i
-              : holdout.folds[fold].test[static_cast<std::size_t>(i)];
+      const Index row = holdout.folds[fold].test[static_cast<std::size_t>(i)];
       if (std::isnan(predicted[row])) predicted[row] = values[i];
     }
   }
@@ -26,9 +23,7 @@ ResidualInputs HeldOutResiduals(const ComponentStudy& comparison,
                                 std::size_t model,
                                 std::size_t holdout_index) {
   const Holdout& holdout = comparison.holdouts[holdout_index];
-  const data::Dataset& source = holdout.test_data != nullptr
-                                    ? *holdout.test_data
-                                    : comparison.data.dataset;
+  const data::Dataset& source = holdout.Source(comparison.data.dataset);
   const VectorXd predicted =
       HeldOutPredictions(holdout,
                          comparison.study.models[model].holdouts[holdout_index],

@@ -85,13 +85,6 @@ FigureTableRecord MakeTable(const data::Dataset& source,
   return table;
 }
 
-// The row of the source that a fold holds out as its i-th.
-Index RowOf(const Holdout& holdout, std::size_t fold, Index i) {
-  return holdout.test_data != nullptr
-             ? i
-             : holdout.folds[fold].test[static_cast<std::size_t>(i)];
-}
-
 FigureHoldoutRecord MakeFigureHoldout(const ComponentStudy& study,
                                       std::size_t index,
                                       std::size_t table,
@@ -119,15 +112,13 @@ std::vector<std::int64_t> RowsOutside(const data::Dataset& dataset,
                                       const Holdout& holdout,
                                       const FittedModel& map,
                                       const std::vector<Index>& rows) {
-  std::vector<bool> outside(static_cast<std::size_t>(
-      holdout.test_data != nullptr ? holdout.test_data->num_rows()
-                                   : dataset.num_rows()));
+  std::vector<bool> outside(
+      static_cast<std::size_t>(holdout.Source(dataset).num_rows()));
   const auto of_folds = ExtrapolatedRows(dataset, holdout, map);
   for (std::size_t fold = 0; fold < of_folds.size(); ++fold) {
-    for (Index i = 0; i < of_folds[fold].size(); ++i) {
-      if (of_folds[fold][i]) {
-        outside[static_cast<std::size_t>(RowOf(holdout, fold, i))] = true;
-      }
+    Index i = 0;
+    for (const Index row : holdout.folds[fold].test) {
+      if (of_folds[fold][i++]) outside[static_cast<std::size_t>(row)] = true;
     }
   }
   std::vector<std::int64_t> entries;
@@ -164,9 +155,7 @@ MatrixXd Correlations(const data::Dataset& dataset) {
 
 CorrelationRecord Correlate(const data::Dataset& dataset) {
   CorrelationRecord record;
-  for (const data::ColumnInfo& input : dataset.inputs()) {
-    record.columns.push_back(input.name);
-  }
+  record.columns = dataset.InputNames();
   record.columns.push_back(dataset.target().name);
   const MatrixXd matrix = Correlations(dataset);
   for (Index i = 0; i < matrix.rows(); ++i) {
@@ -207,14 +196,12 @@ FiguresRecord MakeFiguresRecord(const ComponentStudy& study) {
   }
   if (const auto& advice = study.judgement.recommendation) {
     const FittedModel& map = *study.study.models[advice->model].final_fit;
-    const auto& elsewhere = study.holdouts[advice->holdout].test_data;
+    const Holdout& holdout = study.holdouts[advice->holdout];
     record.holdouts[advice->holdout].outside = RowsOutside(
         dataset,
-        study.holdouts[advice->holdout],
+        holdout,
         map,
-        elsewhere == nullptr
-            ? rows
-            : stats::SpreadSample(elsewhere->num_rows(), kMostRows));
+        stats::SpreadSample(holdout.Source(dataset).num_rows(), kMostRows));
     const VectorXd fitted = map.Predict(dataset);
     record.fitted.emplace();
     for (const Index row : rows) {

@@ -39,7 +39,7 @@ DataRecord MakeData(const ComponentStudy& study) {
       .rows = dataset.num_rows(),
       .target = dataset.target().name,
       .unit = dataset.target().unit.symbol,
-      .inputs = {},
+      .inputs = dataset.InputNames(),
       .sensors = std::ranges::count_if(dataset.inputs(), data::IsReadBySensor),
       .group = {},
       .groups = 0,
@@ -53,9 +53,6 @@ DataRecord MakeData(const ComponentStudy& study) {
       .remarks = study.data.remarks,
       .doubts = study.data.doubts,
       .reading = study.data.reading};
-  for (const data::ColumnInfo& input : dataset.inputs()) {
-    record.inputs.push_back(input.name);
-  }
   // Data made in memory may know of no sessions.
   if (dataset.log() != nullptr) {
     record.session = TextOrNothing(dataset.log()->sessions.column);
@@ -105,12 +102,7 @@ HoldoutRecord MakeHoldout(const ComponentStudy& study, std::size_t h) {
                                           {.inner_holdout = holdout.inner})
                                .text);
     record.train_rows.push_back(RowsOf(fold.train, dataset));
-    if (holdout.test_data == nullptr) {
-      record.test_rows.push_back(RowsOf(fold.test, dataset));
-    } else {
-      const auto& rows = holdout.test_data->rows();
-      record.test_rows.emplace_back(rows.begin(), rows.end());
-    }
+    record.test_rows.push_back(RowsOf(fold.test, holdout.Source(dataset)));
   }
   return record;
 }

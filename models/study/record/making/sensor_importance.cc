@@ -185,9 +185,7 @@ std::size_t StepOfHoldout(const Holdout& holdout,
   constexpr double kPerExponential = 20.0;
   double rows = 0.0;
   for (const stats::Fold& fold : holdout.folds) {
-    rows += static_cast<double>(holdout.test_data != nullptr
-                                    ? holdout.test_data->num_rows()
-                                    : std::ssize(fold.test));
+    rows += static_cast<double>(fold.test.size());
   }
   const PredictionCost cost = CostOf(fitted.model->Describe());
   const double each =

@@ -71,7 +71,7 @@ TEST(ExtrapolatedRows, LooksAtInputsOfTheMapOnly) {
 
 TEST(ExtrapolatedRows, LooksAtAllRowsOfAnotherFile) {
   Holdout other = MakeHoldouts(Rows(), {"every:3"}).front();
-  other.folds = {{.train = {1, 2}, .test = {}}};
+  other.folds = {{.train = {1, 2}, .test = {0, 1, 2, 3, 4, 5}}};
   other.test_data = std::make_shared<const data::Dataset>(Rows());
   EXPECT_THAT(Outside(other, "x"),
               ElementsAre(ElementsAre(true, false, false, false, false, true)));
