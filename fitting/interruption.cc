@@ -16,10 +16,12 @@ InterruptionScope::~InterruptionScope() { token = outer_; }
 
 const std::atomic<bool>* InterruptionScope::Token() { return token; }
 
+bool IsInterrupted() {
+  return token != nullptr && token->load(std::memory_order_relaxed);
+}
+
 void ThrowIfInterrupted() {
-  if (token != nullptr && token->load(std::memory_order_relaxed)) {
-    throw Interrupted();
-  }
+  if (IsInterrupted()) throw Interrupted();
 }
 
 }  // namespace errmap::fitting

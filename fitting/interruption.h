@@ -13,10 +13,9 @@ class Interrupted : public std::invalid_argument {
   Interrupted() : std::invalid_argument("interrupted") {}
 };
 
-/// While it exists, long computations of this thread that have no stop token
-/// (products, factorisations, refinements) check `stop`. If null, they check
-/// that of the enclosing scope, as do the threads of a ParallelFor begun in it.
-/// The scope must outlive them, `stop` the scope.
+/// While it exists, fits and other long computations of this thread check
+/// `stop`. If null, they check that of the enclosing scope, as do the threads
+/// of a ParallelFor begun in it. The scope must outlive them, `stop` the scope.
 class InterruptionScope {
  public:
   explicit InterruptionScope(const std::atomic<bool>* stop);
@@ -31,8 +30,10 @@ class InterruptionScope {
   const std::atomic<bool>* outer_;
 };
 
-/// Throws Interrupted if the scope's token is set. Call it every tenth of a
-/// second: users are promised an answer within half a second.
+/// Returns true if the scope's token is set. Ask every tenth of a second: users
+/// are promised an answer within half a second.
+bool IsInterrupted();
+/// Throws Interrupted if it is.
 void ThrowIfInterrupted();
 
 }  // namespace errmap::fitting

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -291,10 +290,10 @@ inline constexpr Index kFewestSessionsToDecide = 4;
 
 class SharedWork;
 
-/// What a fit may use besides the training rows.
+/// What a fit may use besides the training rows. An InterruptionScope
+/// (fitting/interruption.h) around the fit can end it.
 struct FitContext {
   std::uint64_t seed = 1;
-  const std::atomic<bool>* stop = nullptr;
   /// Also make the regression record (tables and bootstraps), and judge each of
   /// several starts on inner hold-outs.
   bool explain = false;
@@ -339,12 +338,12 @@ class ModelRecipe {
   virtual FittedModel Fit(const data::Dataset& training,
                           const FitContext& context) const = 0;
 };
+
 /// Returns a map of these rows without its inputs and its model, as if solved
 /// directly.
 FittedModel NewMap(std::string name,
                    ModelKind kind,
                    const data::Dataset& training);
-
 
 /// Wraps a model as a recipe's Fit returns it. For models that read every input
 /// of `training` as it is and need no iterations.

@@ -52,8 +52,7 @@ class BestPoint {
     monitor.EndIteration(cost, gradient_norm, x);
     if (cost <= best_cost_) Keep();
     if (monitor.stopped()) return false;
-    ++steps_since_check_;
-    if (monitor.StopAtSlowProgress(cost, &steps_since_check_)) return false;
+    if (monitor.StopAtSlowProgress(cost)) return false;
     if (monitor.ReachesGradientGoal(gradient_norm, x.norm()) &&
         cost > best_cost_) {
       monitor.Stop(Termination::kNoDescent,
@@ -87,7 +86,6 @@ class BestPoint {
   VectorXd trial_gradient_;
   double best_cost_ = 0.0;
   double best_gradient_norm_ = 0.0;
-  std::int64_t steps_since_check_ = 0;
 };
 
 }  // namespace errmap::fitting

@@ -96,10 +96,7 @@ void GuardedRun::EndIteration() {
   } catch (...) {
     Fail();
   }
-  ++steps_since_check_;
-  if (!stopped()) {
-    monitor_.StopAtSlowProgress(best_cost_, &steps_since_check_);
-  }
+  if (!stopped()) monitor_.StopAtSlowProgress(best_cost_);
 }
 
 void GuardedRun::Fail() noexcept {

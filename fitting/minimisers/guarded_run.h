@@ -82,7 +82,6 @@ class GuardedRun {
   std::exception_ptr thrown_;       // the exception that ended the run
   std::int64_t evaluations_ = 0;
   std::int64_t idle_ = 0;  // requests since the last better point
-  std::int64_t steps_since_check_ = 0;
 };
 
 }  // namespace errmap::fitting

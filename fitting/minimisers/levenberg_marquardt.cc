@@ -216,8 +216,7 @@ class LmRun {
     const double gradient_norm = here_->gradient().norm();
     monitor_.EndIteration(cost, gradient_norm, x_);
     if (monitor_.stopped()) return;
-    ++steps_since_check_;
-    if (monitor_.StopAtSlowProgress(cost, &steps_since_check_)) return;
+    if (monitor_.StopAtSlowProgress(cost)) return;
     const double x_norm = x_.norm();
     if (!monitor_.ReachesGradientGoal(gradient_norm, x_norm)) {
       monitor_.StopAtGoal(cost, gradient_norm, x_norm);
@@ -282,7 +281,6 @@ class LmRun {
   double least_lambda_ = 0.0;  // so that it can grow again
   double growth_ = 2.0;        // nu
   int fruitless_ = 0;
-  std::int64_t steps_since_check_ = 0;
   std::int64_t evaluations_ = 0;
 };
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "fitting/interruption.h"
 #include "fitting/minimisers/optimizer.h"
 
 namespace errmap::fitting {
@@ -47,6 +48,7 @@ class RunMonitor {
   template <typename Vector>
   void EndIteration(double cost, double gradient_norm, const Vector& x) {
     ++summary_.iterations;
+    ++steps_since_check_;
     const Clock::time_point now = Clock::now();
     const std::chrono::duration<double> taken = now - last_;
     last_ = now;
@@ -96,11 +98,10 @@ class RunMonitor {
   }
 
   /// Every progress_interval iterations, ends the run if the error has not
-  /// fallen to slow_ratio times its value at the last check. `steps` counts the
-  /// iterations since then and is reset.
-  bool StopAtSlowProgress(double cost, std::int64_t* steps) {
-    if (*steps < rules_.progress_interval) return false;
-    *steps = 0;
+  /// fallen to slow_ratio times its value at the last check.
+  bool StopAtSlowProgress(double cost) {
+    if (steps_since_check_ < rules_.progress_interval) return false;
+    steps_since_check_ = 0;
     const double rms = RmsError(cost);
     // Below 0 the same share of its size must be gained.
     const double ratio =
@@ -144,7 +145,8 @@ class RunMonitor {
 
   std::optional<Termination> Exhausted(std::int64_t evaluations,
                                        std::int64_t needed) const {
-    if (run_.stop != nullptr && run_.stop->load(std::memory_order_relaxed)) {
+    if (IsInterrupted() ||
+        (run_.stop != nullptr && run_.stop->load(std::memory_order_relaxed))) {
       return Termination::kInterrupted;
     }
     if (summary_.iterations >= rules_.iterations) {
@@ -170,6 +172,7 @@ class RunMonitor {
   const Clock::time_point start_;
   Clock::time_point last_;
   FitSummary summary_;
+  std::int64_t steps_since_check_ = 0;
   double last_checked_rms_ = 0.0;
   double mean_seconds_ = 0.0;
   double squares_ = 0.0;

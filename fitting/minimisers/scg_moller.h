@@ -140,7 +140,6 @@ class MollerRun {
     w_ += step * p_;
     w_norm_ = static_cast<double>(std::sqrt(SquaresAndProduct(w_, w_).squares));
     cost_ = trial_cost;
-    ++steps_since_check_;
     ++steps_since_restart_;
     const auto overlap = -static_cast<double>(sums.product);
     r_norm_ = std::sqrt(r_squared);
@@ -197,7 +196,7 @@ class MollerRun {
   }
 
   void CheckStops() {
-    if (monitor_.StopAtSlowProgress(cost_, &steps_since_check_)) return;
+    if (monitor_.StopAtSlowProgress(cost_)) return;
     if (!monitor_.ReachesCostGoal(cost_) &&
         !monitor_.ReachesGradientGoal(r_norm_, w_norm_)) {
       return;
@@ -243,7 +242,6 @@ class MollerRun {
   double lambda_ = 0.0;
   std::int64_t pass_ = 0;
   std::int64_t evaluations_ = 0;
-  std::int64_t steps_since_check_ = 0;
   Index steps_since_restart_ = 0;
   int failures_ = 0;
   bool is_new_direction_ = true;

@@ -107,9 +107,7 @@ class NetcgRun {
     if (report.accepted) monitor_.EndIteration(cost_, r_.norm(), w_);
     Observe(report, alpha, comparison);
     if (monitor_.stopped()) return;
-    if (accepted_ && monitor_.StopAtSlowProgress(cost_, &steps_since_check_)) {
-      return;
-    }
+    if (accepted_ && monitor_.StopAtSlowProgress(cost_)) return;
     monitor_.StopAtGoal(cost_, r_norm_, w_norm_);
   }
 
@@ -128,7 +126,6 @@ class NetcgRun {
 
   void Accept(Scalar trial_cost, Scalar comparison, ScgPass* report) {
     report->accepted = true;
-    ++steps_since_check_;
     failures_ = 0;
     infeasible_ = 0;
     w_ = trial_;
@@ -224,7 +221,6 @@ class NetcgRun {
   std::int64_t pass_ = 0;
   std::int64_t evaluations_ = 0;
   Index steps_since_restart_ = 0;
-  std::int64_t steps_since_check_ = 0;
   int failures_ = 0;
   int infeasible_ = 0;
   bool accepted_ = true;  // a new direction: curvature is to be estimated

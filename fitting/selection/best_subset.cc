@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "fitting/interruption.h"
 #include "fitting/least_squares/decompositions.h"
 #include "fitting/least_squares/orthogonal_basis.h"
 #include "stats/indices.h"
@@ -54,11 +55,8 @@ MatrixXd Reordered(const MatrixXd& triangle, const std::vector<Index>& order) {
 
 class Search {
  public:
-  Search(double n,
-         double total,
-         const BestSubsetOptions& options,
-         const std::atomic<bool>* stop_token)
-      : n_(n), total_(total), options_(options), stop_token_(stop_token) {
+  Search(double n, double total, const BestSubsetOptions& options)
+      : n_(n), total_(total), options_(options) {
     most_terms_ = static_cast<Index>(n_) - 2;
     if (options.max_terms >= 0) {
       most_terms_ = std::min(most_terms_, options.max_terms);
@@ -83,7 +81,7 @@ class Search {
   }
 
   void Visit(Node node) {
-    if (stop_token_ != nullptr && stop_token_->load()) {
+    if (IsInterrupted()) {
       complete_ = false;
       return;
     }
@@ -181,7 +179,6 @@ class Search {
   double n_;
   double total_;
   const BestSubsetOptions& options_;
-  const std::atomic<bool>* stop_token_;
   Index most_terms_ = 0;
   double best_value_ = kInfinity;
   std::vector<Index> best_;
@@ -204,8 +201,7 @@ void BestSubsetOptions::Validate() const {
 BestSubsetResult SelectBestSubset(const RegressionProblem& problem,
                                   const std::vector<Index>& include,
                                   const std::vector<bool>& excluded,
-                                  const BestSubsetOptions& options,
-                                  const std::atomic<bool>* stop_token) {
+                                  const BestSubsetOptions& options) {
   options.Validate();
   ValidateSelection(problem, "SelectBestSubset");
   const Index rows = problem.response.size();
@@ -258,7 +254,7 @@ BestSubsetResult SelectBestSubset(const RegressionProblem& problem,
     }
     effective.sigma2 = residual.squaredNorm() / freedom;
   }
-  Search search(n, total, effective, stop_token);
+  Search search(n, total, effective);
   search.Visit(std::move(root));
   BestSubsetResult result = search.Result();
   result.aliased = std::move(aliased.aliased);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -41,11 +40,9 @@ struct BestSubsetResult {
 ///
 /// Throws std::invalid_argument for bad shapes or options, or if `include` has
 /// more terms than rows.
-BestSubsetResult SelectBestSubset(
-    const RegressionProblem& problem,
-    const std::vector<Index>& include,
-    const std::vector<bool>& excluded,
-    const BestSubsetOptions& options,
-    const std::atomic<bool>* stop_token = nullptr);
+BestSubsetResult SelectBestSubset(const RegressionProblem& problem,
+                                  const std::vector<Index>& include,
+                                  const std::vector<bool>& excluded,
+                                  const BestSubsetOptions& options);
 
 }  // namespace errmap::fitting

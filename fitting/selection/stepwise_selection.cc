@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fitting/interruption.h"
 #include "fitting/least_squares/linear_least_squares.h"
 #include "fitting/selection/swept_candidates.h"
 #include "stats/f_test.h"
@@ -65,7 +66,7 @@ class Selection {
     }
   }
 
-  SelectionResult Run(const std::atomic<bool>* stop_token) {
+  SelectionResult Run() {
     SelectionResult result;
     EnterIncluded(&result);
     if (options_.direction == Direction::kBackward) EnterAll();
@@ -73,7 +74,7 @@ class Selection {
     std::vector<std::vector<Index>> models{state_.chosen()};
     std::set<std::vector<Index>> visited{SortedChosen()};
     for (;;) {
-      if (stop_token != nullptr && stop_token->load()) {
+      if (IsInterrupted()) {
         result.ended = "interrupted";
         break;
       }
@@ -469,16 +470,14 @@ void StepwiseOptions::Validate() const {
 
 SelectionResult SelectStepwise(const RegressionProblem& problem,
                                const TermRules& rules,
-                               const StepwiseOptions& options,
-                               const std::atomic<bool>* stop_token) {
+                               const StepwiseOptions& options) {
   options.Validate();
   ValidateSelection(problem, "SelectStepwise");
-  return Selection(problem, rules, options).Run(stop_token);
+  return Selection(problem, rules, options).Run();
 }
 
 std::vector<ExcludedTerm> JudgeExcluded(const RegressionProblem& problem,
-                                        const std::vector<Index>& chosen,
-                                        const std::atomic<bool>* stop_token) {
+                                        const std::vector<Index>& chosen) {
   ValidateSelection(problem, "JudgeExcluded");
   SelectionState state(problem);
   for (const Index candidate : chosen) {
@@ -490,7 +489,7 @@ std::vector<ExcludedTerm> JudgeExcluded(const RegressionProblem& problem,
                          static_cast<double>(state.chosen().size()) - 2.0;
   std::vector<ExcludedTerm> excluded;
   for (Index j = 0; j < problem.terms.cols(); ++j) {
-    if (stop_token != nullptr && stop_token->load()) break;
+    if (IsInterrupted()) break;
     if (state.is_chosen(j)) continue;
     ExcludedTerm term;
     term.candidate = j;

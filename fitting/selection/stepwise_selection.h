@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <string>
 #include <vector>
 
@@ -89,16 +88,15 @@ struct SelectionResult {
 /// Stepwise selection. Starts from the intercept and `rules.include` (backward:
 /// from all candidates), makes the best move while `options.stop` allows it,
 /// and returns the model that `options.choose` prefers. Keeps at least one
-/// residual degree of freedom. Ties go to the lowest column.
+/// residual degree of freedom. Ties go to the lowest column. Ends early if
+/// interrupted.
 ///
-/// `stop_token` ends the selection early when it becomes true (null: never).
 /// Throws std::invalid_argument for bad shapes or options, such as CV without
 /// folds or Cp without a variance. Also for PRESS on rows that are not
 /// observations, and backward selection with more candidates than rows.
 SelectionResult SelectStepwise(const RegressionProblem& problem,
                                const TermRules& rules,
-                               const StepwiseOptions& options,
-                               const std::atomic<bool>* stop_token = nullptr);
+                               const StepwiseOptions& options);
 
 /// A candidate outside a model.
 struct ExcludedTerm {
@@ -109,12 +107,9 @@ struct ExcludedTerm {
 };
 
 /// Returns every candidate that is not in `chosen`, in column order, with its
-/// partial F if it entered now. Returns those judged so far if `stop_token`
-/// becomes true (null: never).
-std::vector<ExcludedTerm> JudgeExcluded(
-    const RegressionProblem& problem,
-    const std::vector<Index>& chosen,
-    const std::atomic<bool>* stop_token = nullptr);
+/// partial F if it entered now. Returns those judged so far if interrupted.
+std::vector<ExcludedTerm> JudgeExcluded(const RegressionProblem& problem,
+                                        const std::vector<Index>& chosen);
 
 /// Returns the sum of squared errors over the judged folds (FoldCodes). Each is
 /// predicted by the terms in `design` (n x k, with intercept and weights).

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "fitting/interruption.h"
 #include "models/history/with_history.h"
 #include "models/inner_folds.h"
 #include "stats/not_a_number.h"
@@ -26,9 +27,7 @@ double HeldOutError(const Dataset& rows,
   VectorXd sizes(std::ssize(splits));
   Index fold = 0;
   for (const fitting::FoldCodes::Rows& split : splits) {
-    if (context.stop != nullptr && context.stop->load()) {
-      return stats::kNaN;
-    }
+    if (fitting::IsInterrupted()) return stats::kNaN;
     const Dataset test = rows.SelectRows(split.test);
     try {
       const FittedModel fitted = fit(rows.SelectRows(split.train), context);

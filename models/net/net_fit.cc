@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fitting/interruption.h"
 #include "fitting/parallel_for.h"
 #include "models/net/feedforward_net.h"
 #include "stats/not_a_number.h"
@@ -34,28 +35,19 @@ double SquaresOn(const Dataset& test,
       .squaredNorm();
 }
 
-bool IsStopped(const FitContext& context) {
-  return context.stop != nullptr && context.stop->load();
-}
-
 // Sum of squared errors on the test rows; NaN if there is no fit.
 double HeldOutSquares(const NetDesign& design,
                       const NetTrainer& trainer,
                       const Dataset& all,
                       const fitting::FoldCodes::Rows& fold,
-                      const NetTrial& trial,
-                      const FitContext& context) {
-  if (IsStopped(context)) return stats::kNaN;
+                      const NetTrial& trial) {
+  if (fitting::IsInterrupted()) return stats::kNaN;
   try {
     NetDesign tried = design;
     tried.hidden = trial.hidden;
     const NetRows rows = ScaleRows(tried, all.SelectRows(fold.train));
-    const fitting::Minimum minimum =
-        TrainAlong(rows,
-                   trainer,
-                   trial.wfactors,
-                   trial.seed,
-                   {.stop = context.stop, .keep_trace = false});
+    const fitting::Minimum minimum = TrainAlong(
+        rows, trainer, trial.wfactors, trial.seed, {.keep_trace = false});
     if (minimum.summary.termination == fitting::Termination::kFailed) {
       return stats::kNaN;
     }
@@ -226,8 +218,7 @@ std::vector<double> InnerHoldoutRmse(const NetDesign& design,
                            trainer,
                            training,
                            split[job % split.size()],
-                           trials[job / split.size()],
-                           context);
+                           trials[job / split.size()]);
       });
   std::vector<double> rmse;
   for (Index trial = 0; trial < squares.cols(); ++trial) {
@@ -278,8 +269,7 @@ double WfactorWalk::Step(double wfactor) {
     if (!fold.rows) return;
     NetTraining training = fold.rows->From(seed_, wfactor);
     if (warm_) training.initial_weights = fold.weights;
-    fitting::Minimum minimum =
-        trainer_(training, {.stop = context_.stop, .keep_trace = false});
+    fitting::Minimum minimum = trainer_(training, {.keep_trace = false});
     if (minimum.summary.termination == fitting::Termination::kFailed) {
       fold.rows.reset();
       fold.squares = stats::kNaN;
@@ -306,13 +296,12 @@ std::vector<fitting::Minimum> TrainFromStarts(
     const FitContext& context) {
   std::vector<fitting::Minimum> minima(seeds->size());
   fitting::ParallelFor(context.threads, seeds->size(), [&](std::size_t i) {
-    if (i > 0 && IsStopped(context)) return;
-    minima[i] =
-        TrainAlong(rows,
-                   trainer,
-                   wfactors,
-                   (*seeds)[i],
-                   {.stop = context.stop, .keep_trace = context.keep_trace});
+    if (i > 0 && fitting::IsInterrupted()) return;
+    minima[i] = TrainAlong(rows,
+                           trainer,
+                           wfactors,
+                           (*seeds)[i],
+                           {.keep_trace = context.keep_trace});
   });
   std::vector<std::uint64_t> begun;
   for (std::size_t i = 0; i < minima.size(); ++i) {

@@ -111,8 +111,8 @@ std::vector<double> InnerHoldoutRmse(const NetDesign& design,
 
 /// Returns the minima of TrainAlong from the starts of these seeds, in their
 /// order. Runs on context.threads; their number does not change any bit. If
-/// context.stop becomes true, it returns those of the seeds already started,
-/// always including the first, and removes the others from `seeds`.
+/// interrupted, it returns those of the seeds already started, always including
+/// the first, and removes the others from `seeds`.
 std::vector<fitting::Minimum> TrainFromStarts(
     const NetRows& rows,
     const NetTrainer& trainer,

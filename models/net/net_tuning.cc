@@ -284,8 +284,7 @@ fitting::DiscrepancyChoice ChooseWfactorByDiscrepancy(
     const NetTrainer& trainer,
     double delta,
     const FitContext& context) {
-  const fitting::RunControl run{.stop = context.stop,
-                                .keep_trace = context.keep_trace};
+  const fitting::RunControl run{.keep_trace = context.keep_trace};
   NetTraining training = rows.From(context.seed, 0.0);
   const VectorXd start = training.initial_weights;
   return fitting::ChooseByDiscrepancy(

@@ -60,12 +60,8 @@ class BestSubsetRecipe final : public PolynomialRecipe {
           dictionary.NumOpen()));
     }
     const DesignRows rows = CollectRows(dictionary.design, {}, context);
-    const fitting::BestSubsetResult best =
-        fitting::SelectBestSubset(rows.Problem(),
-                                  dictionary.include,
-                                  dictionary.excluded,
-                                  rules_,
-                                  context.stop);
+    const fitting::BestSubsetResult best = fitting::SelectBestSubset(
+        rows.Problem(), dictionary.include, dictionary.excluded, rules_);
     const UsedTerms used =
         KeepUsedInputs(dictionary.design.terms(), best.chosen);
     RegressionRecord report;
@@ -81,7 +77,7 @@ class BestSubsetRecipe final : public PolynomialRecipe {
       report.candidates = dictionary.design.num_terms();
       LeastSquaresRecord& fit = report.least_squares.value.emplace();
       fit.after_selection = true;
-      ReportExcluded(dictionary, rows, best.chosen, context, &fit);
+      ReportExcluded(dictionary, rows, best.chosen, &fit);
       Bootstrap(dictionary, rows, best, context, &report);
     }
     FittedModel fitted = FitTerms(
@@ -124,11 +120,8 @@ class BestSubsetRecipe final : public PolynomialRecipe {
         best.chosen,
         repetitions,
         [&](const fitting::RegressionProblem& drawn) {
-          return fitting::SelectBestSubset(drawn,
-                                           dictionary.include,
-                                           dictionary.excluded,
-                                           rules_,
-                                           context.stop)
+          return fitting::SelectBestSubset(
+                     drawn, dictionary.include, dictionary.excluded, rules_)
               .chosen;
         },
         context,

@@ -125,13 +125,11 @@ void RowRanges::Include(const RowRanges& other) {
 
 SummedBasis::SummedBasis(std::shared_ptr<const ViewedRows> viewed,
                          const PenalizedBasis& basis,
-                         const InnerFolds* folds,
-                         const FitContext& context)
+                         const InnerFolds* folds)
     : viewed_(std::move(viewed)),
       design_(MakeDesign(*viewed_, basis)),
       excluded_(ExcludedTerms(basis, *viewed_, design_)),
-      guarded_(basis.guarded),
-      stop_(context.stop) {
+      guarded_(basis.guarded) {
   if (folds != nullptr) folds_ = *folds;
   const Index n = design_.rows();
   if (folds_ &&
@@ -330,9 +328,7 @@ TermRows SummedBasis::RowsAsFitted(const Rows& rows) const {
 void SummedBasis::ForBlocks(
     const Rows& rows, const std::function<void(const Rows&)>& work) const {
   for (std::size_t first = 0; first < rows.size(); first += kBlockRows) {
-    if (stop_ != nullptr && stop_->load()) {
-      throw fitting::Interrupted();
-    }
+    fitting::ThrowIfInterrupted();
     const std::size_t last =
         std::min(rows.size(), first + static_cast<std::size_t>(kBlockRows));
     work(Rows(rows.begin() + static_cast<std::ptrdiff_t>(first),

@@ -95,11 +95,10 @@ class SummedBasis {
 
   /// `folds` are needed if they choose the penalty; null if it is given. Throws
   /// std::invalid_argument for too many terms or missing folds, and
-  /// fitting::Interrupted if context.stop interrupts it.
+  /// fitting::Interrupted if interrupted.
   SummedBasis(std::shared_ptr<const ViewedRows> viewed,
               const PenalizedBasis& basis,
-              const InnerFolds* folds,
-              const FitContext& context);
+              const InnerFolds* folds);
 
   const PolynomialDesign& design() const { return design_; }
   /// Empty if the penalty is given.
@@ -146,7 +145,6 @@ class SummedBasis {
   PolynomialDesign design_;
   std::vector<bool> excluded_;
   bool guarded_;
-  const std::atomic<bool>* stop_;
   std::optional<InnerFolds> folds_;
   SessionOffsets offsets_;
   std::vector<Rows> members_;  // rows of each fold

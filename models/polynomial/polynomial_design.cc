@@ -214,8 +214,7 @@ FitContext PreferTriangle(const PolynomialDesign& design,
 DesignRows CollectRows(const PolynomialDesign& design,
                        const std::vector<Index>& parts,
                        double most_values,
-                       int threads,
-                       const std::atomic<bool>* stop) {
+                       int threads) {
   const Dataset& dataset = design.dataset();
   const Index terms = design.num_terms();
   DesignRows rows;
@@ -236,7 +235,7 @@ DesignRows CollectRows(const PolynomialDesign& design,
   rows.intercept.resize(stacked);
   for (std::size_t part = 0; part < triangles; ++part) {
     const auto fill = [&](Index first, Eigen::Ref<MatrixXd> block) {
-      if (stop != nullptr && stop->load()) throw fitting::Interrupted();
+      fitting::ThrowIfInterrupted();
       std::vector<Index> chosen(static_cast<std::size_t>(block.rows()));
       for (std::size_t i = 0; i < chosen.size(); ++i) {
         const Index place = first + static_cast<Index>(i);
@@ -273,11 +272,8 @@ DesignRows CollectRows(const PolynomialDesign& design,
                        const std::vector<Index>& parts,
                        const FitContext& context) {
   const auto collect = [&] {
-    return CollectRows(design,
-                       parts,
-                       context.most_design_values,
-                       context.threads,
-                       context.stop);
+    return CollectRows(
+        design, parts, context.most_design_values, context.threads);
   };
   if (context.shared == nullptr || !parts.empty() ||
       !NeedsTriangle(

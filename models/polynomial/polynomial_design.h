@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <string>
 #include <vector>
 
@@ -83,13 +82,11 @@ struct DesignRows {
 /// Returns the rows themselves if they have at most `most_values` numbers,
 /// else a triangle for each part: rows of equal code in `parts` (n, or
 /// empty: one part). Triangles include the weights. Throws
-/// std::invalid_argument ("interrupted") if `stop` becomes true while a
-/// triangle is computed.
+/// fitting::Interrupted if interrupted while a triangle is computed.
 DesignRows CollectRows(const PolynomialDesign& design,
                        const std::vector<Index>& parts,
                        double most_values,
-                       int threads,
-                       const std::atomic<bool>* stop = nullptr);
+                       int threads);
 
 /// Returns the same with the limits of `context`. The triangle of all rows is
 /// computed once for the recipes that share these rows.

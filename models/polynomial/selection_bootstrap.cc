@@ -3,6 +3,7 @@
 #include <map>
 #include <mutex>
 
+#include "fitting/interruption.h"
 #include "fitting/parallel_for.h"
 #include "models/regression_record.h"
 #include "stats/not_a_number.h"
@@ -43,7 +44,7 @@ VectorXd BootstrapInclusion(const DesignRows& rows,
   std::mutex mutex;
   bool stopped = false;
   fitting::ParallelFor(context.threads, repetitions, [&](int i) {
-    if (context.stop != nullptr && context.stop->load()) {
+    if (fitting::IsInterrupted()) {
       const std::lock_guard lock(mutex);
       stopped = true;
       return;

@@ -179,13 +179,13 @@ class StepwiseRecipe final : public PolynomialRecipe {
     }
     const fitting::StepwiseOptions how = RulesFor(training, rules);
     const auto select = [&](const fitting::RegressionProblem& problem) {
-      return fitting::SelectStepwise(problem, rules, how, context.stop);
+      return fitting::SelectStepwise(problem, rules, how);
     };
     const fitting::SelectionResult selection = select(rows.Problem());
     RegressionRecord report;
     if (context.explain) {
       report.least_squares.value.emplace();
-      Explain(dictionary, rows, selection, context, &report);
+      Explain(dictionary, rows, selection, &report);
       Bootstrap(
           dictionary, rows, selection.chosen, plan, select, context, &report);
     }
@@ -242,7 +242,6 @@ class StepwiseRecipe final : public PolynomialRecipe {
   void Explain(const TermDictionary& dictionary,
                const DesignRows& rows,
                const fitting::SelectionResult& selection,
-               const FitContext& context,
                RegressionRecord* report) const {
     report->method = fmt::format(
         "{} selection over {} terms up to degree {}: select {}, stop {}, "
@@ -279,11 +278,8 @@ class StepwiseRecipe final : public PolynomialRecipe {
                                .cv = step.cv});
     }
     report->least_squares.value->after_selection = true;
-    ReportExcluded(dictionary,
-                   rows,
-                   selection.chosen,
-                   context,
-                   &*report->least_squares.value);
+    ReportExcluded(
+        dictionary, rows, selection.chosen, &*report->least_squares.value);
   }
 
   template <typename Select>

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "data/text.h"
+#include "fitting/interruption.h"
 #include "models/history/view.h"
 #include "models/polynomial/polynomial_fit.h"
 #include "models/regression_record.h"
@@ -188,12 +189,8 @@ std::string ChosenTerms(const TermDictionary& dictionary,
 void ReportExcluded(const TermDictionary& dictionary,
                     const DesignRows& rows,
                     const std::vector<Index>& chosen,
-                    const FitContext& context,
                     LeastSquaresRecord* record) {
-  const auto is_stopped = [&] {
-    return context.stop != nullptr && context.stop->load();
-  };
-  if (is_stopped()) return;
+  if (fitting::IsInterrupted()) return;
   const std::vector<std::string> names = dictionary.design.TermNames();
   const auto name = [&](Index term) {
     return names[static_cast<std::size_t>(term)];
@@ -202,8 +199,8 @@ void ReportExcluded(const TermDictionary& dictionary,
   std::vector<std::string> chosen_names;
   for (const Index term : chosen) chosen_names.push_back(name(term));
   for (const fitting::ExcludedTerm& term :
-       fitting::JudgeExcluded(rows.Problem(), chosen, context.stop)) {
-    if (is_stopped()) break;
+       fitting::JudgeExcluded(rows.Problem(), chosen)) {
+    if (fitting::IsInterrupted()) break;
     if (!term.aliased) {
       record->excluded.push_back({name(term.candidate), term.f, term.p});
       continue;

@@ -45,11 +45,10 @@ std::string ChosenTerms(const TermDictionary& dictionary,
                         const std::vector<Index>& chosen);
 
 /// Adds to `record` why candidates that are not in a model add nothing to it,
-/// and the F of the others. Stops early if context.stop becomes true.
+/// and the F of the others. Stops early if interrupted.
 void ReportExcluded(const TermDictionary& dictionary,
                     const DesignRows& rows,
                     const std::vector<Index>& chosen,
-                    const FitContext& context,
                     LeastSquaresRecord* record);
 
 }  // namespace errmap::models

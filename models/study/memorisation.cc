@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "data/text.h"
+#include "fitting/interruption.h"
 #include "models/net/net_recipe.h"
 #include "models/study/fold_pool.h"
 #include "stats/indices.h"
@@ -17,17 +18,13 @@ using data::Dataset;
 // The stream of the shuffle is not that of the folds and weights.
 constexpr std::uint64_t kShuffleStream = 0x6D656D6F72697365ULL;
 
-bool IsStopped(const FitContext& context) {
-  return context.stop != nullptr && context.stop->load();
-}
-
 // The fit to targets in another order, of the same recipe and start.
 void RefitShuffled(const ModelRecipe& recipe,
                    const Dataset& training,
                    const FittedModel& fitted,
                    const FitContext& context,
                    Memorisation* found) {
-  if (IsStopped(context)) {
+  if (fitting::IsInterrupted()) {
     found->why_not = "interrupted";
     return;
   }
@@ -67,7 +64,7 @@ void Assess(const ModelRecipe& recipe,
     RefitShuffled(recipe, training, fitted, context, found);
     return;
   }
-  if (!IsStopped(context)) {
+  if (!fitting::IsInterrupted()) {
     found->effective_parameters = net->EffectiveParametersOf(fitted, training);
     found->effective_per_row = found->effective_parameters / rows;
     if (std::isnan(found->effective_parameters)) {

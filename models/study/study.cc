@@ -38,7 +38,7 @@ FitOutcome FitOnce(const ModelRecipe& recipe,
                    const Dataset* test,
                    const FitContext& context) {
   FitOutcome outcome;
-  if (context.stop != nullptr && context.stop->load()) {
+  if (fitting::IsInterrupted()) {
     outcome.why_failed = kNotBegun;
     return outcome;
   }
@@ -274,7 +274,7 @@ class StudyRun {
       return FitAllRows(recipe, dataset_, context);
     }
     context.shared = &of_folds_.at({task.holdout, task.fold});
-    if (is_stopped()) {
+    if (fitting::IsInterrupted()) {
       FitOutcome outcome;
       outcome.why_failed = kNotBegun;
       return outcome;
@@ -424,7 +424,6 @@ FitContext ContextOfTask(const StudyTask& task,
                          const std::vector<Holdout>& holdouts,
                          const StudyOptions& options) {
   FitContext context{.seed = options.seed,
-                     .stop = options.stop,
                      .indifference = options.indifference};
   if (task.holdout >= 0) {
     context.inner_holdout =

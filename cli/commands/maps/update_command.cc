@@ -20,6 +20,7 @@
 #include "data/files/shown_path.h"
 #include "data/measurements/column_checks.h"
 #include "data/text.h"
+#include "fitting/interruption.h"
 #include "models/history/rows_made_for.h"
 #include "models/model_file.h"
 #include "models/record_json.h"
@@ -173,7 +174,8 @@ Json UpdateJson(const UpdateArguments& arguments,
 // The successor, of all rows, with its promise.
 models::FittedModel FitSuccessor(const models::FittedModel& old_map,
                                  const data::Dataset& all,
-                                 const models::FitContext& context) {
+                                 const models::FitContext& context,
+                                 const std::atomic<bool>& stop) {
   models::FittedModel fitted =
       RecipeFromArgument(old_map.name)->Fit(all, context);
   fitted.where = old_map.where;
@@ -182,7 +184,7 @@ models::FittedModel FitSuccessor(const models::FittedModel& old_map,
                      RecipeFromArgument(old_map.name),
                      {.seed = context.seed,
                       .jobs = context.threads,
-                      .stop = context.stop,
+                      .stop = &stop,
                       .indifference = context.indifference},
                      &fitted);
   return fitted;
@@ -213,11 +215,11 @@ int RunUpdate(const UpdateArguments& arguments,
   const double indifference = models::DefaultIndifference(old_map.target.unit);
   const std::atomic<bool>& stop = InstallInterruptFlag();
   const models::FitContext context{.seed = arguments.seed,
-                                   .stop = &stop,
                                    .threads = JobsOf(0),
                                    .indifference = indifference};
   const Index learnt = models::CountLearntRows(
       old_map, fresh.input_values(), &fresh.target_values());
+  const fitting::InterruptionScope interruptible(&stop);
   models::UpdateTrial trial;
   std::optional<data::Dataset> all;
   try {
@@ -241,7 +243,12 @@ int RunUpdate(const UpdateArguments& arguments,
   learnt_from.push_back(desk::HashInput(arguments.file));
   const bool better = trial.better(indifference);
   if (better) {
-    const models::FittedModel fitted = FitSuccessor(old_map, *all, context);
+    models::FittedModel fitted;
+    try {
+      fitted = FitSuccessor(old_map, *all, context, stop);
+    } catch (const fitting::Interrupted&) {
+      return kInterrupted;
+    }
     if (stop.load()) return kInterrupted;
     models::SaveModel(
         fitted,

@@ -129,7 +129,6 @@ struct TimedFit {
 TimedFit FitTimed(const models::ModelRecipe& recipe,
                   const data::Dataset& dataset,
                   const models::FitContext& context) {
-  const fitting::InterruptionScope interruptible(context.stop);
   const auto start = std::chrono::steady_clock::now();
   TimedFit fit{.map = recipe.Fit(dataset, context)};
   const std::chrono::duration<double> taken =
@@ -148,16 +147,10 @@ std::optional<std::string> WhyFailed(const models::FittedModel& fitted,
 
 void AddInterval(const data::Dataset& dataset,
                  std::unique_ptr<models::ModelRecipe> recipe,
-                 const models::FitContext& context,
+                 const models::StudyOptions& options,
                  models::FittedModel* fitted) {
   try {
-    models::AddPromise(dataset,
-                       std::move(recipe),
-                       {.seed = context.seed,
-                        .jobs = context.threads,
-                        .stop = context.stop,
-                        .indifference = context.indifference},
-                       fitted);
+    models::AddPromise(dataset, std::move(recipe), options, fitted);
   } catch (const std::invalid_argument& error) {
     Say(fmt::format("no interval: {}", error.what()));
   }
@@ -188,13 +181,13 @@ int FitOne(const FitArguments& arguments, const std::string& command_line) {
   const std::atomic<bool>& stop = InstallInterruptFlag();
   const models::FitContext context{
       .seed = arguments.seed,
-      .stop = &stop,
       .explain = true,
       .threads = JobsOf(arguments.jobs),
       .keep_trace = arguments.format == "json",
       .indifference = models::DefaultIndifference(dataset.target().unit)};
   TimedFit fit;
   try {
+    const fitting::InterruptionScope interruptible(&stop);
     fit = FitTimed(*recipe, dataset, context);
   } catch (const std::invalid_argument& error) {
     if (stop.load()) {
@@ -215,7 +208,13 @@ int FitOne(const FitArguments& arguments, const std::string& command_line) {
   fitted.reading = std::make_shared<const data::Reading>(prepared.reading);
   models::AddExperience(dataset, &fitted);
   if (!arguments.no_interval && !stop.load()) {
-    AddInterval(dataset, std::move(recipe), context, &fitted);
+    AddInterval(dataset,
+                std::move(recipe),
+                {.seed = context.seed,
+                 .jobs = context.threads,
+                 .stop = &stop,
+                 .indifference = context.indifference},
+                &fitted);
   }
   const std::vector<desk::InputFile> inputs =
       desk::HashInputs(arguments.data.files);

@@ -140,11 +140,10 @@ std::string OptionsText(const std::vector<EffectiveOption>& options) {
   return text;
 }
 
-// What of the context changes a figure: all but `stop`, `threads` and `shared`.
+// What of the context changes a figure: all but `threads` and `shared`.
 // Every member is named, so that a new one has to be thought of here.
 std::string ContextText(const FitContext& context) {
   const auto& [seed,
-               stop,
                explain,
                default_bootstraps,
                threads,
@@ -153,7 +152,6 @@ std::string ContextText(const FitContext& context) {
                inner_holdout,
                indifference,
                shared] = context;
-  std::ignore = stop;
   std::ignore = threads;
   std::ignore = shared;
   std::string text = fmt::format("seed={}", seed);

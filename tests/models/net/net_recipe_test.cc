@@ -16,6 +16,7 @@
 #include <gtest/gtest.h>
 
 #include "data/column_header.h"
+#include "fitting/interruption.h"
 #include "models/model_file.h"
 #include "models/model_spec.h"
 #include "models/net/feedforward_net.h"
@@ -358,8 +359,8 @@ TEST(NetRecipe, AnInterruptedFitGivesAUsableModelMarkedSo) {
   const data::Dataset dataset = ShippedMeasurements();
   for (const char* type : {"net:scg", "net:cg", "net:backprop"}) {
     const std::atomic<bool> stop = true;
-    const FittedModel fitted =
-        FitSpecInNetRecipe(type, dataset, {.stop = &stop});
+    const fitting::InterruptionScope interrupted(&stop);
+    const FittedModel fitted = FitSpecInNetRecipe(type, dataset, {});
     EXPECT_EQ(fitted.summary.termination, Termination::kInterrupted) << type;
     EXPECT_FALSE(fitted.summary.converged());
     EXPECT_THAT(fitted.summary.message, HasSubstr("interrupted"));
@@ -375,10 +376,9 @@ TEST(NetRecipe, AnInterruptKeepsTheBestPointSoFar) {
     std::this_thread::sleep_for(kPause);
     stop = true;
   });
-  const FittedModel fitted =
-      FitSpecInNetRecipe("net:scg:hidden=60:iterations=1000000000:gwgoal=0",
-                         dataset,
-                         {.stop = &stop});
+  const fitting::InterruptionScope interruptible(&stop);
+  const FittedModel fitted = FitSpecInNetRecipe(
+      "net:scg:hidden=60:iterations=1000000000:gwgoal=0", dataset, {});
   interrupter.join();
   EXPECT_EQ(fitted.summary.termination, Termination::kInterrupted);
   EXPECT_GT(fitted.summary.iterations, 0);

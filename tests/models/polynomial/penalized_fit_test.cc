@@ -34,7 +34,7 @@ TEST(FitPenalty, SearchesOnWhereTheBasisIsPromising) {
   const auto viewed = std::make_shared<const ViewedRows>(
       MakeViews(dataset, std::nullopt, 0.0).front());
   const InnerFolds folds = MakeInnerFolds(dataset, context);
-  const SummedBasis basis(viewed, PenalizedBasis(), &folds, context);
+  const SummedBasis basis(viewed, PenalizedBasis(), &folds);
   const auto search = [&](double promising, PenaltyRule rule = {}) {
     return FitPenalty(basis, fitting::Penalty::kRidge, rule, 0.0, promising)
         ->candidate;
@@ -53,7 +53,8 @@ TEST(SummedBasis, ThrowsWhatAnInterruptionThrows) {
   const std::atomic<bool> stop{true};
   const auto viewed = std::make_shared<const ViewedRows>(
       MakeViews(dataset, std::nullopt, 0.0).front());
-  EXPECT_THROW(SummedBasis(viewed, PenalizedBasis(), nullptr, {.stop = &stop}),
+  const fitting::InterruptionScope interrupted(&stop);
+  EXPECT_THROW(SummedBasis(viewed, PenalizedBasis(), nullptr),
                fitting::Interrupted);
 }
 
@@ -145,7 +146,7 @@ TEST(FitPenalty, WeighsWhatDiffersBetweenSessions) {
         PenalizedBasis basis;
         basis.between = between;
         for (const double strength : {1e-3, 0.1}) {
-          const auto fit = FitPenalty({viewed, basis, &folds, context},
+          const auto fit = FitPenalty({viewed, basis, &folds},
                                       fitting::Penalty::kRidge,
                                       {.strength = strength},
                                       0.0,

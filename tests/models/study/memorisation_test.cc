@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fitting/interruption.h"
 #include "models/recipe_catalog.h"
 #include "tests/models/model_test_data.h"
 #include "tests/numbers.h"
@@ -169,8 +170,8 @@ TEST(Memorisation, LeavesFiguresOutWhereTheFitIsInterrupted) {
   const auto recipe = MakeRecipe("net:scg:hidden=4:iterations=20");
   const FittedModel fitted = recipe->Fit(dataset, {});
   const std::atomic<bool> stop = true;
-  const Memorisation found =
-      AssessMemorisation(*recipe, dataset, fitted, {.stop = &stop});
+  const fitting::InterruptionScope interrupted(&stop);
+  const Memorisation found = AssessMemorisation(*recipe, dataset, fitted, {});
   EXPECT_TRUE(std::isnan(found.shuffled_r2));
   EXPECT_TRUE(std::isnan(found.effective_parameters));
   EXPECT_EQ(found.why_not, "interrupted");

@@ -51,7 +51,6 @@ Loss LossOfFold(const Dataset& dataset,
     return codes[static_cast<std::size_t>(row)] != dropped;
   });
   try {
-    const fitting::InterruptionScope interruptible(context.stop);
     const FittedModel fitted = recipe.Fit(dataset.SelectRows(rows), context);
     const Dataset test = dataset.SelectRows(fold.test);
     const VectorXd errors = test.target_values() - fitted.Predict(test);
@@ -77,9 +76,9 @@ std::optional<SessionWorth> WorthOfASession(const Dataset& dataset,
     return std::nullopt;
   }
   FitContext context{.seed = options.seed,
-                     .stop = options.stop,
                      .indifference = options.indifference};
   context.inner_holdout = holdout.inner;
+  const fitting::InterruptionScope interruptible(options.stop);
   std::vector<Loss> losses(holdout.folds.size());
   fitting::ParallelFor(options.jobs, losses.size(), [&](std::size_t i) {
     losses[i] = LossOfFold(dataset,
@@ -89,7 +88,7 @@ std::optional<SessionWorth> WorthOfASession(const Dataset& dataset,
                            result.folds[i].test_rmse,
                            context);
   });
-  if (options.stop != nullptr && options.stop->load()) return std::nullopt;
+  if (fitting::IsInterrupted()) return std::nullopt;
   double log_ratio = 0.0;
   double log_sessions = 0.0;
   for (const Loss& loss : losses) {
