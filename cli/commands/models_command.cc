@@ -34,17 +34,13 @@ std::string ModelText(const std::string& type, std::size_t width) {
   const std::vector<models::ModelOption> options = models::OptionsOfModel(type);
   std::string text = fmt::format("{}: {}\n", type, models::AboutModel(type));
   if (options.empty()) return text + "It takes no options.\n";
-  constexpr std::size_t kIndent = 26;
   text += fmt::format(
       "\n{:14}{:12}what it is, and its values\n", "option", "default");
   for (const models::ModelOption& option : options) {
-    std::string begin =
-        fmt::format("{:13} {:11} ", option.name, option.fallback);
-    for (const std::string& line : report::WrapLines(
-             option.about + ": " + option.values, width - kIndent)) {
-      text += fmt::format("{:{}}{}\n", begin, kIndent, line);
-      begin.clear();
-    }
+    text += report::Hanging(
+        fmt::format("{:13} {:11} ", option.name, option.fallback),
+        option.about + ": " + option.values,
+        width);
   }
   return text;
 }

@@ -81,7 +81,7 @@ std::string BareNumberRemark(const char* what,
       what,
       given.value,
       unit.symbol,
-      data::Printable(target.name, target.name.size()),
+      data::Printable(target.name),
       unit.display_scale * given.value,
       unit.display_symbol);
 }

@@ -28,7 +28,11 @@ std::string ErrorText::operator()(double value) const {
 }
 
 std::string ErrorText::WithUnit(double value) const {
-  return (*this)(value) + (symbol_.empty() ? "" : " " + symbol_);
+  return WithSymbol((*this)(value), symbol_);
+}
+
+std::string WithSymbol(const std::string& number, const std::string& symbol) {
+  return symbol.empty() ? number : number + " " + symbol;
 }
 
 std::string PText(double p) {

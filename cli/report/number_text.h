@@ -29,6 +29,9 @@ class ErrorText {
   int decimals_;
 };
 
+/// "2 um"; the number alone where it has no unit.
+std::string WithSymbol(const std::string& number, const std::string& symbol);
+
 /// Formats a probability in a table: "0.0123", "2.1e-06", "<1e-300"; "n/a" if
 /// there is none. Tables and sentences format p only with PText and PWords.
 std::string PText(double p);

@@ -84,6 +84,18 @@ std::string WrapText(std::string_view text, std::size_t width) {
   return wrapped;
 }
 
+std::string Hanging(std::string begin,
+                    std::string_view text,
+                    std::size_t width) {
+  const std::size_t indent = WidthOf(begin);
+  std::string hanging;
+  for (const std::string& line : WrapLines(text, width - indent)) {
+    hanging += begin + line + "\n";
+    begin.assign(indent, ' ');
+  }
+  return hanging;
+}
+
 std::string Squeezed(const std::string& text,
                      std::size_t most,
                      std::string_view dots) {

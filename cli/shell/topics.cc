@@ -80,12 +80,7 @@ class PageWriter {
     const bool is_item = paragraph_.starts_with("- ");
     const std::string words = Unmarked(paragraph_.substr(is_item ? 2 : 0));
     paragraph_.clear();
-    std::string begin = is_item ? "- " : "";
-    for (const std::string& line :
-         report::WrapLines(words, width_ - begin.size())) {
-      text_ += begin + line + "\n";
-      begin.assign(begin.size(), ' ');
-    }
+    text_ += report::Hanging(is_item ? "- " : "", words, width_);
   }
 
   std::size_t width_;

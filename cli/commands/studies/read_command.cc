@@ -94,7 +94,6 @@ std::string InUnit(const std::vector<std::string>& names) {
 std::string Described(const data::Reading& reading) {
   std::string text;
   const std::size_t columns = OutputTerminal().text_columns();
-  constexpr std::size_t kIndent = 13;
   for (const std::string& line : data::ReadingLines(reading)) {
     text += report::WrapText(line, columns) + "\n";
   }
@@ -102,16 +101,13 @@ std::string Described(const data::Reading& reading) {
                        const std::string& what,
                        const std::string& why,
                        const std::string& option) {
-    std::string begin = fmt::format("  {:<10} ", role);
-    for (const std::string& line : report::WrapLines(
-             fmt::format("{}{}; {}",
-                         what,
-                         why.empty() ? "" : fmt::format(" ({})", why),
-                         option),
-             columns - kIndent)) {
-      text += begin + line + "\n";
-      begin.assign(kIndent, ' ');
-    }
+    text += report::Hanging(
+        fmt::format("  {:<10} ", role),
+        fmt::format("{}{}; {}",
+                    what,
+                    why.empty() ? "" : fmt::format(" ({})", why),
+                    option),
+        columns);
   };
   text += "\n";
   row("role", "what it is (how it is known)", "", "what changes it");

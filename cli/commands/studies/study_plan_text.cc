@@ -13,10 +13,8 @@ namespace errmap::cli {
 namespace {
 
 std::string InUnit(double value, const data::Unit& unit) {
-  return fmt::format("{:g}{}{}",
-                     value * unit.display_scale,
-                     unit.display_symbol.empty() ? "" : " ",
-                     unit.display_symbol);
+  return report::WithSymbol(fmt::format("{:g}", value * unit.display_scale),
+                            unit.display_symbol);
 }
 
 // "every:3 (1 fold), groups:5 (5 folds)"
@@ -34,14 +32,7 @@ std::string HoldoutList(const std::vector<models::Holdout>& holdouts) {
 // "  hold-outs every:3 (1 fold), ...", what follows below its beginning.
 std::string ListLine(const char* what, const std::string& list) {
   constexpr std::size_t kWidth = 78;
-  constexpr std::size_t kIndent = 12;
-  std::string text;
-  std::string begin = fmt::format("  {:<10}", what);
-  for (const std::string& line : report::WrapLines(list, kWidth - kIndent)) {
-    text += begin + line + "\n";
-    begin.assign(kIndent, ' ');
-  }
-  return text;
+  return report::Hanging(fmt::format("  {:<10}", what), list, kWidth);
 }
 
 std::string ComponentText(const models::ComponentPlan& component,

@@ -84,8 +84,7 @@ std::string StartsText(const std::vector<models::StartResult>& starts,
 
 std::string Paragraph(const std::string& text, const Terminal& room) {
   if (text.empty()) return "";
-  return WrapText(data::Printable(text, text.size()), room.text_columns()) +
-         "\n";
+  return WrapText(data::Printable(text), room.text_columns()) + "\n";
 }
 
 // The title and as much of a table as there is room for: lines are not broken,
@@ -181,7 +180,7 @@ std::string FitText(const models::FittedModel& fitted,
   const bool is_short =
       options.details || fitted.model->num_parameters() <= kMostTerms + 1;
   if (is_short) {
-    say(data::Printable(fitted.equation, fitted.equation.size()));
+    say(data::Printable(fitted.equation));
   } else if (!fitted.equation.empty()) {
     say("The equation is long: it is in the file, and here with --details.");
   }

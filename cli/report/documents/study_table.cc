@@ -216,11 +216,7 @@ void ComponentScreen::Next(const std::vector<std::string>& data) {
           "\n");
       continue;
     }
-    std::string indent = begin;
-    for (const std::string& line : WrapLines(step.text, Width() - kIndent)) {
-      screen_->Add(indent + line + "\n");
-      indent.assign(kIndent, ' ');
-    }
+    screen_->Add(Hanging(begin, step.text, Width()));
   }
 }
 
@@ -364,7 +360,7 @@ Screen StudyTable(const models::StudyRecord& record,
     for (std::size_t i = 0; i < record.components.size(); ++i) {
       if (!options.details) break;
       const std::string& name = record.components[i].name;
-      screen.Add("== " + data::Printable(name, name.size()) + " ==\n", true);
+      screen.Add("== " + data::Printable(name) + " ==\n", true);
       ComponentScreen one = component(i);
       one.Answer();
       one.Next({});

@@ -180,10 +180,7 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
   const double goal = view.component->goal * view.scale;
   if (std::isfinite(goal)) {
     plot.series.push_back(
-        AcrossRows(fmt::format("goal {:g}{}{}",
-                               goal,
-                               view.shown_unit.empty() ? "" : " ",
-                               view.shown_unit),
+        AcrossRows(WithSymbol(fmt::format("goal {:g}", goal), view.shown_unit),
                    goal,
                    models.size()));
   }

@@ -51,21 +51,6 @@ std::vector<Figure> FiguresOf(const ReportView& view,
   return figures;
 }
 
-// Those that there are data for.
-std::vector<const Figure*> Drawn(const FigureSet& figures) {
-  std::vector<const Figure*> drawn;
-  const auto add = [&](const std::vector<Figure>& more) {
-    for (const Figure& figure : more) {
-      if (figure.missing.empty()) drawn.push_back(&figure);
-    }
-  };
-  for (const ComponentFigures& component : figures.components) {
-    add(component.figures);
-  }
-  for (const RecordPart& part : figures.parts) add(part.figures);
-  return drawn;
-}
-
 }  // namespace
 
 FigureSet MakeFigures(const models::StudyRecord& record) {
@@ -109,9 +94,16 @@ std::string FigureSvg(const Figure& figure) {
 
 std::vector<ReportFile> FigureFiles(const FigureSet& figures) {
   std::vector<ReportFile> files;
-  for (const Figure* figure : Drawn(figures)) {
-    files.push_back({figure->plot.name + ".svg", SvgFile(FigureSvg(*figure))});
+  const auto add = [&](const std::vector<Figure>& more) {
+    for (const Figure& figure : more) {
+      if (!figure.missing.empty()) continue;
+      files.push_back({figure.plot.name + ".svg", SvgFile(FigureSvg(figure))});
+    }
+  };
+  for (const ComponentFigures& component : figures.components) {
+    add(component.figures);
   }
+  for (const RecordPart& part : figures.parts) add(part.figures);
   return files;
 }
 

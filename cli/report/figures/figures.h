@@ -89,7 +89,7 @@ struct ReportFile {
   std::string text;
 };
 
-/// Returns every figure as NAME.svg.
+/// Returns every figure that there are data for as NAME.svg.
 std::vector<ReportFile> FigureFiles(const FigureSet& figures);
 
 }  // namespace errmap::report

@@ -81,7 +81,7 @@ Cell Metric(const Place& place) {
 
 Cell ModelName(const Place& place) {
   const std::string& name = place.model.name;
-  const std::string shown = data::Printable(name, name.size());
+  const std::string shown = data::Printable(name);
   // Beside the recommended one stand those that are as good.
   const auto& advice = place.component.recommendation;
   const char* const mark = advice && advice->model == name ? "* "
@@ -422,7 +422,7 @@ std::string StandInWords(const ReportView& view) {
     const std::string& input = inputs->front();
     return fmt::format("{} is a line over {}, as there is no thermometer.",
                        model->name,
-                       data::Printable(input, input.size()));
+                       data::Printable(input));
   }
   return "";
 }
@@ -484,8 +484,7 @@ Table SummaryRows(const models::StudyRecord& record) {
                           {.name = "proven", .is_number = false},
                           {.name = "goal", .is_number = false}}};
   for (const ComponentRecord& component : record.components) {
-    const std::string name =
-        data::Printable(component.name, component.name.size());
+    const std::string name = data::Printable(component.name);
     const auto& advice = component.recommendation;
     const ModelRecord* found =
         advice ? FindNamed(component.models, advice->model) : nullptr;
@@ -503,7 +502,7 @@ Table SummaryRows(const models::StudyRecord& record) {
     }
     table.rows.push_back(
         {name,
-         data::Printable(advice->model, advice->model.size()),
+         data::Printable(advice->model),
          error.WithUnit(advice->rmse),
          interval,
          !advice->against_baseline || model.choice == models::Choice::kBaseline

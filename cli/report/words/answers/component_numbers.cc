@@ -82,7 +82,7 @@ models::IntervalRecord IntervalOfExcess(const models::PairRecord& pair,
 std::string RatioText(double ratio) {
   constexpr double kLarge = 1000.0;
   return ratio < kLarge ? fmt::format("{:.1f}", ratio)
-                        : fmt::format("{:.2g}", ratio);
+                        : fmt::format("{:.0f}", ratio);
 }
 
 std::string PluralOf(std::string unit) {

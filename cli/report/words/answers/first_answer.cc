@@ -79,24 +79,6 @@ std::ptrdiff_t WordsIn(const std::string& text) {
   return 1 + std::ranges::count(text, ' ');
 }
 
-// Ten seconds of reading.
-class Room {
- public:
-  bool Has(std::size_t lines, std::ptrdiff_t words) const {
-    return lines_ + lines <= kMostLines && words_ + words <= kMostWords;
-  }
-  void Take(std::size_t lines, std::ptrdiff_t words) {
-    lines_ += lines;
-    words_ += words;
-  }
-
- private:
-  static constexpr std::size_t kMostLines = 12;
-  static constexpr std::ptrdiff_t kMostWords = 110;
-  std::size_t lines_ = 0;
-  std::ptrdiff_t words_ = 0;
-};
-
 FirstAnswer WithoutAMap(const models::ComponentRecord& record) {
   const std::string why =
       record.interrupted ? "the run was interrupted."
@@ -141,7 +123,7 @@ std::vector<std::string> LabelledLines(const Remark& remark,
   std::string begin = fmt::format("  {:<15}  ", remark.label);
   std::vector<std::string> lines;
   for (const std::string& text :
-       WrapLines(data::Printable(remark.text, remark.text.size()),
+       WrapLines(data::Printable(remark.text),
                  width > 2 * kIndent ? width - kIndent : width)) {
     lines.push_back(begin + text);
     begin.assign(kIndent, ' ');
@@ -153,9 +135,12 @@ ShownAnswer AnswerLines(const FirstAnswer& answer,
                         std::size_t width,
                         const std::vector<std::string>& above) {
   ShownAnswer shown{.lines = WrapLines(answer.use, width), .left_out = {}};
-  Room room;
-  for (const std::string& line : above) room.Take(1, WordsIn(line));
-  room.Take(shown.lines.size(), WordsIn(answer.use));
+  // Ten seconds of reading.
+  constexpr std::size_t kMostLines = 12;
+  constexpr std::ptrdiff_t kMostWords = 110;
+  std::size_t all_lines = above.size() + shown.lines.size();
+  std::ptrdiff_t all_words = WordsIn(answer.use);
+  for (const std::string& line : above) all_words += WordsIn(line);
   std::vector<bool> taken;
   for (const bool must_show : {true, false}) {
     for (std::size_t i = 0; i < answer.lines.size(); ++i) {
@@ -164,8 +149,11 @@ ShownAnswer AnswerLines(const FirstAnswer& answer,
       if (remark.must_show != must_show) continue;
       const std::size_t lines = LabelledLines(remark, width).size();
       const auto words = WordsIn(remark.label) + WordsIn(remark.text);
-      taken[i] = must_show || room.Has(lines, words);
-      if (taken[i]) room.Take(lines, words);
+      taken[i] = must_show || (all_lines + lines <= kMostLines &&
+                               all_words + words <= kMostWords);
+      if (!taken[i]) continue;
+      all_lines += lines;
+      all_words += words;
     }
   }
   for (std::size_t i = 0; i < answer.lines.size(); ++i) {

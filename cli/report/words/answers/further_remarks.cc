@@ -69,8 +69,8 @@ std::string WhereToMeasure(const std::vector<models::BeyondRecord>& beyond) {
       return;
     }
     if (has_state) named.emplace_back(state);
-    const std::string limit = fmt::format(
-        "{} {} {:.4g}", data::Printable(column, column.size()), side, value);
+    const std::string limit =
+        fmt::format("{} {} {:.4g}", data::Printable(column), side, value);
     parts.push_back(has_state ? fmt::format("{} ({})", state, limit)
                               : "readings with " + limit);
   };
@@ -186,12 +186,8 @@ Remarks Averages(const Numbers& of) {
   constexpr std::size_t kMostNamed = 2;
   const ModelRecord& model = of.Model(of.Advice().model);
   if (model.choice != Choice::kBlend || !model.final) return {};
-  std::vector<std::string> parts = model.final->remarks;
-  if (parts.size() > kMostNamed) {
-    parts[kMostNamed] = fmt::format("{} more", parts.size() - kMostNamed);
-    parts.resize(kMostNamed + 1);
-  }
-  return {{"averages", data::JoinWords(parts, "; ")}};
+  return {{"averages",
+           data::ShortList(model.final->remarks, kMostNamed, "; ", "; ")}};
 }
 
 Remarks Interval(const Numbers& of) {
@@ -243,7 +239,7 @@ Remarks Cost(const Numbers& of) {
                          : Count(std::ssize(advice.sensors), "sensor");
   if (!advice.sensors.empty() && advice.sensors.size() <= kMostSensorsNamed) {
     const std::string names = data::JoinWords(advice.sensors, ", ");
-    text += fmt::format(" ({})", data::Printable(names, names.size()));
+    text += fmt::format(" ({})", data::Printable(names));
   }
   if (advice.memory) text += MemoryText(*advice.memory);
   text += "; a prediction takes " +

@@ -119,13 +119,11 @@ std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
     }
   }
   if (advice && !advice->sensors.empty()) {
-    Words sensors = SensorsByNeed(*advice);
+    const Words sensors = SensorsByNeed(*advice);
     const std::size_t all = sensors.size();
-    sensors.resize(std::min(all, kMostNamed));
-    std::string text = data::JoinWords(sensors, ", ");
-    if (all > kMostNamed) text += fmt::format(" and {} more", all - kMostNamed);
+    std::string text = data::ShortList(sensors, kMostNamed);
     if (all > 1) text += "; --exclude leaves some out";
-    steps.push_back({"its sensors", {}, data::Printable(text, text.size())});
+    steps.push_back({"its sensors", {}, data::Printable(text)});
     if (all > 1 && !data.empty()) {
       Words words = CommandOn("learn", data);
       words.insert(words.end(), {"--by", "sensors"});

@@ -243,10 +243,8 @@ Remarks BetterWithoutMap(const Numbers& of) {
 Remarks HeldAgainstGoal(const Numbers& of) {
   const RecommendationRecord& advice = of.Advice();
   const models::DisplayRecord& display = of.record.display;
-  const std::string wanted = fmt::format("{:g}{}{}",
-                                         of.record.goal * display.scale,
-                                         display.unit.empty() ? "" : " ",
-                                         display.unit);
+  const std::string wanted = WithSymbol(
+      fmt::format("{:g}", of.record.goal * display.scale), display.unit);
   const stats::ErrorMetrics& found =
       of.Result(advice.model, advice.holdout).test;
   switch (advice.goal_standing) {

@@ -25,8 +25,7 @@ std::string IntervalWords(const models::ComponentRecord& component,
     return DurationText(seconds);
   }
   const std::string column = component.data.time.value_or("");
-  return fmt::format(
-      "{:.3g} of {}", seconds, data::Printable(column, column.size()));
+  return fmt::format("{:.3g} of {}", seconds, data::Printable(column));
 }
 
 }  // namespace

@@ -30,10 +30,6 @@ std::string TimesText(const models::SessionCheck& check,
                          : "the session began");
 }
 
-std::string NameText(const data::ColumnInfo& column) {
-  return data::Printable(column.name, column.name.size());
-}
-
 std::string MissingText(models::Missing missing) {
   return missing == models::Missing::kStart
              ? "Not known whether the map holds: it needs the session from its "
@@ -152,12 +148,11 @@ std::string SiteText(const models::HeldOutErrors& errors,
                         site.until / kSecondsPerMinute);
   }
   if (std::isfinite(site.position_from)) {
-    text +=
-        fmt::format("{}{} {:.4g} to {:.4g}",
-                    text.empty() ? "" : ", ",
-                    data::Printable(errors.position, errors.position.size()),
-                    site.position_from,
-                    site.position_until);
+    text += fmt::format("{}{} {:.4g} to {:.4g}",
+                        text.empty() ? "" : ", ",
+                        data::Printable(errors.position),
+                        site.position_from,
+                        site.position_until);
   }
   return text;
 }
@@ -192,7 +187,7 @@ std::string ProbeText(const models::SessionCheck& check,
 
 std::string SensorText(const models::SensorFaultFound& found) {
   const data::ColumnInfo& column = found.columns.front();
-  const std::string name = NameText(column);
+  const std::string name = data::Printable(column.name);
   const std::string& unit = column.unit.symbol;
   const std::string lead = "Check " + name + " first: ";
   switch (found.fault) {
@@ -219,7 +214,7 @@ std::string SensorText(const models::SensorFaultFound& found) {
           "Check {} and {} first: each reads what the other should, as if they "
           "were swapped.\n",
           name,
-          NameText(found.columns.back()));
+          data::Printable(found.columns.back().name));
     case models::SensorFault::kSpike:
       return fmt::format(
           "{}it reads {:.4g} {} in data row {}, far from its other readings. "

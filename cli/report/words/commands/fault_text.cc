@@ -163,19 +163,16 @@ std::vector<std::string> FaultLines(const data::PreparedDataset& prepared,
   std::vector<std::string> lines;
   for (const ColumnFault& fault : prepared.faults) {
     const std::string& name = dataset.ColumnOf(fault).name;
-    std::string line = fmt::format("warning: {} {}",
-                                   data::Printable(name, name.size()),
-                                   WhatIsWrong(fault, dataset));
+    std::string line = fmt::format(
+        "warning: {} {}", data::Printable(name), WhatIsWrong(fault, dataset));
     if (!fault.of_cells && fault.input >= 0 && use == FaultUse::kFit) {
       const std::string effect =
           EffectText(models::EffectOfInput(dataset, fault.input),
                      dataset.target().unit,
                      "rows held out",
                      "the column");
-      line +=
-          ". " +
-          data::ArgumentName("exclude", data::Printable(name, name.size())) +
-          " leaves it out" + (effect.empty() ? "" : ": " + effect);
+      line += ". " + data::ArgumentName("exclude", data::Printable(name)) +
+              " leaves it out" + (effect.empty() ? "" : ": " + effect);
     }
     lines.push_back(std::move(line));
   }

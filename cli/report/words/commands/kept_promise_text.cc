@@ -92,11 +92,10 @@ std::string TrialText(const models::UpdateTrial& trial,
       all_unseen ? ", each unseen" : ", which the old map has seen in part");
   text += fmt::format("  {:<12}  {:>9}  {:>9}\n", "session", "old", "new");
   for (const auto& session : trial.sessions) {
-    text +=
-        fmt::format("  {:<12}  {:>9}  {:>9}\n",
-                    data::Printable(session.session, session.session.size()),
-                    error(session.old_rmse),
-                    error(session.new_rmse));
+    text += fmt::format("  {:<12}  {:>9}  {:>9}\n",
+                        data::Printable(session.session),
+                        error(session.old_rmse),
+                        error(session.new_rmse));
   }
   text += fmt::format("  {:<12}  {:>9}  {:>9}\n",
                       "all",
@@ -167,7 +166,7 @@ std::string SensitivityLine(const models::Sensitivity& sensitivity,
       models::Sensitivity::kNoise,
       error.WithUnit(sensitivity.per_noise),
       error.WithUnit(sensitivity.largest_jump),
-      data::Printable(sensitivity.jump_of, sensitivity.jump_of.size()));
+      data::Printable(sensitivity.jump_of));
   if (sensitivity.rezero_jump > 0.0) {
     text += fmt::format(", a zero taken again by up to {}",
                         error.WithUnit(sensitivity.rezero_jump));

@@ -25,7 +25,7 @@ std::string_view ViewWords(const std::string& view) {
 std::string CurveText(const models::LearningCurvesRecord& curves,
                       const models::LearningModelRecord& model,
                       const ErrorText& error) {
-  std::string text = data::Printable(model.model, model.model.size()) + "\n";
+  std::string text = data::Printable(model.model) + "\n";
   if (model.points.empty()) {
     return text + "  failed: " + model.why_failed.value_or("") + "\n";
   }
@@ -77,7 +77,7 @@ std::string SensorsText(const models::SensorCurve& curve,
   text +=
       EnoughWords(curve) + (curve.enough ? ":\n" : "; the best of so many:\n");
   for (const models::SensorCurve::Chosen& chosen : curve.chosen) {
-    text += "  " + data::Printable(chosen.sensor, chosen.sensor.size());
+    text += "  " + data::Printable(chosen.sensor);
     if (std::isfinite(chosen.replaced_cost)) {
       text += fmt::format(" ({:+.0f} % with another in its place)",
                           kPercent * chosen.replaced_cost);
@@ -85,10 +85,9 @@ std::string SensorsText(const models::SensorCurve& curve,
     for (std::size_t s = 0;
          s < std::min(kMostSubstitutes, chosen.substitutes.size());
          ++s) {
-      text += fmt::format(
-          "{}{}",
-          s == 0 ? ", or instead " : ", ",
-          data::Printable(chosen.substitutes[s], chosen.substitutes[s].size()));
+      text += fmt::format("{}{}",
+                          s == 0 ? ", or instead " : ", ",
+                          data::Printable(chosen.substitutes[s]));
     }
     text += "\n";
   }

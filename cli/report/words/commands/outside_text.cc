@@ -13,8 +13,7 @@ using Eigen::Index;
 namespace {
 
 std::string FlagText(const models::RowFlag& flag) {
-  const std::string name =
-      data::Printable(flag.column.name, flag.column.name.size());
+  const std::string name = data::Printable(flag.column.name);
   const std::string& symbol = flag.column.unit.symbol;
   switch (flag.why) {
     case models::Outside::kNo:
@@ -70,7 +69,7 @@ std::vector<std::string> OutsideLines(
     const std::string& symbol = input.column.unit.symbol;
     lines.push_back(fmt::format(
         "warning: {} is {:g} to {:g}{}, trained {:g} to {:g}: {} outside{}",
-        data::Printable(input.column.name, input.column.name.size()),
+        data::Printable(input.column.name),
         found.min,
         found.max,
         symbol.empty() ? "" : " " + symbol,

@@ -29,10 +29,8 @@ std::string StatisticText(double statistic) {
 
 std::string InUnit(double value, const data::Unit& unit) {
   if (!std::isfinite(value)) return "n/a";
-  return fmt::format(
-      "{:.5g}{}",
-      value * unit.display_scale,
-      unit.display_symbol.empty() ? "" : " " + unit.display_symbol);
+  return WithSymbol(fmt::format("{:.5g}", value * unit.display_scale),
+                    unit.display_symbol);
 }
 
 std::string Heading(const char* title,
@@ -370,11 +368,10 @@ std::string Report1995Text(const stats::Report1995Statistics& printed,
                            double r_squared,
                            const data::Unit& unit) {
   const auto line = [&](const char* label, double value) {
-    return fmt::format(
-        "  {:<10} {:.6g}{}\n",
-        label,
-        value * unit.display_scale,
-        unit.display_symbol.empty() ? "" : " " + unit.display_symbol);
+    return WithSymbol(fmt::format(
+                          "  {:<10} {:.6g}", label, value * unit.display_scale),
+                      unit.display_symbol) +
+           "\n";
   };
   std::string text = fmt::format(
       "as the 1995 program prints it (single precision). Its sums are divided\n"

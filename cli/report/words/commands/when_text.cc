@@ -24,18 +24,16 @@ std::string EveryText(const ZeroTrigger& clock) {
 }
 
 std::string TemperatureText(const models::HeldOutErrors& errors) {
-  return data::Printable(errors.temperature, errors.temperature.size());
+  return data::Printable(errors.temperature);
 }
 
 // "1.5 degC of t11_degC".
 std::string ChangeText(const models::HeldOutErrors& errors, double change) {
-  const std::string& symbol =
-      data::UnitOfColumn(errors.temperature).display_symbol;
-  return fmt::format("{:.2g}{}{} of {}",
-                     change,
-                     symbol.empty() ? "" : " ",
-                     symbol,
-                     TemperatureText(errors));
+  return fmt::format(
+      "{} of {}",
+      WithSymbol(fmt::format("{:.2g}", change),
+                 data::UnitOfColumn(errors.temperature).display_symbol),
+      TemperatureText(errors));
 }
 
 std::string RuleText(const ZeroTrigger& trigger,
