@@ -77,13 +77,10 @@ bool IsSign(double gain) {
   return std::abs(gain + 1.0) < kAboutOne;
 }
 
-// Whether so few probes tell this gain from a shape: another sign or scale,
-// which no state of a machine is, and any where there are more than five.
-bool IsTold(double gain, Index probes) {
+// Another sign or scale, which no state of a machine is.
+bool IsOfNoMachine(double gain) {
   constexpr double kScale = 3.0;
-  constexpr Index kFew = 5;
-  return probes > kFew || IsSign(gain) || gain > kScale ||
-         std::abs(gain) < 1.0 / kScale;
+  return IsSign(gain) || gain > kScale || std::abs(gain) < 1.0 / kScale;
 }
 
 // Errors over predictions where that alone brings the probes within the limit,
@@ -107,6 +104,14 @@ struct Order {
   std::vector<double> left;  // RMSE of each draw
 };
 
+std::vector<double> LeftByGain(const SessionForecast& forecast,
+                               const std::vector<Index>& after,
+                               double gain) {
+  return RmseOfDraws(
+      forecast.errors.rowwise() - (gain - 1.0) * forecast.predicted.transpose(),
+      after);
+}
+
 std::vector<Order> OrdersFor(const SessionForecast& forecast,
                              const std::vector<Index>& after,
                              const SessionCheck& check) {
@@ -115,20 +120,25 @@ std::vector<Order> OrdersFor(const SessionForecast& forecast,
       {Remedy::kRezero,
        RmseOfDraws(forecast.errors.array() - check.probe_mean, after)});
   if (!std::isfinite(check.gain)) return orders;
-  const auto multiplied = [&](double gain) {
-    return RmseOfDraws(forecast.errors.rowwise() -
-                           (gain - 1.0) * forecast.predicted.transpose(),
-                       after);
-  };
-  orders.push_back({Remedy::kGain, multiplied(check.gain)});
-  orders.push_back({Remedy::kSign, multiplied(-1.0)});
+  orders.push_back({Remedy::kGain, LeftByGain(forecast, after, check.gain)});
+  orders.push_back({Remedy::kSign, LeftByGain(forecast, after, -1.0)});
   return orders;
+}
+
+bool DoesNoHarm(const std::vector<double>& left,
+                const std::vector<double>& as_it_is) {
+  std::vector<double> ratios;
+  for (std::size_t draw = 0; draw < as_it_is.size(); ++draw) {
+    ratios.push_back(left[draw] / as_it_is[draw]);
+  }
+  return ShareAbove(ratios, kMuchWorse) <= kWorse;
 }
 
 // The order that leaves least, if it helps and leaves no more than the limit.
 void ChooseRemedy(const SessionProbes& probes,
                   const SessionForecast& forecast,
                   SessionCheck* check) {
+  constexpr Index kFew = 5;  // probes, which some factor fits by chance
   const std::vector<Index>& after =
       forecast.later.empty() ? forecast.so_far : forecast.later;
   const std::vector<double> as_it_is = RmseOfDraws(forecast.errors, after);
@@ -142,12 +152,8 @@ void ChooseRemedy(const SessionProbes& probes,
     if (best == nullptr || typical(order) < typical(*best)) best = &order;
   }
   check->left = typical(*best);
-  std::vector<double> ratios;
-  for (std::size_t draw = 0; draw < as_it_is.size(); ++draw) {
-    ratios.push_back(best->left[draw] / as_it_is[draw]);
-  }
-  const bool helps = ShareAbove(ratios, kMuchWorse) <= kWorse;
-  if (helps && check->left <= limit && check->probes > 1) {
+  if (DoesNoHarm(best->left, as_it_is) && check->left <= limit &&
+      check->probes > 1) {
     check->remedy = best->remedy;
   } else if (ShareAbove(best->left, limit) > kSureOff && check->probes > 2) {
     // A wrong sign or unit is looked for before days are measured anew.
@@ -156,8 +162,11 @@ void ChooseRemedy(const SessionProbes& probes,
       check->remedy = Remedy::kRefit;
     } else {
       check->gain = gain;
-      check->remedy =
-          IsTold(gain, check->probes) ? Remedy::kGain : Remedy::kUnknown;
+      const bool is_told =
+          IsOfNoMachine(gain) ||
+          (check->probes > kFew &&
+           DoesNoHarm(LeftByGain(forecast, after, gain), as_it_is));
+      check->remedy = is_told ? Remedy::kGain : Remedy::kUnknown;
     }
   } else {
     check->remedy = Remedy::kUnknown;

@@ -235,6 +235,23 @@ TEST(CheckSession, GivesNoOrderThatOneExplanationSpeaksAgainst) {
   EXPECT_EQ(check.remedy, Remedy::kUnknown);
 }
 
+// The map predicts what grows until noon and has another sign after it:
+// errors in proportion to it may be a gain or go on growing.
+TEST(CheckSession, SaysNoGainThatMayDoHarmLater) {
+  HeldOutErrors errors = DaysInSessionCheck(10, 1);
+  const auto predicted = [](Index row) {
+    return row < kRows / 2 ? 0.5 * static_cast<double>(row) : -30.0;
+  };
+  for (HeldOutErrors::Unit& unit : errors.units) {
+    unit.predicted = VectorXd::NullaryExpr(kRows, predicted);
+  }
+  stats::Random random(7);
+  const SessionCheck check =
+      CheckOfGain(errors, 1.9, predicted, RowsUpTo(kRows / 2 - 1, 1), &random);
+  EXPECT_EQ(check.status, SessionStatus::kOff);
+  EXPECT_EQ(check.remedy, Remedy::kUnknown);
+}
+
 TEST(CheckSession, IsLessSureOfOneProbeThanOfMany) {
   const HeldOutErrors errors = DaysInSessionCheck(10, 3);
   const SessionCheck few =
