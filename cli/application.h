@@ -11,8 +11,8 @@ namespace errmap::cli {
 /// stderr.
 int RunApplication(int argc, char** argv);
 
-/// Runs a command within another program, which has made a HostedRun: `words`
-/// are a command and its arguments.
+/// Runs a command within another program that holds a HostedRun: `words` are
+/// the command and its arguments.
 int RunHosted(std::vector<std::string> words);
 
 }  // namespace errmap::cli

@@ -20,7 +20,7 @@ enum ExitStatus : int {
   kInterrupted = 130,
 };
 
-/// The command line is wrong; what() says how and what to do.
+/// The command line is wrong; what() has the fault and the remedy.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -28,9 +28,10 @@ class UsageError : public std::runtime_error {
 
 /// One run of the program.
 struct Run {
-  /// The command line without options that change no figure (--jobs, --out, -o,
-  /// --output, --format, --shard, --quiet, --all, --details, --resume,
-  /// --no-cache, --force, --keep-paths), quoted for a shell: for provenance.
+  /// The command line without options that do not change results (--jobs,
+  /// --out, -o, --output, --format, --shard, --quiet, --all, --details,
+  /// --resume, --no-cache, --force, --keep-paths), quoted for a shell: for
+  /// provenance.
   std::string command_line;
   int status = kDone;
 };

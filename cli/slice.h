@@ -11,7 +11,7 @@ namespace errmap::cli {
 
 class CompareMode;
 
-/// A command of a slice and its place in the help.
+/// A command of a slice, with its place in the help.
 struct SliceCommand {
   AddCommandTo add;
   const char* purpose;  // heading; one that is not there yet, before the last

@@ -17,7 +17,7 @@ enum class UnitSource {
   kUnknown,   // in brackets or parentheses, but not a known unit: no unit
 };
 
-/// A column name taken apart.
+/// A column name, split into its parts.
 struct Header {
   std::string base;       // without unit: "disp_ch1" of "disp_ch1 [um]"
   std::string unit_text;  // as the name has it, "" where it has none
@@ -29,7 +29,7 @@ struct Header {
 /// `_`, a space, `-`, `.`, `,` or `/` at the end: "error [µm]", "error {um}",
 /// "error um", "error_UM". Upper and lower case are equal, except for single
 /// letters and short symbols of other quantities than length ("x_V", "t1_K").
-/// Both code points of the micro sign are known. C, F, m, in, ft and " are
+/// Both code points of the micro sign are accepted. C, F, m, in, ft and " are
 /// units only in brackets; bare, they are names ("T_in", "pos_c"). The
 /// exceptions are C and F after the name of a temperature ("T1_C", "T_bed_F").
 /// A quotient of units (`/`, `_per_`) is of Quantity::kOther. A unit of errors
@@ -40,13 +40,13 @@ Header ReadHeader(std::string_view name);
 /// ReadHeader(name).unit.
 Unit UnitOfColumn(std::string_view name);
 
-/// True if a column has a unit, or something in brackets that is one, though
-/// not known here: "[kWh]", but not "(MATLAB)" or "(No.)".
+/// True if a column has a unit, known or not: "[kWh]", but not "(MATLAB)" or
+/// "(No.)".
 bool HasUnit(std::string_view name);
 
 /// Returns the column name without its unit suffix and the digits before it:
-/// "disp_ch1_um" -> "disp_ch", "error_mm" -> "error". Two columns with one stem
-/// measure the same quantity.
+/// "disp_ch1_um" -> "disp_ch", "error_mm" -> "error". Two columns with the same
+/// stem measure the same quantity.
 std::string StemOfColumn(std::string_view name);
 
 /// True if a column's name says that it holds positions: "position_mm",

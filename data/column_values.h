@@ -9,7 +9,7 @@
 
 namespace errmap::data {
 
-/// The numbers of a column: its own, or a caller's, read in place.
+/// The numbers of a column: owned, or a caller's and read in place.
 class ColumnValues {
  public:
   using View =
@@ -48,7 +48,7 @@ class ColumnValues {
 
   operator std::vector<double>() const { return {begin(), end()}; }
 
-  /// Gives write access; a caller's numbers are copied first.
+  /// Gives write access; first copies a caller's numbers.
   std::vector<double>& Own() {
     if (is_borrowed()) *this = std::vector<double>(begin(), end());
     return own_;

@@ -6,8 +6,8 @@
 
 namespace errmap::data {
 
-/// What a column's name may mean, in English, German, French, Italian, Spanish
-/// and a dozen other languages.
+/// Possible meanings of a column's name, in English, German, French, Italian,
+/// Spanish and a dozen other languages.
 enum class Word {
   kError,       // "error", "Abweichung", "écart", "scostamento"
   kCorrection,  // "correction", "Kompensation": an error with the other sign
@@ -33,51 +33,52 @@ enum class Word {
   kPlace,       // "station", "point": numbers places along the axis
 };
 
-/// In small letters without accents: "zuruck" of "Zurück".
+/// Returns the text in lower case without accents: "zuruck" for "Zurück".
 std::string PlainText(std::string_view text);
 
-/// Returns the words of a name in small letters without accents, without its
-/// unit: "x", "pos" for "X_Pos [mm]".
+/// Returns the words of a name in lower case, without accents and unit: "x",
+/// "pos" for "X_Pos [mm]".
 std::vector<std::string> WordsOf(std::string_view column);
 
 /// True if one of the words of a text (WordsOf) is in a list separated by
 /// blanks.
 bool HasWordOf(std::string_view text, std::string_view list);
 
-/// True if one of these words (WordsOf) is such a word, or contains it
-/// ("positionsabweichung").
+/// True if one of these words (WordsOf) has such a meaning, or contains a word
+/// that does ("positionsabweichung").
 bool SayAny(const std::vector<std::string>& words, Word word);
 bool Says(std::string_view column, Word word);
 
 /// True if a word (of WordsOf) is such a word or its plural ("cycles").
 bool IsWord(std::string_view said, Word word);
 
-/// True if a column is a temperature by its unit or, without a unit, by its
-/// words: "No. 1 [degC]", "Temp. Nr. 1".
+/// True if a column is a temperature, judged by its unit or else by its words:
+/// "No. 1 [degC]", "Temp. Nr. 1".
 bool StatesTemperature(std::string_view column);
 
-/// True if the whole name is such a word, apart from "no", "number" and the
-/// like. "Cycle No." counts cycles, but "elapsed_cycles" is something else.
+/// True if the whole name is such a word, apart from words like "no" and
+/// "number". "Cycle No." counts cycles, but "elapsed_cycles" is something else.
 bool IsCalled(std::string_view column, Word word);
 
 /// True if a name contains such a word, or a phrase of several ("s_n" of
 /// "Probe S/N").
 bool SaysPhrase(std::string_view column, Word word);
 
-/// Returns the sign of an error by its name. 1: an error ("deviation", "actual
+/// Returns the sign of an error, judged by its name. 1: an error ("deviation",
+/// "actual
 /// - nominal", "EXX"). -1: its opposite ("correction", "minus error", "nominal
 /// - actual", an unknown difference). 0: not an error.
 int ErrorSign(std::string_view column);
 
-/// True if a name begins as that of an error and is not a temperature ("Error
+/// True if a name begins like that of an error and is not a temperature ("Error
 /// amp. [degC]").
 bool BeginsAsError(std::string_view column);
 
-/// True if a column has a unit that only errors have, and is not an axis of one
-/// letter, which may be a position.
+/// True if a column has a unit that only errors have. A name of one letter does
+/// not count: it may be a position.
 bool IsInUnitOfErrors(std::string_view column);
 
-/// True if a column is a position by its name: "position_mm", "x_pos_mm",
+/// True if a column's name is that of a position: "position_mm", "x_pos_mm",
 /// "Sollposition [mm]", "X [mm]".
 bool IsCalledPosition(std::string_view name);
 
@@ -85,7 +86,8 @@ bool IsCalledPosition(std::string_view name);
 /// "axis".
 bool IsAxisLetter(std::string_view column);
 
-/// True if a name is that of an axis as it was read: "Y act [mm]", "Z_ist_mm".
+/// True if a name is that of a measured axis position: "Y act [mm]",
+/// "Z_ist_mm".
 bool IsReadAxis(std::string_view column);
 
 }  // namespace errmap::data

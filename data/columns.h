@@ -17,8 +17,8 @@ CsvColumn WordColumn(const std::string& name,
                      const std::vector<std::ptrdiff_t>& codes,
                      std::vector<std::string> words);
 
-/// Returns the cells of these rows of a column in this order, with repetitions;
-/// -1 gives an empty cell.
+/// Returns the cells of these rows of a column in this order; rows may repeat,
+/// and -1 gives an empty cell.
 CsvColumn TakeRows(const CsvColumn& column,
                    const std::vector<std::ptrdiff_t>& rows);
 
@@ -30,7 +30,7 @@ CsvTable TakeRows(const CsvTable& table,
 /// Appends the cells of `more` to those of `column`.
 void AppendCells(const CsvColumn& more, CsvColumn* column);
 
-/// Drops texts that no cell uses.
+/// Removes texts that no cell uses.
 void DropUnusedTexts(CsvColumn* column);
 
 /// The distinct texts of a column in order of appearance, and the index for
@@ -40,7 +40,7 @@ struct LabelsOfRows {
   std::vector<std::size_t> codes;  // (rows asked for) index into labels
 };
 /// Returns the labels of these rows of the table. Stops at the first row that
-/// gives more than `most` labels, and keeps that label.
+/// has label number `most` + 1, and keeps that label.
 LabelsOfRows LabelsOf(const CsvTable& table,
                       const CsvColumn& column,
                       const std::vector<std::ptrdiff_t>& rows,
@@ -50,12 +50,12 @@ inline constexpr auto kNoLimit = static_cast<std::size_t>(-1);
 /// The rows 0, 1, ... of a table.
 std::vector<std::ptrdiff_t> AllRows(std::size_t count);
 
-/// Returns which of several files each of these rows (ascending) comes from, as
-/// an index into CsvTable::parts, which must not be empty.
+/// Returns the file of each of these rows (ascending), as an index into
+/// CsvTable::parts, which must not be empty.
 std::vector<std::ptrdiff_t> PartsOfRows(
     const CsvTable& table, const std::vector<std::ptrdiff_t>& rows);
 
-/// Returns where runs of equal codes begin.
+/// Returns the starts of runs of equal codes.
 std::vector<std::ptrdiff_t> RunStarts(const std::vector<std::ptrdiff_t>& codes);
 
 /// Returns the first of "name", "name_2", "name_3" that no column has.

@@ -45,7 +45,7 @@ struct CsvTable {
   std::vector<CsvColumn> columns;
   std::size_t num_rows = 0;
 
-  /// Index of the column of that name, or -1.
+  /// Returns the index of the column of that name, or -1.
   std::ptrdiff_t Find(std::string_view name) const;
   /// Returns the column of an index of at least 0, such as Find's.
   template <typename Index>
@@ -72,25 +72,27 @@ struct CsvTable {
   /// Lines of words and comments above and below the table: a program's name, a
   /// date, the axis.
   std::vector<std::string> titles;
-  /// Remarks for the user, one line each: what is unusual in the file, and how
-  /// it was read.
+  /// Remarks for the user, one line each, on what is unusual in the file and
+  /// how it was read.
   std::vector<std::string> remarks;
 };
 
 /// How to treat rows whose number of cells differs from that of the others.
-/// kRefuse names all of them in one message, kOffer also the option that leaves
-/// them out (MissingPolicy). kLeaveOut leaves them out with a remark.
+/// kRefuse throws and names all of them in one message. kOffer also names the
+/// option that leaves them out (MissingPolicy). kLeaveOut leaves them out with
+/// a remark.
 enum class OddRows { kRefuse, kOffer, kLeaveOut };
 
 /// Reads a CSV file. Its rows show what separates cells: `,` `;` `|`, tabs or
-/// blanks. Quotes follow RFC 4180, but those inside a cell need not be doubled.
-/// Commas are decimal marks if they do not separate cells. Lines starting with
-/// `#`, blank lines at the end and a byte order mark are skipped. Text that is
-/// not UTF-8 is converted from Latin-1, or, with a remark, from the encoding
-/// that gives more known words (tables/text/text_encoding.h). A gzip file is
-/// unpacked first, up to kMostTextOfPrograms and MostUnpacked. Of an xlsx file
-/// one sheet is read ("book.xlsx:Day 2", tables/text/spreadsheet.h). Linear
-/// time, about twice the file's memory; independent of the locale.
+/// blanks. Quotes follow RFC 4180, but quotes inside a cell need not be
+/// doubled. Commas are decimal marks if they do not separate cells. Lines
+/// starting with `#`, blank lines at the end and a byte order mark are skipped.
+/// Text that is not UTF-8 is converted from Latin-1, or, with a remark, from
+/// the encoding that gives more known words (tables/text/text_encoding.h). A
+/// gzip file is unpacked first, up to kMostTextOfPrograms and MostUnpacked. One
+/// sheet of an xlsx file is read ("book.xlsx:Day 2",
+/// tables/text/spreadsheet.h). Linear time, about twice the file's memory;
+/// independent of the locale.
 ///
 /// Read with a remark:
 /// - lines above the table (`titles`), blank lines, names repeated between rows
@@ -109,8 +111,7 @@ enum class OddRows { kRefuse, kOffer, kLeaveOut };
 /// Throws InputError for an unreadable or empty file, a header alone, a number
 /// in place of a name, and rows of another length (OddRows). Also for a second
 /// table below, a blank line in a single column, an open quote, a NUL byte, or
-/// more than 65536 columns. Cells that are not numbers are not judged here (see
-/// MakeDataset).
+/// more than 65536 columns. MakeDataset checks cells that are not numbers.
 CsvTable ReadCsv(const std::string& path, OddRows odd = OddRows::kRefuse);
 
 /// Reads a CSV file and its Sha256OfFile in one pass.

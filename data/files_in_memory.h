@@ -8,7 +8,7 @@
 
 namespace errmap::data {
 
-/// Tables and texts that this thread reads in place of files of their names,
+/// Tables and texts that this thread reads instead of files with their names,
 /// during this object's lifetime. ReadCsv finds the tables, ReadFile the texts.
 class FilesInMemory {
  public:
@@ -20,7 +20,7 @@ class FilesInMemory {
   FilesInMemory(const FilesInMemory&) = delete;
   FilesInMemory& operator=(const FilesInMemory&) = delete;
 
-  /// Null if no such file is in memory.
+  /// Returns null if there is no such file in memory.
   static const CsvTable* FindTable(const std::string& name);
   static const std::string* FindText(const std::string& name);
 

@@ -7,7 +7,7 @@ namespace errmap::data {
 
 /// First line of a CSV file in which an apostrophe precedes every text that a
 /// spreadsheet would run as a formula. Our reader removes these apostrophes if
-/// it finds this line. In a file without it, an apostrophe is the user's own.
+/// it finds this line. In a file without it, apostrophes are the user's.
 inline constexpr std::string_view kFormulaMark =
     "# errmap: an apostrophe before = + - @ is not part of a text";
 

@@ -8,7 +8,7 @@ struct evp_md_ctx_st;  // OpenSSL's
 
 namespace errmap::data {
 
-/// SHA-256 (FIPS 180-4) of bytes given in pieces.
+/// Computes SHA-256 (FIPS 180-4) from bytes in pieces.
 class Sha256Stream {
  public:
   Sha256Stream();

@@ -11,7 +11,7 @@ namespace errmap::data {
 /// Returns the text without the blanks (spaces and tabs) at its ends.
 std::string_view Trimmed(std::string_view text);
 
-/// Compares texts without regard to the case of ASCII letters.
+/// Compares texts, ignoring the case of ASCII letters.
 bool EqualsIgnoringCase(std::string_view a, std::string_view b);
 bool StartsWithIgnoringCase(std::string_view text, std::string_view prefix);
 bool EndsWithIgnoringCase(std::string_view text, std::string_view ending);
@@ -38,19 +38,21 @@ bool ParseNumber(std::string_view text, double* value);
 /// for other text, or if not above 0.
 std::optional<double> ParseInterval(std::string_view text);
 
-/// Bytes of the UTF-8 character at `text[i]`, or 0 where there is none:
-/// overlong forms, surrogates and values beyond U+10FFFF are refused.
+/// Returns the number of bytes of the UTF-8 character at `text[i]`, or 0 if
+/// there is none. Refuses overlong forms, surrogates and values beyond
+/// U+10FFFF.
 std::size_t Utf8Length(std::string_view text, std::size_t i);
 
-/// Returns text for a one-line message: control characters escaped, cut after
-/// `limit` characters.
+/// Returns text for a one-line message, with control characters escaped, cut
+/// after `limit` characters.
 std::string Printable(std::string_view text,
                       std::size_t limit = std::string_view::npos);
 
 /// Returns a path at full length for a one-line message.
 std::string PrintablePath(std::string_view path);
 
-/// Returns printable text of a cell, or name of a column, in single quotes.
+/// Returns the printable text of a cell, or the name of a column, in single
+/// quotes.
 std::string QuotedText(std::string_view text);
 std::string QuotedName(std::string_view name);
 
@@ -69,7 +71,7 @@ std::string JoinWords(const std::vector<std::string>& words,
                       std::string_view between);
 
 /// Returns the text as UTF-8. Text that is not valid UTF-8 is read as Latin-1,
-/// as spreadsheets on western Windows write it, so that a degree sign survives.
+/// the form of spreadsheets on western Windows, so that a degree sign survives.
 std::string AsUtf8(std::string_view text);
 
 /// "did you mean 'compare'? ", or "" if no candidate is near (NearestName).
@@ -81,8 +83,8 @@ std::string DidYouMean(std::string_view name,
 std::string NearestName(std::string_view name,
                         const std::vector<std::string>& candidates);
 
-/// Returns the name of an enumerator by its index in `names`; "" beyond the
-/// last, for callers that loop until then.
+/// Returns the name of an enumerator by its index in `names`. Returns "" beyond
+/// the last, so that callers can loop over all.
 template <typename Names, typename Enumerator>
 constexpr std::string_view NameOf(const Names& names, Enumerator value) {
   const auto place = static_cast<std::size_t>(value);

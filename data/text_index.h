@@ -11,9 +11,9 @@
 
 namespace errmap::data {
 
-/// Index of the distinct texts of a column. It is an open-addressing table of
-/// indices into CsvColumn::texts, including texts already there, without a
-/// second copy of the texts.
+/// Index of the distinct texts of a column. It is an open-addressing hash table
+/// of indices into CsvColumn::texts, including texts already there, and does
+/// not copy the texts.
 class TextIndex {
  public:
   std::uint32_t IndexOf(std::string_view text,

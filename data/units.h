@@ -13,8 +13,8 @@ enum class Quantity { kLength, kAngle, kTemperature, kTime, kRatio, kOther };
 struct Unit {
   std::string symbol;  // "mm", "degC", "arcsec", "" if none
   Quantity quantity = Quantity::kOther;
-  /// Factor from `symbol` to the unit in which people read errors. Lengths are
-  /// read in um (mm: 1000, um: 1), all other quantities in their own unit (1).
+  /// Factor from `symbol` to the display unit of errors. Lengths are shown in
+  /// um (mm: 1000, um: 1), all other quantities in their own unit (1).
   double display_scale = 1.0;
   std::string display_symbol;  // "um" for lengths, else `symbol`
 
@@ -26,10 +26,10 @@ inline bool IsLengthOrAngle(const Unit& unit) {
          unit.quantity == Quantity::kAngle;
 }
 
-/// True for units of errors that positions hardly ever have: um, arcsec.
+/// True for units that errors have but positions hardly ever: um, arcsec.
 bool IsUnitOfErrors(const Unit& unit);
 
-/// Where a unit is written: many short units count in brackets only.
+/// Notation of a unit: many short units count in brackets only.
 enum class UnitPlace { kBare, kBracketed };
 
 /// Returns one spelling for all variants: "degC" for "deg C", "um" for "µm".
@@ -42,8 +42,8 @@ std::optional<Unit> FindUnit(std::string_view normalised, UnitPlace place);
 /// unit ("-", "1"), or a quotient of units. Returns nothing otherwise.
 std::optional<Unit> ReadUnit(std::string_view text, UnitPlace place);
 
-/// Returns the unit of a symbol stored in a model file. An unknown symbol keeps
-/// its text, with Quantity::kOther.
+/// Returns the unit of a symbol stored in a model file. An unknown symbol is
+/// kept as text, with Quantity::kOther.
 Unit UnitOfSymbol(std::string_view symbol);
 
 /// Returns the known units, for messages: "nm, um, mm, ...".

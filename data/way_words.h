@@ -5,9 +5,9 @@
 
 namespace errmap::data {
 
-/// Returns whether a word says that the position increases ("up", "+", "1",
+/// Returns whether a word means that the position increases ("up", "+", "1",
 /// "positive") or decreases; nothing for other words. "forward" is not such a
-/// word: on some slides the position then decreases.
+/// word, since on some slides it means decreasing positions.
 std::optional<bool> IsUpwards(std::string_view word);
 
 /// Returns true if the first of two direction words says that the position

@@ -18,13 +18,13 @@ using MutableMatrixView =
                0,
                Eigen::OuterStride<>>;
 
-/// Makes OpenBLAS use one thread per call in this process from now on. The same
-/// call then gives the same bits whatever runs beside it, and callers decide
-/// how to use the cores. All functions below call it.
+/// Makes OpenBLAS use one thread per call in this process from now on. Equal
+/// calls then give equal bits whatever else is running, and callers decide how
+/// to use the cores. All functions below call it.
 void UseOneThreadPerCall();
 
-/// Returns OpenBLAS' version and options in its own words, and the processor
-/// type of its kernels: the last bits of a product depend on them.
+/// Returns OpenBLAS' own text on its version and options, and the processor
+/// type of its kernels. The last bits of a product depend on them.
 std::string OpenBlasConfiguration();
 
 /// Computes c = a b, or c += a b if `accumulate`, by OpenBLAS, with a (m x k),

@@ -13,8 +13,8 @@ void Run(int threads,
 }  // namespace parallel
 
 /// Calls job(0), job(1), ... job(count - 1) on `threads` threads (0: one per
-/// core), started in this order, each when a thread is free. Rethrows the first
-/// exception; jobs not started by then are skipped.
+/// core), started in this order as threads become free. Rethrows the first
+/// exception and skips jobs not yet started.
 template <typename Count, typename Job>
 void ParallelFor(int threads, Count count, const Job& job) {
   parallel::Run(threads, static_cast<std::size_t>(count), [&](std::size_t i) {

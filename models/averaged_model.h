@@ -15,7 +15,7 @@ struct AveragedMember {
   double weight = 0.0;        // above 0
   std::vector<Index> inputs;  // indices of average inputs it reads
   /// Its predictions are clipped to these bounds (target's unit), so that one
-  /// map that goes astray cannot carry the others with it.
+  /// wrong map cannot spoil the average.
   double lowest = 0.0;
   double highest = 0.0;
   std::shared_ptr<const ErrorModel> model;

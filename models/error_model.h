@@ -37,8 +37,8 @@ struct PolynomialForm {
   VectorXd input_scale;    // (p) per unit of the input
   double intercept = 0.0;  // unit of the target
   std::vector<PolynomialTerm> terms;
-  /// Inputs that curved terms read clipped to their range. A term is curved if
-  /// its powers of these inputs sum to more than 1. The map continues as a
+  /// Inputs that are clipped to their range in curved terms. A term is curved
+  /// if its powers of these inputs sum to more than 1. The map continues as a
   /// straight line beyond the range (polynomial/polynomial_model.h). Empty: no
   /// clipping.
   std::vector<BendRange> bends_within = {};
@@ -82,8 +82,8 @@ struct PredictionCost {
   Index exponentials = 0;
 };
 
-/// A model without a formula. It takes part in studies and reports, but no file
-/// can hold it and no controller can run it.
+/// A model without a formula. It can be studied and reported, but not saved or
+/// exported.
 struct OpaqueForm {
   Index num_inputs = 0;
   PredictionCost cost;  // 0 if unknown
@@ -129,7 +129,7 @@ class ErrorModel {
   virtual VectorXd DoPredict(const MatrixXd& inputs) const;
 };
 
-/// kFile: a map, or predictions, made by another program.
+/// kFile: a map or predictions from another program.
 enum class ModelKind { kBaseline, kPolynomial, kNet, kBlend, kFile };
 std::string_view ToString(ModelKind kind);
 
@@ -170,16 +170,15 @@ struct Bounds {
   double low, high;
 };
 
-/// Returns [min - m * range, max + m * range]. All guards widen a range with
-/// this function, so fits, predictions and exported programs clip at the same
-/// bits.
+/// Returns [min - m * range, max + m * range]. All guards use this function, so
+/// fits, predictions and exported programs clip at exactly the same values.
 inline Bounds Widened(double min, double max, double margin) {
   const double widened = margin * (max - min);
   return {min - widened, max + widened};
 }
 
-/// The bounds in which a map was trained; values beyond are clipped to them. A
-/// column that hardly moved in training may move far on another day.
+/// Bounds to which a map's inputs and predictions are clipped. A column that
+/// hardly moved in training may move far on another day.
 struct Guards {
   /// Inputs of the form are clipped to their range, Widened by this.
   double input_margin = 2.0;
@@ -212,13 +211,14 @@ struct Prediction {
   Eigen::Array<bool, Eigen::Dynamic, 1> clipped;
 };
 
-/// A model with everything needed to use and to judge it.
+/// A model with everything needed to use and judge it.
 struct FittedModel {
   std::string name;  // the SPEC as given
   ModelKind kind = ModelKind::kPolynomial;
   data::ColumnInfo target;
   data::Alignment align = data::Alignment::kNone;  // of the target
-  /// Rows it is made for, such as those of one direction; empty: all rows.
+  /// Rows for which it is made, such as those of one direction; empty: all
+  /// rows.
   std::vector<data::ColumnFilter> where;
   /// Columns that the map reads, in the form's order. With a history the form
   /// reads inputs derived from these columns.
@@ -227,7 +227,7 @@ struct FittedModel {
   fitting::FitSummary summary;
   std::string equation;              // in physical units; "" if there is none
   std::vector<std::string> remarks;  // such as aliased terms; one line each
-  /// Values that the fit itself chose, such as wfactor=cv.
+  /// Values that the fit itself chose, such as the wfactor of wfactor=cv.
   std::vector<EffectiveOption> choices;
   std::vector<StartResult> starts;  // empty if there was only one
   /// Set for polynomials if FitContext::explain is set, else null.
@@ -236,21 +236,21 @@ struct FittedModel {
   /// reads `inputs` as they are.
   std::shared_ptr<const History> history;
   std::optional<Guards> guards;  // empty: nothing is clipped
-  /// RMSE of the fit's own choice on the inner hold-outs (target's unit). NaN
-  /// if the fit chose nothing.
+  /// RMSE on inner hold-outs of the options that the fit chose (target's unit).
+  /// NaN if the fit chose nothing.
   double inner_rmse = stats::kNaN;
   /// Prediction interval from held-out rows; empty if none were held out.
   std::optional<PredictionInterval> interval;
   /// Describes the training data (map_experience.h); may be null.
   std::shared_ptr<const Applicability> applicability;
-  /// The errors behind the interval, or null.
+  /// The held-out errors that gave the interval, or null.
   std::shared_ptr<const HeldOutErrors> held_out;
   /// The training rows, or null.
   std::shared_ptr<const LearntRows> learnt;
   /// How the training file was read, or null.
   std::shared_ptr<const data::Reading> reading;
 
-  /// Number of training rows used: a net draws a sample of very many rows.
+  /// Number of training rows used. For very many rows, a net uses a sample.
   Index RowsLearntFrom(const data::Dataset& training) const;
   /// Returns the form's inputs of every row (m x inputs of the form); finds
   /// `inputs` by name. Throws std::invalid_argument if an input is missing, or
@@ -268,10 +268,9 @@ struct FittedModel {
   VectorXd Predict(const data::Dataset& dataset) const;
 };
 
-/// How rows are held out for choices inside a fit. It mirrors the outer
-/// hold-out, so that the choice is the one that does well there
-/// (inner_folds.h). With fewer than two units of a kind, the next finer kind is
-/// used.
+/// How rows are held out for choices inside a fit (inner_folds.h). It mirrors
+/// the outer hold-out, so that the choice suits the outer test. With fewer than
+/// two units of a kind, the next finer kind is used.
 enum class InnerHoldout {
   /// The kind that decides the recommended map: whole sessions if there are at
   /// least kFewestSessionsToDecide, else whole groups, else blocks.
@@ -285,20 +284,20 @@ enum class InnerHoldout {
 /// "decisive", "sessions", "groups", "blocks", "rows", "forward".
 std::string_view ToString(InnerHoldout inner);
 
-/// Two or three days hardly show which map does well on another day.
+/// Fewer days hardly show which map does well on another day.
 inline constexpr Index kFewestSessionsToDecide = 4;
 
 class SharedWork;
 
-/// What a fit may use besides the training rows. An InterruptionScope
-/// (fitting/interruption.h) around the fit can end it.
+/// Information for a fit besides the training rows. An InterruptionScope
+/// (fitting/interruption.h) around the fit can interrupt it.
 struct FitContext {
   std::uint64_t seed = 1;
-  /// Also make the regression record (tables and bootstraps), and judge each of
-  /// several starts on inner hold-outs.
+  /// Also makes the regression record (tables and bootstraps), and tests each
+  /// of several starts on inner hold-outs.
   bool explain = false;
-  /// True: explain with the recipe's default number of bootstraps. False: with
-  /// the number that its options ask for.
+  /// True: uses the recipe's default number of bootstraps. False: the number in
+  /// its options.
   bool default_bootstraps = true;
   int threads = 1;  // at least 1; does not change results
   /// Largest number of values in a design matrix (8 bytes each). A larger one
@@ -321,8 +320,8 @@ class ModelRecipe {
   virtual std::string name() const = 0;
   virtual ModelKind kind() const = 0;
   virtual std::vector<EffectiveOption> options() const { return {}; }
-  /// What this model needs but the data lack, such as "a position column", if
-  /// anything.
+  /// Returns what the model needs and the data lack, such as "a position
+  /// column", or nothing.
   virtual std::optional<std::string> WhatIsMissing(
       const data::Dataset& /*dataset*/) const {
     return std::nullopt;
@@ -339,14 +338,14 @@ class ModelRecipe {
                           const FitContext& context) const = 0;
 };
 
-/// Returns a map of these rows without its inputs and its model, as if solved
-/// directly.
+/// Returns a map of these rows without inputs and model, with the summary of a
+/// direct solution.
 FittedModel NewMap(std::string name,
                    ModelKind kind,
                    const data::Dataset& training);
 
-/// Wraps a model as a recipe's Fit returns it. For models that read every input
-/// of `training` as it is and need no iterations.
+/// Wraps a model as the result of a recipe's Fit. For models that read every
+/// input of `training` unchanged and need no iterations.
 FittedModel MapOfModel(const ModelRecipe& recipe,
                        const data::Dataset& training,
                        std::shared_ptr<const ErrorModel> model);

@@ -15,13 +15,13 @@ struct FaultEffect {
   double rmse_without = 0.0;  // fitted without them
 };
 
-/// Effect of these data rows of the file, judged on the sound rows.
+/// Returns the effect of these data rows of the file, tested on the other rows.
 FaultEffect EffectOfRows(const data::Dataset& dataset,
                          const std::vector<Index>& rows);
 
-/// Effect of a whole input, judged on rows held out by sessions, else groups,
-/// else blocks: an in-sample error never counts against an input. Uses at most
-/// 2000 rows, spread evenly.
+/// Returns the effect of a whole input, tested on rows held out by sessions,
+/// else groups, else blocks. In the training rows, an input can only reduce the
+/// error. Uses at most 2000 rows, spread evenly.
 FaultEffect EffectOfInput(const data::Dataset& all_rows, Index input);
 
 }  // namespace errmap::models

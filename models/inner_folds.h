@@ -10,15 +10,15 @@
 
 namespace errmap::models {
 
-/// How whole groups are dealt to folds: as runs of neighbours, or in turn
-/// (every fifth). No memory carries over between runs.
+/// How whole groups are assigned to folds: as runs of neighbours, or in turn
+/// (every fifth). Runs keep correlated neighbours together.
 enum class GroupDeal { kRuns, kInTurn };
 
 /// Up to 5 folds for the choices inside a fit, by context.inner_holdout. They
 /// are runs of whole sessions or groups, contiguous runs of rows, or seeded
 /// shares of the rows. Forward folds are blocks of whole groups (of rows if
 /// there are none), each predicted from the earlier ones. Only rows of
-/// `training` take part.
+/// `training` are used.
 struct InnerFolds {
   fitting::FoldCodes folds;  // of the rows of `training`
   std::string text;  // "sessions:5 of day", "groups:5 of cycle", "kfold:5"
@@ -28,7 +28,7 @@ struct InnerFolds {
   Index units = 0;
 };
 
-/// The error that a choice on inner hold-outs minimises.
+/// The error that choices on inner hold-outs minimise.
 struct InnerError {
   double mean_square = 0.0;
   double standard_error = 0.0;  // of mean_square over folds; NaN for one fold
@@ -36,8 +36,8 @@ struct InnerError {
 
 /// Returns the mean of `mean_squares` (judged folds), weighted by `weights`.
 /// Over whole sessions it is the geometric mean. With an arithmetic mean, one
-/// extreme day would decide alone, and favour a map that uses nothing. Errors
-/// far below `indifference` count the same.
+/// extreme day would decide alone, and favour a map without inputs. Errors far
+/// below `indifference` count as equal.
 InnerError TypicalError(const InnerFolds& folds,
                         const VectorXd& mean_squares,
                         const VectorXd& weights,
@@ -50,16 +50,16 @@ double TypicalRmse(const InnerFolds& folds,
                    const VectorXd& rows,
                    double indifference);
 
-/// Limits for giving up a view or a basis on inner hold-outs. It is given up if
-/// its error with the first few penalties exceeds this multiple of that of an
-/// earlier one. Of 1,095 searches for a ridge none lost by that; of 467 choices
-/// of a net's view 10 changed, with the same errors elsewhere.
+/// Limits for abandoning a view or a basis on inner hold-outs. It is abandoned
+/// if its error with the first few penalties exceeds this multiple of that of
+/// an earlier one. This harmed none of 1,095 searches for a ridge. It changed
+/// 10 of 467 choices of a net's view, with the same errors elsewhere.
 inline constexpr std::size_t kTrialsBeforeGivenUp = 3;
 inline constexpr double kOutOfReach = 2.0;
 
-/// `deal` matters under InnerHoldout::kWholeGroups only: choices that must hold
-/// on another day are made on runs. Throws std::invalid_argument if there are
-/// fewer than 2 rows.
+/// `deal` matters only for InnerHoldout::kWholeGroups: choices that must hold
+/// on another day use runs. Throws std::invalid_argument if there are fewer
+/// than 2 rows.
 InnerFolds MakeInnerFolds(const data::Dataset& training,
                           const FitContext& context,
                           GroupDeal deal = GroupDeal::kRuns);

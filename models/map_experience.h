@@ -15,18 +15,18 @@
 
 namespace errmap::models {
 
-/// Limits that tell a stuck or jumping sensor from a healthy one, per column
-/// (s); empty if unknown. sensors/standing_still.h documents how they are
-/// learnt.
+/// Limits that distinguish a stuck or jumping sensor from a healthy one, per
+/// column (s); empty if unknown. sensors/standing_still.h describes how they
+/// are learnt.
 struct StandingStill {
-  /// Mean movement of the other columns (in shares of their ranges) that is
-  /// allowed while a column holds its value. 0: the column is not watched.
+  /// Allowed mean movement of the other columns (in shares of their ranges)
+  /// while a column holds its value. 0: the column is not checked.
   VectorXd others_move = {};
   VectorXd resolution = {};  // in shares of its range
   /// Longest time without noise (s); 0: the column shows no noise.
   VectorXd quiet = {};
   /// Largest sudden change (in shares of the column's range; 0: unknown), and
-  /// how much more is allowed for each second.
+  /// the further change allowed per second.
   VectorXd jump = {};
   VectorXd pace = {};
   /// Longest time (s) that all columns may hold their values at once; 0:
@@ -46,12 +46,12 @@ struct SessionStarts {
 /// Reference for the readings of a whole session. Missing in older files, and
 /// for more than a hundred columns.
 struct SessionReadings {
-  /// (s x s) Inverse covariance of x', without a factor model. It is scaled to
-  /// held-out sessions: on average over columns, the residual of a column given
-  /// the others has the variance stated here.
+  /// (s x s) Inverse covariance of x', without a factor model. It is scaled so
+  /// that, on average over columns, residuals of a column given the others have
+  /// this variance in held-out sessions.
   MatrixXd precision;
-  /// (s) A column's residual variance over the mean of all, at least 1: a tank
-  /// depends little on the other sensors.
+  /// (s) A column's residual variance over the mean of all, at least 1. It is
+  /// large for a sensor that depends little on the others, such as in a tank.
   VectorXd scatter;
   Index units = 0;  // sessions, or the other units held out
   /// Missing in older files, and for fewer than four sessions.
@@ -101,10 +101,9 @@ struct Applicability {
 /// noise flags no row.
 inline constexpr double kRangeTolerance = 0.02;
 
-/// Errors of a map on held-out units, with the time and place of each.
-/// Probes of a new unit are judged and weighted against them. Long units,
-/// and many units, are thinned evenly; `rmse` and the units' own RMSE use
-/// all rows.
+/// Errors of a map on held-out units, with the time and place of each. Probes
+/// of a new unit are compared with them. Long units, and many units, are
+/// thinned evenly; `rmse` and the units' own RMSE use all rows.
 struct HeldOutErrors {
   struct Unit {
     std::string label;
@@ -144,8 +143,8 @@ struct HeldOutErrors {
 };
 
 /// The training rows, to recognise them without the training file. They are
-/// stored as Bloom filters (1970) of 16 bits a row: one unknown row in 2000
-/// seems known (models/uncertainty/learnt_rows.h).
+/// stored as Bloom filters (1970) of 16 bits per row, which recognise one
+/// unknown row in 2000 by mistake (models/uncertainty/learnt_rows.h).
 struct LearntRows {
   struct Filter {
     double alike = 0.0;  // share of rows also found in another session

@@ -14,9 +14,8 @@
 
 namespace errmap::models {
 
-/// True if T is taken apart into its members: a class without constructors,
-/// bases or private members, in a named namespace. Specialise it to exclude a
-/// type.
+/// True if T can be split into its members: a class without constructors, bases
+/// or private members, in a named namespace. Specialise it to exclude a type.
 template <typename T>
 inline constexpr bool kIsRecord =
     std::is_class_v<T>&& std::is_aggregate_v<T> && !requires {
@@ -51,9 +50,9 @@ constexpr std::size_t Count() {
 template <typename T>
 inline constexpr std::size_t kCount = Count<T>();
 
-/// A std::tuple of references whose elements the compiler finds without working
-/// through all earlier ones. It halves the compile time of code that visits
-/// members.
+/// Like std::tuple of references, but the compiler finds an element without
+/// instantiating all earlier ones. This halves the compile time of code that
+/// visits members.
 template <std::size_t kPlace, typename T>
 struct Reference {
   T& value;
@@ -138,7 +137,7 @@ namespace members {
 #pragma clang diagnostic push
 #pragma clang diagnostic ignored "-Wundefined-var-template"
 #endif
-/// A declared object, used for the names of its members only.
+/// A declared object, used only for the names of its members.
 template <typename T>
 extern const T kSome;
 

@@ -8,7 +8,7 @@
 
 namespace errmap::models {
 
-/// Where a model came from: keys and values, written unchanged.
+/// Origin of a model: keys and values, written unchanged.
 using Provenance = std::vector<std::pair<std::string, std::string>>;
 
 /// Returns the model as a JSON document of schema errmap-model-1. Numbers read
@@ -23,11 +23,10 @@ void SaveModel(const FittedModel& fitted,
                const std::string& path);
 
 /// Reads a model; its predictions equal those of the saved one bit for bit. Its
-/// summary is that of a model that was not fitted here. Throws data::InputError
-/// naming the file, the key and the fault: not JSON, another schema, or a
-/// missing key. Also a wrong type or shape, a number that is not finite, or a
-/// wrong checksum (the file was changed). A file without a checksum is read,
-/// with a remark.
+/// summary says that the model was not fitted here. Throws data::InputError
+/// naming the file, the key and the fault: not JSON, another schema, a missing
+/// key, a wrong type or shape, a number that is not finite, or a wrong checksum
+/// (the file was changed). A file without a checksum is read, with a remark.
 FittedModel LoadModel(const std::string& path);
 
 /// Reads a model from text; `source` is the file's name in messages.

@@ -16,7 +16,7 @@ namespace errmap::models {
 template <typename Options>
 Options OptionsOf(std::string_view spec);
 
-/// Returns the SPEC of these options without those at their model's default:
+/// Returns the SPEC of these options, without those that have their default:
 /// OptionsOf<Options>(SpecOf(options)) == options.
 template <typename Options>
 std::string SpecOf(const Options& options);

@@ -149,11 +149,11 @@ struct Option : OptionInfo {
   /// Reads a word; false if it is not an allowed value.
   std::function<bool(const std::string& text, Options*)> read;
   std::function<bool(const Options&)> allows;
-  /// Returns nothing if the options lack the value or leave it open.
+  /// Returns nothing if the options lack the value or leave it unset.
   std::function<std::optional<OptionText>(const Options&)> write;
   /// True if it differs from its value in `defaults`.
   std::function<bool(const Options&, const Options& defaults)> is_set;
-  /// True if it is listed among those in effect; empty: listed if set.
+  /// True if it is listed among the options in effect; empty: listed if set.
   std::function<bool(const Options&)> is_shown;
   bool always_in_spec = false;
 
@@ -175,8 +175,8 @@ template <typename Options>
 using OptionList = std::vector<Option<Options>>;
 
 /// An option whose value is at `at(options)`. A null pointer means that these
-/// options lack it; its word is then only checked. If the place is a
-/// std::optional of the kind's value, an empty one is always allowed.
+/// options lack it; its word is then only checked. If the value is a
+/// std::optional, an empty one is always allowed.
 template <typename Options, typename At, typename Kind>
 requires std::invocable<At, Options&> Option<Options> OptionFor(
     const std::string& name, const std::string& about, At at, Kind kind) {
@@ -288,9 +288,11 @@ struct ListedModel {
   std::string name;
   std::string about;
   Options defaults;
-  /// Makes the list at each call: a start would list the options of all types.
+  /// Makes the list at each call, so that the program's start does not list all
+  /// options.
   std::function<OptionList<Options>()> options;
-  /// Returns why these options, each allowed, contradict; "" if they do not.
+  /// Returns why options that are allowed one by one contradict each other; ""
+  /// if they do not.
   std::string (*contradiction)(const Options&) = nullptr;
   /// Adds options that a SPEC implies, if any.
   void (*complete)(ModelSpec*) = nullptr;
@@ -394,7 +396,7 @@ std::string CheckedName(const Options& options, std::string name) {
   return name.empty() ? SpecOf(options) : std::move(name);
 }
 
-/// Returns the options in effect, without those that are left open.
+/// Returns the options in effect, without unset ones.
 template <typename Options>
 std::vector<EffectiveOption> InEffect(const Options& options) {
   const auto& model = ListedModelNamed<Options>("", options.type());
@@ -417,7 +419,7 @@ struct ModelType {
   std::function<std::vector<OptionInfo>()> options;
   bool is_compared;
   std::unique_ptr<ModelRecipe> (*make)(const ModelSpec& spec);
-  /// Returns the SPEC as its options write it.
+  /// Returns the SPEC in its canonical form.
   std::string (*rewrite)(const ModelSpec& spec);
 };
 

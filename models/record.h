@@ -19,7 +19,7 @@
 
 namespace errmap::models {
 
-/// The value for unknown.
+/// The value that means unknown.
 inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 // Member types of a record, besides numbers, texts, truths, enumerators with
@@ -31,7 +31,7 @@ struct LeftOut : std::optional<T> {
   using std::optional<T>::optional;
 };
 
-/// An object whose keys are data, in order.
+/// An object whose keys are data, in a fixed order.
 template <typename T>
 using ByName = std::vector<std::pair<std::string, T>>;
 
@@ -55,15 +55,15 @@ using OptionValue = std::variant<std::int64_t, double, std::string>;
 /// A 95 % interval; NaN if there is none.
 using IntervalRecord = std::array<double, 2>;
 
-/// A record whose keys are stored among those of the enclosing record; the keys
-/// of an empty optional one are left out.
+/// A record whose keys are stored beside those of the enclosing record. An
+/// empty optional one has no keys.
 template <typename T>
 struct Inline {
   T value = {};
 };
 
-/// Further keys of the enclosing object, in order, such as those of slices:
-/// JSON in one line, written unchanged.
+/// Further keys of the enclosing object, in order, such as those of slices.
+/// Each is JSON in one line, written unchanged.
 struct OtherKeys : ByName<std::string> {};
 template <>
 inline constexpr bool kIsRecord<OtherKeys> = false;

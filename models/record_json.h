@@ -57,7 +57,8 @@ void ForMembers(const RecordJson& object,
                                          const RecordJson& value)>& visit);
 /// Returns the text in one line; bytes that are not UTF-8 are replaced.
 std::string OneLine(const RecordJson& json);
-/// Passes the text on in pieces, without members that are not `kept`.
+/// Passes the text to the callback in pieces, without members that are not
+/// `kept`.
 void ForText(const RecordJson& json,
              const std::function<bool(std::string_view key)>& kept,
              const std::function<void(std::string_view text)>& take);
@@ -72,8 +73,8 @@ bool IsWord(const RecordJson& json, std::string_view word);
 std::string PlaceOf(std::string_view key);
 std::string PlaceOf(std::size_t i);
 
-/// Adds name, unit and, if known, role. A column among a record's members is
-/// stored by these keys among theirs.
+/// Adds name, unit and, if known, role. If a column is a member of a record,
+/// its keys are stored beside those of the record.
 void AddColumn(const data::ColumnInfo& column, RecordJson* json);
 bool ColumnFrom(const RecordJson& json,
                 data::ColumnInfo* column,
@@ -89,7 +90,7 @@ template <std::integral T>
 using Wide =
     std::conditional_t<std::is_signed_v<T>, std::int64_t, std::uint64_t>;
 
-/// A tree of JSON for code that does not see its type.
+/// A JSON tree, for code that does not include its library.
 class Tree {
  public:
   Tree();
@@ -221,8 +222,8 @@ std::string JsonText(const T& value, int indent) {
   return tree.Text(indent);
 }
 
-/// Reads a value; returns false if any part has the wrong type. `misfit` then
-/// gets the path of the first such part (".folds[2].stop"). Missing keys keep
+/// Reads a value. If a part has the wrong type, returns false and puts the path
+/// of the first such part into `misfit` (".folds[2].stop"). Missing keys keep
 /// the values of a new record, since older files lack later keys. Null leaves
 /// an optional empty, and makes a floating-point number NaN.
 template <typename T>
@@ -332,8 +333,8 @@ bool MatrixFrom(const RecordJson& json, T* value, std::string* misfit) {
   return true;
 }
 
-/// Parses the text as JSON of one of these schemas. Throws data::InputError
-/// saying what the text is instead, followed by `remedy`.
+/// Parses the text as JSON of one of these schemas. Otherwise throws
+/// data::InputError with what the text is, followed by `remedy`.
 void ParseAs(std::string_view text,
              std::initializer_list<std::string_view> schemas,
              std::string_view remedy,

@@ -120,7 +120,7 @@ struct RegressionRecord {
   std::string ended;
   /// The intercept is first, if there is one.
   std::vector<CoefficientRecord> coefficients;
-  /// The table's terms use each of these inputs minus this centre.
+  /// The terms in the table use these inputs minus their centres.
   ByName<double> centres;
   Inline<std::optional<PenaltyRecord>> penalised;
   Inline<std::optional<LeastSquaresRecord>> least_squares;

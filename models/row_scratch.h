@@ -6,8 +6,8 @@
 
 namespace errmap::models {
 
-/// Scratch values for one row, on the stack unless there are many: a prediction
-/// in a control loop then allocates no memory.
+/// Scratch values for one row, on the stack unless there are many, so that a
+/// prediction in a control loop allocates no memory.
 class RowScratch {
  public:
   explicit RowScratch(std::size_t count) {

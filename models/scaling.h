@@ -30,7 +30,7 @@ ColumnScaling RootMeanSquareScaling(const MatrixXd& values);
 
 /// Returns for each column (p) of `values` (m x p) the RMS deviation from the
 /// means of all columns with its unit. 1 if that is 0. So a thermometer that
-/// hardly moves is not magnified over the others.
+/// hardly moves is not magnified.
 VectorXd SpreadsOfUnits(const MatrixXd& values,
                         const std::vector<std::string>& units);
 

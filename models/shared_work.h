@@ -8,19 +8,19 @@
 
 namespace errmap::models {
 
-/// Results that several recipes need for the same training rows. Each is made
-/// once, by the first recipe that asks; the others wait, and make it themselves
+/// Results that several recipes need for the same training rows. The first
+/// recipe that asks makes the result; the others wait, and make it themselves
 /// if that failed. A result must depend on its key and the rows alone. Making
 /// it must neither ask for the same key nor run other fits meanwhile. Safe to
 /// use from several threads.
 class SharedWork {
  public:
-  /// True if every penalty of a basis will be asked for, as blends do: one pass
+  /// True if every penalty of a basis will be needed, as in blends: one pass
   /// over the rows then makes them all.
   bool every_penalty = false;
 
-  /// How long a result is kept: while somebody holds it, if it is large and can
-  /// be made again quickly.
+  /// How long a result is kept. Large results that are quick to make are kept
+  /// only while in use.
   enum class Keep { kAlways, kWhileHeld };
 
   template <typename Result>

@@ -24,8 +24,8 @@ struct InputOutside {
 std::vector<InputOutside> InputsOutside(const std::vector<TrainedInput>& inputs,
                                         const MatrixXd& values);
 
-/// A reading that no state of the machine gives: a loose contact, or the value
-/// of a bus without an answer (-127, 85).
+/// An impossible reading: a loose contact, or the value of a bus without an
+/// answer (-127, 85).
 struct Spike {
   Index input = 0;  // index into the map's inputs
   Index row = 0;
@@ -35,8 +35,8 @@ struct Spike {
 /// Finds such readings of the thermometers (m x p; NaN if a cell is empty),
 /// sorted by input, then row. They differ from the median of their column and
 /// from their neighbours by more than three trained ranges, at least 10 degC. A
-/// column with fewer than three readings has none. Nor has a column in which
-/// they are more than a fifth (of fewer than ten readings, more than one).
+/// column with fewer than three readings has none. Nor has a column if they are
+/// more than a fifth (with fewer than ten readings, more than one).
 std::vector<Spike> FindSpikes(const std::vector<TrainedInput>& inputs,
                               const MatrixXd& readings);
 

@@ -6,13 +6,14 @@
 
 namespace errmap::models {
 
-/// Times are sums of steps: a probe that is due to within this share is due.
+/// Tolerance of a due time, as a share: times are sums of steps, with rounding
+/// errors.
 inline constexpr double kTimeRounding = 1e-9;
 
 /// Goes through `count` rows of a session in order of time, as on a machine
-/// whose zero is taken again now and then. The first row is a zero. Every other
-/// row is judged by the last zero: visit(row, zero). It then becomes a zero if
-/// is_due(row, zero). Returns the zeros, ascending.
+/// that is re-zeroed now and then. The first row is a zero. Every other row
+/// uses the last zero: visit(row, zero). It then becomes a zero if is_due(row,
+/// zero). Returns the zeros, ascending.
 template <typename IsDue, typename Visit>
 std::vector<Index> ForZeros(Index count,
                             const IsDue& is_due,

@@ -9,8 +9,8 @@ namespace errmap::stats {
 /// last place in both tails.
 double NormalCdf(double z);
 
-/// log of NormalCdf, finite for every finite z (by an asymptotic series if the
-/// probability itself underflows).
+/// log of NormalCdf, finite for every finite z. Uses an asymptotic series if
+/// the probability itself underflows.
 double LogNormalCdf(double z);
 
 /// z with NormalCdf(z) = p, 0 < p < 1.

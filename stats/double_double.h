@@ -137,9 +137,9 @@ inline bool isfinite(const DoubleDouble& x) { return std::isfinite(x.hi); }
 /// is not a decimal number.
 DoubleDouble ParseDoubleDouble(std::string_view text);
 
-/// Returns the shortest decimal that reads back as `x`, to 106 bits: the number
-/// in the file from which `x` was read, at most half a unit in the last place
-/// from `x`. Returns `x` itself if it is not finite.
+/// Returns, to 106 bits, the shortest decimal that reads back as `x`: the
+/// number in the file from which `x` was read. It is at most half a unit in the
+/// last place from `x`. Returns `x` itself if it is not finite.
 DoubleDouble DecimalOf(double x);
 
 }  // namespace errmap::stats

@@ -22,9 +22,9 @@ struct ErrorMetrics {
 };
 
 /// Returns the metrics of `residuals` (n) of `targets` (n). `baseline` (n) is
-/// the mean of the rows that each prediction was trained on, so that R2 makes
-/// no use of held-out rows. All in the target's unit; NaN throughout if n = 0.
-/// Throws std::invalid_argument unless the sizes agree.
+/// the mean of the training rows of each prediction, so that R2 does not use
+/// held-out rows. All are in the target's unit, and NaN if n = 0. Throws
+/// std::invalid_argument unless the sizes agree.
 ErrorMetrics ComputeErrorMetrics(const Eigen::Ref<const VectorXd>& targets,
                                  const Eigen::Ref<const VectorXd>& residuals,
                                  const Eigen::Ref<const VectorXd>& baseline);
@@ -33,8 +33,8 @@ ErrorMetrics ComputeErrorMetrics(const Eigen::Ref<const VectorXd>& targets,
 double RootMeanSquare(const Eigen::Ref<const VectorXd>& residuals);
 
 /// Returns the geometric mean of `sizes` (n, at least 0), such as the RMSE of n
-/// sessions. A size of 0 counts as the smallest normal number: two that are 0
-/// throughout are equal.
+/// sessions. A size of 0 counts as the smallest normal number, so two models
+/// with only zeros are equal.
 double GeometricMean(const Eigen::Ref<const VectorXd>& sizes);
 
 }  // namespace errmap::stats

@@ -6,14 +6,14 @@
 namespace errmap::stats {
 
 /// Mean, sd (divisor n - 1) and autocorrelation at lag 1, sum d_i d_(i+1) / sum
-/// d_i^2, of a sample held to 106 bits. Keeps digits that the nearest doubles
-/// of decimals far from zero would lose.
+/// d_i^2, of a sample in 106 bits. Decimals far from zero lose digits when
+/// rounded to the nearest doubles; here they keep them.
 struct ExtendedSummary {
   DoubleDouble mean;
   DoubleDouble sd;
   DoubleDouble autocorrelation;
-  /// Condition number of the sd, sqrt(1 + (mean / sd)^2): the factor from
-  /// relative errors of the data to those of the sd (Chan & Lewis 1979).
+  /// Condition number of the sd, sqrt(1 + (mean / sd)^2): the factor by which
+  /// relative errors of the data grow in the sd (Chan & Lewis 1979).
   double condition = 0.0;
 };
 

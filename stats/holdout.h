@@ -28,11 +28,11 @@ struct HoldoutForm {
   std::string_view meaning;
   std::vector<std::string_view> examples;
 };
-/// Returns one entry per kind. All user-facing lists of kinds are made from it.
+/// Returns one entry per kind, the source of all user-facing lists of kinds.
 const std::vector<HoldoutForm>& HoldoutForms();
 /// Returns "every:K, groups:K[:repeats=R], ..., file:TEST.csv".
 std::string HoldoutFormsText();
-/// Returns the meaning of a hold-out's name; "" for that of a split file.
+/// Returns the meaning of a hold-out's name; "" for a name from a split file.
 std::string_view HoldoutMeaning(std::string_view name);
 
 /// A hold-out as specified by the user.
@@ -65,8 +65,8 @@ struct Fold {
 /// gives one fold with all rows for training and no test rows.
 ///
 /// Throws std::invalid_argument if the data do not allow the hold-out; the
-/// message says what is possible instead. Causes: no or too few groups or
-/// sessions, more folds than rows, an empty training or test side.
+/// message says what is possible instead. Causes: no groups or sessions, too
+/// few of them, more folds than rows, an empty training or test set.
 std::vector<Fold> MakeFolds(const HoldoutSpec& spec,
                             Index num_rows,
                             const std::vector<Index>& group_codes,

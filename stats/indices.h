@@ -11,17 +11,16 @@ std::vector<Index> AllIndices(Index count);
 
 /// Returns `most` of the indices 0 .. count-1, ascending, or all if there are
 /// no more. One is drawn from each of `most` equal stretches, the same at every
-/// call; the first and the last index are always included. Even steps would
-/// coincide with patterns in the rows. If machine positions repeat every 20
-/// rows, every 20th row has the same position, and a hold-out of every fifth
-/// row never tests it.
+/// call. The first and the last index are always included. Even steps could
+/// coincide with patterns in the rows: if positions repeat every 20 rows, every
+/// 20th row has the same position.
 std::vector<Index> SpreadSample(Index count, Index most);
 
 /// Returns the elements of `all` at these indices.
 std::vector<Index> SpreadSample(const std::vector<Index>& all, Index most);
 
-/// Numbers the codes anew, in their order, without those that are missing.
-/// Returns how many there are.
+/// Renumbers the codes from 0 in their order, without gaps. Returns their
+/// number.
 Index Renumber(std::vector<Index>* codes);
 
 /// Returns the indices of each code from 0 to the largest, ascending.

@@ -19,7 +19,7 @@ double KsDistanceFromStandardNormal(
 /// Returns the probability of a distance of at least `d` in n values under the
 /// null hypothesis with mean and sd GIVEN, not estimated from the same values
 /// (Eq. 139-140, the asymptotic form): Q(lambda) at lambda = sqrt(n) d. If mean
-/// and sd are estimated, it is far too large; use Lilliefors' test then.
+/// and sd are estimated, p is far too large: use Lilliefors' test.
 double KsProbabilityMeanSdGiven(double d, Index n);
 
 /// Q(lambda) = 2 sum_j (-1)^(j-1) exp(-2 j^2 lambda^2), Eq. 139, to full double

@@ -4,7 +4,7 @@
 
 namespace errmap::stats {
 
-/// A figure that is not known.
+/// An unknown figure.
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace errmap::stats

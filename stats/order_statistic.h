@@ -6,8 +6,8 @@
 
 namespace errmap::stats {
 
-/// Returns the value at `rank` (0: the smallest) when `values`, a std::vector
-/// or an Eigen vector, are sorted. rank < values.size(); no NaN.
+/// Returns the value at `rank` (0: the smallest) of `values`, a std::vector or
+/// an Eigen vector in any order. rank < values.size(); no NaN.
 template <typename Values>
 auto OrderStatistic(Values values, std::size_t rank) {
   const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank);
@@ -15,8 +15,8 @@ auto OrderStatistic(Values values, std::size_t rank) {
   return *place;
 }
 
-/// The median, of an even number of values the upper of the middle two: always
-/// one of the values. At least one, no NaN.
+/// The median; for an even number of values, the upper of the middle two. So it
+/// is always one of the values. At least one value, no NaN.
 template <typename Values>
 auto UpperMedian(Values values) {
   const auto middle = static_cast<std::size_t>(values.size()) / 2;

@@ -8,8 +8,8 @@
 
 namespace errmap::stats {
 
-/// Values in order of measurement, cut between neighbours that must not be
-/// compared. One segment is the whole order, or each group has one.
+/// Values in order of measurement, cut where neighbours must not be compared.
+/// There is one segment for all values, or one for each group.
 using Segments = std::vector<VectorXd>;
 
 /// Returns one segment per group code, each in the order of `values` (n).
@@ -17,9 +17,9 @@ using Segments = std::vector<VectorXd>;
 Segments SegmentsByGroup(const Eigen::Ref<const VectorXd>& values,
                          const std::vector<Index>& group_codes);
 
-/// Tests for memory in the order of the values. All p are two-sided. The null
-/// hypothesis is independent values of one distribution within a segment; the
-/// serial tests also assume that it is normal.
+/// Tests of whether the order of the values shows memory. All p are two-sided.
+/// The null hypothesis is independent values of one distribution within a
+/// segment; the serial tests also assume that it is normal.
 struct SerialTests {
   /// Wald & Wolfowitz (1940) runs above and below the median of all values;
   /// values equal to it are skipped. The statistic is (runs - expected) / sd
@@ -49,10 +49,10 @@ struct SerialTests {
 /// too few values, all values equal, or values that are not finite.
 SerialTests TestSerially(const Segments& segments);
 
-/// p of the same tests by shuffling. No distribution is assumed, and p is exact
-/// apart from the random draws. The tests' own p are asymptotic: at a nominal 5
-/// % Ljung-Box rejects 6.3 %, 5.9 % and 5.0 % of normal samples for n = 30, 100
-/// and 397.
+/// p of the same tests by shuffling. This assumes no distribution, and p is
+/// exact apart from the random draws. The tests' own p are asymptotic: at a
+/// nominal 5 % Ljung-Box rejects 6.3 %, 5.9 % and 5.0 % of normal samples for n
+/// = 30, 100 and 397.
 struct SerialShuffles {
   Index draws = 0;  // 0: not shuffled
   double runs = 0.0;

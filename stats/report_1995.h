@@ -22,11 +22,11 @@ using VectorOf = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
 /// Returns the statistics of `errors` (P x J, P >= 1), computed in the order of
 /// NISTIR 5367, Appendix A, and in this precision (float, as in the program, or
-/// double). As in the program, sums are divided by loop variables left at their
-/// limits plus one ((P+1)(J+1) instead of P J) and the error function is its
-/// rational approximation. The K-S test is of the first output with the mean
-/// and sd of all, and its series is cut where the program cuts it. Reproduces
-/// the report; estimates nothing. Throws std::invalid_argument if there are no
+/// double). As in the program, sums are divided by loop variables that ended
+/// one past their limits ((P+1)(J+1) instead of P J), and the error function is
+/// a rational approximation. The K-S test uses the first output with the mean
+/// and sd of all, and truncates its series where the program does. For
+/// reproducing the report only. Throws std::invalid_argument if there are no
 /// errors.
 template <typename Scalar>
 Report1995Statistics StatisticsOf1995(const MatrixOf<Scalar>& errors);

@@ -16,7 +16,7 @@ struct SampleSummary {
   double range = 0.0;  // max - min
 };
 
-/// Returns the summary of `sample` (n), in its unit. Mean and sd are by the
+/// Returns the summary of `sample` (n), in its unit. Mean and sd use the
 /// corrected two-pass algorithm (Chan, Golub & LeVeque 1983, Eq. 1.7) with
 /// compensated sums, so data far from zero keep their digits.
 SampleSummary Summarize(const Eigen::Ref<const VectorXd>& sample);
@@ -33,8 +33,8 @@ double StandardError(double sd, Index n);
 /// Throws std::invalid_argument unless two values differ and all are finite.
 VectorXd Standardise(const Eigen::Ref<const VectorXd>& sample);
 
-/// Returns the correlation of `a` and `b` (n each, n >= 1), Pearson's; 0 if one
-/// of them is constant.
+/// Returns Pearson's correlation of `a` and `b` (n each, n >= 1); 0 if one of
+/// them is constant.
 double Correlation(const Eigen::Ref<const VectorXd>& a,
                    const Eigen::Ref<const VectorXd>& b);
 

@@ -7,8 +7,8 @@
 
 namespace errmap::stats {
 
-/// Result of one statistical test: a statistic and its probability, or the
-/// reason why there is none.
+/// Result of one statistical test: a statistic and its p, or the reason why
+/// there is none.
 struct TestResult {
   double statistic = kNaN;
   /// Probability, under the null hypothesis, of a statistic at least as

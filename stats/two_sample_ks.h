@@ -4,7 +4,8 @@
 
 namespace errmap::stats {
 
-/// Tests if two samples are from one distribution (NISTIR 5367, section 8).
+/// Tests whether two samples are from one distribution (NISTIR 5367, section
+/// 8).
 struct TwoSampleKs {
   double d = 0.0;  // largest |F_a(x) - F_b(x)|
   /// Exact P(D >= d): every assignment of the pooled values to the two samples

@@ -42,7 +42,7 @@ class FlagAdder {
       : command_(command), heading_(heading) {}
 
   void operator()(const desk::StudyOption& option, std::string& text) const;
-  /// The flag takes names separated by commas.
+  /// The flag's value is a list of names separated by commas.
   void operator()(const desk::StudyOption& option,
                   std::vector<std::string>& names) const;
   void operator()(const desk::StudyOption& option, bool& flag) const;
@@ -93,8 +93,8 @@ desk::GivenError ErrorOfFlag(const char* flag,
                              bool may_be_zero);
 
 /// Returns --goal in the target's unit, or NaN if it is not given. Unless
-/// `quiet`, remarks on a bare number too large for errors of `size` (RMS,
-/// target's unit). Throws UsageError.
+/// `quiet`, prints a remark if a bare number is too large for errors of `size`
+/// (RMS, target's unit). Throws UsageError.
 double GoalOrNone(const std::optional<std::string>& goal,
                   const data::ColumnInfo& target,
                   double size,
@@ -114,13 +114,12 @@ std::unique_ptr<models::ModelRecipe> RecipeFromArgument(
 
 /// Writes a message about the run to stderr: "errmap: ...".
 void Say(const std::string& line);
-/// Says each of `lines`, unless `quiet`.
+/// Writes each of `lines` as a message, unless `quiet`.
 void SayUnless(bool quiet, const std::vector<std::string>& lines);
 /// Returns the function Say, or an empty one if `quiet`.
 std::function<void(const std::string&)> Sayer(bool quiet);
 
-/// Adds --keep-paths to the help. The program itself reads it, before any
-/// command runs.
+/// Adds --keep-paths to the help. The program reads it before any command runs.
 void AddKeepPathsFlag(CLI::App* command);
 
 /// Adds --no-cache. `cache` is models::DefaultCacheFolder() without the flag,

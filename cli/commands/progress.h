@@ -8,7 +8,7 @@
 
 namespace errmap::cli {
 
-/// The state of a run, for people who wait.
+/// The state of a run, for the progress display.
 struct ProgressState {
   int done = 0;
   int all = 0;

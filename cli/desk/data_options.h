@@ -9,9 +9,9 @@
 
 namespace errmap::desk {
 
-/// Returns the options that make compare, fit and learn read measurements as
-/// `selection` says: those that differ from the defaults, by the keys of a
-/// study file. A flag has an empty value. There is no option for `where`.
+/// Returns the options with which compare, fit and learn read measurements like
+/// `selection`: those that differ from the defaults, by the keys of a study
+/// file. A flag has an empty value. There is no option for `where`.
 models::ByName<std::string> DataOptions(const data::DatasetSelection& selection,
                                         std::uint64_t seed);
 

@@ -11,8 +11,8 @@
 
 namespace errmap::desk {
 
-/// An error as the user gives it: "2um" has a unit; a bare number is in the
-/// target's unit, known only from the data.
+/// An error as the user wrote it: "2um" has a unit. A bare number is in the
+/// target's unit, which only the data show.
 struct GivenError {
   double value = std::numeric_limits<double>::quiet_NaN();  // NaN: not given
   data::Unit unit = {};                                     // "": the target's
@@ -31,9 +31,8 @@ GivenError ParseGivenError(std::string_view text, bool may_be_zero);
 /// std::invalid_argument if its unit is of another quantity.
 double InUnitOf(const data::Unit& target, const GivenError& given);
 
-/// Returns a remark on a bare number above `size` (RMS of the errors, target's
-/// unit) that was rather meant in the unit that people read errors in; "" if
-/// there is nothing to say. `what`: "goal".
+/// Returns a remark if a bare number above `size` (RMS of the errors, target's
+/// unit) was probably meant in the display unit; else "". `what`: "goal".
 std::string BareNumberRemark(const char* what,
                              const GivenError& given,
                              const data::ColumnInfo& target,

@@ -11,7 +11,7 @@
 
 namespace errmap::desk {
 
-/// Predictions made elsewhere, which enter the table as model `name`.
+/// Predictions of another program, shown in the table as model `name`.
 struct PredictionsFile {
   std::string name;
   std::string file;
@@ -37,7 +37,7 @@ struct ComponentConfig {
     all.insert(all.end(), more_data.begin(), more_data.end());
     return all;
   }
-  /// Set by a plan: the options with which a command reads the same
+  /// Set by the plan: the options with which a command reads the same
   /// measurements.
   models::ByName<std::string> options = {};
 };

@@ -7,7 +7,7 @@
 
 namespace errmap::desk {
 
-/// To how many components of a study a flag may apply.
+/// The number of components of a study to which a flag may apply.
 enum class Reach {
   kOne,
   kAlike,  // one, or several that a slice makes alike
@@ -24,12 +24,12 @@ struct StudyOption {
   bool seldom = false;       // shown only by help with --all
   bool may_be_zero = false;  // for a size of errors
   const char* example = "";  // line of errmap init if nothing was found
-  /// Throws std::invalid_argument if a text (or a list item) is wrong whatever
-  /// the data are; may be null.
+  /// Throws std::invalid_argument if a text (or a list item) is invalid for any
+  /// data; may be null.
   void (*check)(const std::string& text) = nullptr;
 };
 
-/// Visits the options of how a file's rows and columns are read. Calls
+/// Visits the options for reading a file's rows and columns. Calls
 /// visit(option, member), or for a choice visit(option, member, values), where
 /// ToString names the values. Everything else is made from this list: flags,
 /// help, completion, keys of study files, --set, what errmap init writes, the
@@ -165,8 +165,8 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
         selection.keep_dead);
 }
 
-/// Visits the sizes of errors of a component, or of a study, whose sizes apply
-/// to components without their own.
+/// Visits the options that are errors (goal, indifference) of a component, or
+/// of a study for components without their own.
 template <typename Config, typename Visit>
 void ForErrorOptions(Config& config, const Visit& visit) {
   visit(

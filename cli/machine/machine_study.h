@@ -26,17 +26,17 @@ struct MachineStudy {
   std::string session;             // column of its sessions
   std::vector<std::string> later;  // its last ones: no fit sees them
 
-  /// The path of a file in the folder.
+  /// Returns the path of a file in the folder.
   std::string FileNamed(const std::string& name) const;
 };
 
 /// "x_yaw" of "x_yaw.json".
 std::string StemOf(const std::string& file);
 
-/// Reads machine and points; `later` is the number of sessions to judge by,
-/// `session` their column ("": one of kSessionColumns). Throws data::InputError
-/// if a file is missing, the points have no column of sessions, or all its
-/// sessions are later ones.
+/// Reads machine and points; `later` is the number of sessions for the
+/// judgement, `session` their column ("": one of kSessionColumns). Throws
+/// data::InputError if a file is missing, the points have no column of
+/// sessions, or all its sessions are later ones.
 MachineStudy ReadMachineStudy(const std::string& machine,
                               const std::string& folder,
                               int later = 1,
@@ -45,7 +45,7 @@ MachineStudy ReadMachineStudy(const std::string& machine,
 /// Returns the plan of `config` with a component for each stem, without the
 /// later sessions. Throws as PlanStudy. Throws data::InputError if a
 /// component's target is not an error of its link, or is a length for an angle.
-/// Also if its rows go both ways along the axis, or if it shares no session
+/// Also if its rows have both directions of motion, or if it shares no session
 /// with the points.
 desk::StudyPlan PlanOfMachine(const MachineStudy& study,
                               desk::StudyConfig config = {},

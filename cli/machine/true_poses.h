@@ -24,9 +24,9 @@ struct TruePoses {
   std::vector<Index> RowsOf(const std::vector<std::string>& labels) const;
 };
 
-/// Returns the columns error_x_mm, error_y_mm and error_z_mm (m x 3), or those
-/// in another unit of length, converted to the machine's. Throws
-/// data::InputError if one is missing or holds no numbers.
+/// Returns the columns error_x_mm, error_y_mm and error_z_mm (m x 3), in any
+/// unit of length, converted to the machine's unit. Throws data::InputError if
+/// one is missing or holds no numbers.
 Eigen::MatrixX3d TrueErrors(const data::CsvTable& table,
                             const models::Machine& machine);
 

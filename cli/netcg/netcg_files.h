@@ -20,8 +20,8 @@ struct NetcgWeights {
   Index hidden = 0;
   Index outputs = 0;
   VectorXd w;  // (N) in NetcgObjective's order
-  /// How the training run scaled its targets. The program's own files do not
-  /// state it.
+  /// Scaling of targets in the training run, which the program's own files
+  /// lack.
   std::optional<models::TargetScaling> scaling;
 };
 
@@ -43,7 +43,7 @@ std::string FirstLayerGraph(const NetcgWeights& weights);
 /// Returns the graphics file of the weights into the first output.
 std::string SecondLayerGraph(const NetcgWeights& weights);
 
-/// Selects the figures that a report shows.
+/// Options of a report's figures.
 enum class NetcgStatistics {
   kAsPrinted,  // as the program printed them; a line points to the errata
   kCorrected,  // right ones, in the same places; lines say what they are
@@ -115,7 +115,7 @@ std::vector<NetcgOutputFile> NetcgOutputs(const NetcgSpecification& run,
                                           const NetcgOptions& options,
                                           const std::string& folder);
 
-/// Describes for people how each run ended, its statistics as printed and
+/// Returns a text on how each run ended, its statistics as printed and
 /// corrected, and the files.
 std::string NetcgText(const std::vector<NetcgRecord>& records,
                       const NetcgOptions& options);

@@ -22,7 +22,7 @@ struct NetcgData {
   MatrixXd inputs;     // (P x I)
   MatrixXd targets;    // (P x J) as in the file
   double scale = 1.0;  // the file's scale factor
-  /// For a testing run: how the training run scaled its targets, if known.
+  /// For a testing run: scaling of targets in the training run, if known.
   std::optional<models::TargetScaling> training_scaling;
   /// (N) read from a file; (0) if the seed draws them.
   VectorXd initial_weights;
@@ -42,7 +42,7 @@ struct NetcgFigures {
   double ks_p = 0.0;
 };
 
-/// How the targets of the corrected figures were scaled.
+/// Scaling of targets for the corrected figures.
 enum class NetcgScaling {
   kTraining,  // as those of the training run, as they should be
   kTestFile,  // by the test file's own range, since no other is known
@@ -51,9 +51,9 @@ enum class NetcgScaling {
 struct NetcgResult {
   VectorXd weights;               // (N)
   models::TargetScaling scaling;  // of the run's own targets
-  /// As the program computes them, including its errors (stats/report_1995.h).
-  /// In a testing run, desired and predicted are scaled by the range of the
-  /// test file.
+  /// Statistics as the program computes them, including its errors
+  /// (stats/report_1995.h). In a testing run, desired and predicted are scaled
+  /// by the range of the test file.
   NetcgFigures printed;
   /// Corrected figures: divisors P J and P J - 1, R-SQ = 1 - SSE/SST, the scale
   /// factor applied, the training run's scaling if known. ks_d uses the first

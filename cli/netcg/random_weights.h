@@ -12,7 +12,7 @@ namespace errmap::netcg {
 /// integers of 32 bits.
 class Uni {
  public:
-  /// z = uni(seed), which is itself a draw: the first of Next().
+  /// Seeds by z = uni(seed). That call is itself a draw, the first of Next().
   explicit Uni(std::int64_t seed);
   float Next();
 

@@ -27,8 +27,8 @@ struct ReportRun {
   double iteration_seconds_sd = 0.0;
   double elapsed_seconds = 0.0;
 
-  /// Number of thermocouples that follows from the number of weights: W =
-  /// (I+1)H + H+1.
+  /// Number of thermocouples implied by the number of weights: W = (I+1)H +
+  /// H+1.
   int implied_thermocouples() const {
     return static_cast<int>((weights - hidden - 1) / hidden) - 2;
   }
@@ -53,23 +53,22 @@ struct NetcgStudy {
   std::vector<NetcgStudyRun> runs;
   double seconds = 0.0;            // of all runs together
   std::vector<std::string> notes;  // where it differs from the report
-  /// For options.netcg.out, if given: the files of all runs, and the run file
+  /// If options.netcg.out is given: the files of all runs, with the run file
   /// and pattern files that reproduce them.
   std::vector<NetcgOutputFile> files;
 };
 
 /// Runs the report's nine experiments on a folder of `errmap simulate
 /// turning-centre`. They use x_displacement_down.csv and x_displacement_up.csv,
-/// of these only day 1 if there is a column `day`. Training rows are i % 3 != 2
-/// down and i % 2 == 0 up, as the report's counts of 397 and 298 of 595 imply.
-/// Thermocouples are those of sections 9.1 to 9.8 without the ones that are
-/// dead in the files. All other settings are those of Appendix B. Results do
-/// not depend on options.jobs. Throws InputError naming file and column.
+/// but only day 1 if there is a column `day`. Training rows are i % 3 != 2 down
+/// and i % 2 == 0 up, as the report's counts of 397 and 298 of 595 imply.
+/// Thermocouples are those of sections 9.1 to 9.8, except those that are dead
+/// in the files. All other settings are those of Appendix B. Results do not
+/// depend on options.jobs. Throws InputError naming file and column.
 NetcgStudy RunReportStudy(const std::string& folder,
                           const NetcgStudyOptions& options);
 
-/// Returns Table 4 for people: our results beside the report's, in um and
-/// seconds.
+/// Returns Table 4 as text: our results beside the report's, in um and seconds.
 std::string StudyText(const NetcgStudy& study);
 
 }  // namespace errmap::netcg

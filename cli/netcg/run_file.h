@@ -24,7 +24,7 @@ enum class NetcgFile {
 };
 inline constexpr std::size_t kNumNetcgFiles = 8;
 
-/// Describes a file for people: "pattern file".
+/// Returns a description of a file for messages: "pattern file".
 std::string_view NameOf(NetcgFile file);
 
 /// One run of a run specification file ("netcg.in" of NISTIR 5367, Appendix A;

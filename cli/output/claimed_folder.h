@@ -27,7 +27,7 @@ void RequirePlaceFor(const std::string& output);
 ///   {"schema": "errmap-files-1",
 ///    "files": [{"name": "models/mean.json", "sha256": "..." or null}]}
 ///
-/// null: a run was writing it and may have been interrupted.
+/// null: a run was writing this file and may have been interrupted.
 class ClaimedFolder {
  public:
   static constexpr const char* kListName = "errmap-files.json";
@@ -45,8 +45,8 @@ class ClaimedFolder {
   /// path. Throws std::system_error naming the path.
   void Write(const std::string& name, std::string_view content);
 
-  /// Writes errmap-files.json with the hashes of the written files. It keeps
-  /// what earlier runs wrote under other names.
+  /// Writes errmap-files.json with the hashes of the written files. Entries of
+  /// earlier runs under other names are kept.
   void Finish();
 
   std::string PathOf(const std::string& name) const;

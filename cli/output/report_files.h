@@ -26,8 +26,8 @@ std::string LearningStem(std::string_view by);
 report::FigureSet FiguresInFolder(const models::StudyRecord& record,
                                   const std::string& folder);
 
-/// Writes report.html and report.md; `errmap report` later makes the same bytes
-/// from results.json. Each file appears completely or not at all. Throws
+/// Writes report.html and report.md; `errmap report` makes the same bytes from
+/// results.json. Each file appears completely or not at all. Throws
 /// std::system_error naming what could not be written.
 void WriteReport(const models::StudyRecord& record, ClaimedFolder* folder);
 

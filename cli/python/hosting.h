@@ -13,7 +13,7 @@
 
 namespace errmap::python {
 
-/// What commands read in place of files, by name.
+/// Tables and texts that commands read in place of files, by name.
 struct Inputs {
   std::map<std::string, Table> tables;
   std::map<std::string, std::string> texts;
@@ -22,8 +22,8 @@ struct Inputs {
 /// Runs `work` in its own thread, without Python's lock, with `inputs` as files
 /// and `host` for streams. Meanwhile it checks Python's signals and calls
 /// `each_moment` (may be empty) with the lock held. A signal sets `host->stop`.
-/// Throws what `work` throws. Returns true if a signal came; its Python error
-/// is then set.
+/// Rethrows exceptions of `work`. Returns true if a signal came; its Python
+/// error is then set.
 bool RunHostedWork(const Inputs& inputs,
                    cli::Host* host,
                    std::atomic<bool>* stop,

@@ -12,7 +12,7 @@ namespace errmap::python {
 
 namespace py = pybind11;
 
-/// A Python object that any thread may release.
+/// A reference to a Python object that any thread may release.
 std::shared_ptr<py::object> Kept(py::object object);
 
 /// Numbers that Python reads without a copy, by the buffer protocol.

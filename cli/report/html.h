@@ -13,8 +13,8 @@ std::string HtmlText(std::string_view text);
 /// Escapes text, and prevents line breaks between a number and its % or unit.
 std::string HtmlSentence(std::string_view text);
 
-/// Escapes a name from somebody's data, and isolates its writing direction from
-/// the text around it (<bdi>).
+/// Escapes a name from the user's data, and isolates its writing direction from
+/// the surrounding text (<bdi>).
 std::string HtmlName(std::string_view name);
 
 /// Returns a table that scrolls if the screen is narrower; `rows` are HTML.

@@ -17,8 +17,8 @@ std::string LawWords(const models::LearningCurvesRecord& curves,
 std::string EnoughWords(const models::SensorCurve& curve);
 
 /// Returns "4 of 27 sensors do it, within 5 % of all: 1.24 um with them, 1.20
-/// um with all. t3 (or t4, t5), t12." If no choice is good enough, it names the
-/// nearest one.
+/// um with all. t3 (or t4, t5), t12." If no choice is good enough, names the
+/// best one.
 std::string SensorWords(const models::SensorCurve& curve,
                         const ErrorText& error);
 

@@ -8,8 +8,7 @@ namespace errmap::report {
 
 inline constexpr double kPercent = 100.0;
 
-/// Formats errors for people: in the unit's display unit, all with the same
-/// number of decimals.
+/// Formats errors in the display unit, all with the same number of decimals.
 class ErrorText {
  public:
   /// Chooses the decimals so that `smallest`, the smallest error that matters
@@ -29,7 +28,7 @@ class ErrorText {
   int decimals_;
 };
 
-/// "2 um"; the number alone where it has no unit.
+/// "2 um"; the number alone if it has no unit.
 std::string WithSymbol(const std::string& number, const std::string& symbol);
 
 /// Formats a probability in a table: "0.0123", "2.1e-06", "<1e-300"; "n/a" if

@@ -52,7 +52,7 @@ struct Series {
   Shape shape = Shape::kDot;
   bool dashed = false;
   bool on_top = false;  // drawn after the others, in the legend as listed
-  /// The browser's tooltip for each point or bar; or empty.
+  /// The tooltip of each point or bar; or empty.
   std::vector<std::string> hints = {};
 
   /// Adds a point: a value for each column.
@@ -64,7 +64,7 @@ struct Series {
 
 constexpr double kAutomatic = std::numeric_limits<double>::quiet_NaN();
 
-/// A quantity and its range shown. The given ends are used unless data lie
+/// A quantity and the range shown. The given ends are used unless data lie
 /// beyond them; low > high reverses the axis.
 struct Axis {
   std::string quantity = {};
@@ -92,8 +92,8 @@ struct Plot {
 };
 
 /// Colours of cells from the lowest value (0) to the highest (1): blue, white,
-/// vermillion. They can be told apart in every kind of colour vision; grey
-/// print shows size, not sign.
+/// vermillion. They are distinguishable with every kind of colour vision; in
+/// grey print, they show size, not sign.
 constexpr std::array<std::pair<double, std::string_view>, 5> kPalette = {
     {{0.0, "#004B7A"},
      {0.2, "#56B4E9"},

@@ -23,8 +23,8 @@ namespace errmap::report {
 
 /// Makes the record, with sentences, of components studied with one seed. Its
 /// provenance has the program and the components' files; the caller adds
-/// command line and configuration. `jobs`: number of threads that assess
-/// residuals, without effect on the result.
+/// command line and configuration. `jobs`: number of threads for residuals,
+/// without effect on the result.
 models::StudyRecord MakeRecord(
     const std::vector<models::ComponentStudy>& components,
     std::uint64_t seed,
@@ -35,7 +35,7 @@ models::StudyRecord MakeRecord(
 std::string VerdictText(const models::ComponentRecord& component,
                         std::size_t columns = 80);
 
-/// Returns what `errmap compare` shows on a terminal of `columns`: verdict,
+/// Returns the output of `errmap compare` for a terminal of `columns`: verdict,
 /// table and next steps; with several components one row each.
 std::string ScreenText(const models::StudyRecord& record,
                        std::size_t columns = 80);

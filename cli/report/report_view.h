@@ -63,8 +63,8 @@ bool IsOfLaterSessions(const models::HoldoutRecord& holdout);
 /// Returns the last such hold-out other than `decisive`, or null.
 const models::HoldoutRecord* LaterHoldoutOf(const ComponentRecord& component,
                                             const std::string& decisive);
-/// "unseen cycle", "later day", "another file", "neighbours": what a hold-out
-/// judges. The tables and figures of a component name it so.
+/// "unseen cycle", "later day", "another file", "neighbours": the name of a
+/// hold-out's errors in tables and figures.
 std::string UnseenWords(const ReportView& view, const std::string& holdout);
 
 }  // namespace errmap::report

@@ -13,7 +13,7 @@ struct Terminal {
   std::size_t rows = 0;  // 0: no limit, as for a pipe or a file
   bool colour = false;
 
-  /// Width of running text: longer lines are hard to follow.
+  /// Width of running text; longer lines are hard to read.
   std::size_t text_columns() const;
 };
 

@@ -33,7 +33,7 @@ struct Error {
   double value;
   double scale = 1.0;
 };
-/// A 95 % interval of an error, namely of `of` if that is known.
+/// A 95 % interval of an error `of`, if that is known.
 struct Interval {
   models::IntervalRecord ends;
   double of = models::kNotKnown;
@@ -48,15 +48,15 @@ struct Statistic {
   double value;
   double p;
 };
-/// A word too long for terminals, or with another form in files.
+/// A word that has a shorter form for terminals, or another form in files.
 struct Word {
   std::string text;
   std::string on_terminal;
   std::string in_csv;
 };
 
-/// Nothing, a text, a whole number, or one of the above. An unknown value is
-/// NaN, and is shown as nothing.
+/// Empty, a text, a whole number, or one of the above. An unknown value is NaN,
+/// and is shown as an empty cell.
 class Cell {
  public:
   using Value = std::variant<std::monostate,
@@ -119,15 +119,15 @@ struct Table {
   void SayIfEmpty(std::string_view why) {
     if (rows.empty()) missing = why;
   }
-  /// Returns a cell's text for people.
+  /// Returns a cell's text for display.
   std::string Shown(const Cell& cell) const;
 };
 
-/// Drops the columns in which no row has anything, but for the first.
+/// Removes empty columns, except the first.
 Table WithoutEmptyColumns(Table table);
 
-/// Takes the last columns off, all but the first `fewest`, until no line of the
-/// table exceeds `width`; returns their names.
+/// Removes columns from the end until no line exceeds `width`, but keeps the
+/// first `fewest`; returns the names of those removed.
 std::vector<std::string> TakeColumns(std::size_t width,
                                      std::size_t fewest,
                                      Table* table);

@@ -19,13 +19,13 @@ std::vector<std::string> WrapLines(std::string_view text,
 /// Joins the same lines with line feeds.
 std::string WrapText(std::string_view text, std::size_t width);
 
-/// Breaks `text` into lines, each with its line feed, that begin with `begin`
-/// and below it with as many blanks. `width` includes these.
+/// Breaks `text` into lines, each with a line feed. The first begins with
+/// `begin`, the others with as many blanks. `width` includes these.
 std::string Hanging(std::string begin,
                     std::string_view text,
                     std::size_t width);
 
-/// Number of characters, not bytes: a text may not be ASCII.
+/// Returns the number of characters, not bytes, of a UTF-8 text.
 std::size_t WidthOf(std::string_view text);
 
 /// Cuts to `most` characters; `dots` replace the middle.

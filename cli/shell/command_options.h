@@ -45,7 +45,7 @@ class Command {
   Arguments* operator->() const { return arguments_.get(); }
   Arguments& operator*() const { return *arguments_; }
 
-  /// Sets what the command does: act(arguments), or act(arguments, command
+  /// Sets the action of the command: act(arguments), or act(arguments, command
   /// line), the latter as in Run. It returns the exit status.
   template <typename Act>
   void Runs(const Act& act) const {
@@ -73,12 +73,12 @@ class Option {
   const Option& Required(bool required = true) const;
   /// Sets the placeholder of its value in help: "FILE.csv".
   const Option& Value(const std::string& name) const;
-  /// Shows this default in help, or the variable's present value.
+  /// Shows this default in help, or by default the variable's current value.
   const Option& Default(const std::string& text) const;
   const Option& ShowDefault() const;
   /// Accepts whole numbers from `low` to `high`.
   const Option& Range(long long low, long long high) const;
-  /// `complaint` returns what is wrong with a text; "" if it is valid.
+  /// `complaint` returns the fault of a text; "" if it is valid.
   const Option& Check(
       std::function<std::string(const std::string&)> complaint) const;
   const Option& Positive() const;
@@ -89,9 +89,9 @@ class Option {
   const Option& SeparatedBy(char delimiter) const;
   /// Accepts repetition, with one value each time.
   const Option& OneAtATime() const;
-  /// Shown only by help COMMAND --all.
+  /// Shows it only in help COMMAND --all.
   const Option& Seldom() const;
-  /// Shown under this heading.
+  /// Shows it under this heading.
   const Option& Under(std::string_view heading) const;
   const Option& About(const std::string& text) const;
 

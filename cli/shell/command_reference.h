@@ -10,11 +10,11 @@ class App;
 
 namespace errmap::cli {
 
-/// What the group (CLI11's term) of an option begins with if help shows it only
-/// with --all. The heading follows.
+/// Prefix of an option's group (CLI11's term) if help shows it only with --all.
+/// The heading follows.
 inline constexpr std::string_view kSeldom = "Seldom needed: ";
 
-/// Headings of options in help; all others stand between these two.
+/// First and last heading of options in help.
 inline constexpr std::string_view kDataOptions = "Data";
 inline constexpr std::string_view kOutputOptions = "Output";
 
@@ -41,7 +41,7 @@ struct CommandReference {
 };
 
 /// The whole command line. The reference page and completions are made from it,
-/// so that they cannot differ from what the program accepts.
+/// so they always agree with the program.
 struct ProgramReference {
   std::string description;
   std::string footer;

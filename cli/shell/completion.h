@@ -7,7 +7,7 @@
 
 namespace errmap::cli {
 
-/// The placeholder of help's argument: any command, any topic.
+/// The placeholder of help's argument: any command or topic.
 inline constexpr const char* kHelpWord = "COMMAND|TOPIC";
 
 /// A word that can be inserted at the cursor.
@@ -24,10 +24,10 @@ struct Completion {
   bool folders = false;   // only names of folders
 };
 
-/// Completes the last of `words`, which follow the program's name up to the
-/// cursor; it may be "". Offers commands, options, an option's allowed words,
-/// models with their options, hold-outs, and the columns of the data file named
-/// before.
+/// Completes the last of `words`, which are those from the program's name to
+/// the cursor; it may be "". Offers commands, options, an option's allowed
+/// words, models with their options, hold-outs, and the columns of the data
+/// file named before.
 Completion Complete(const ProgramReference& program,
                     const std::vector<std::string>& words);
 

@@ -12,7 +12,7 @@ namespace errmap::cli {
 /// Returns all commands, one line each, grouped by purpose.
 std::string ProgramHelp(const ProgramReference& program, std::size_t width);
 
-/// Which options a command's help shows.
+/// Selects the options in a command's help.
 enum class HelpOptions { kUsual, kAll };
 
 /// Returns a command's usage, its options and an example.
@@ -20,13 +20,15 @@ std::string CommandHelp(const CommandReference& command,
                         HelpOptions options,
                         std::size_t width);
 
-/// Returns an option's first statement, with kAll also the others, and default.
+/// Returns an option's first sentence (with kAll also the others) and its
+/// default.
 std::string Explained(const OptionReference& option, HelpOptions options);
 
-/// Returns the first steps, for a call without arguments.
+/// Returns the text for a call without arguments: the first steps.
 std::string FirstSteps();
 
-/// Returns "FILE.csv --model SPEC [options]": what `command` requires.
+/// Returns the required arguments of `command`: "FILE.csv --model SPEC
+/// [options]".
 std::string UsageOf(const CommandReference& command);
 
 /// A page of cli/manual, built into the program.

@@ -7,7 +7,7 @@
 namespace errmap::cli {
 
 /// Replaces the streams and signals of the process if another program runs
-/// commands in itself (RunHosted).
+/// commands (RunHosted).
 struct Host {
   const std::atomic<bool>* stop = nullptr;  // set: a command ends early
   std::string printed = {};                 // to standard output

@@ -11,7 +11,7 @@
 namespace errmap::cli {
 
 /// Opens closed standard streams so that they can be neither read nor printed
-/// to. No file opened later then gets their numbers, and with them our
+/// to. Otherwise a file opened later could get their numbers, and so our
 /// messages. Call it before any file is opened.
 void HoldStandardStreams();
 
@@ -21,8 +21,8 @@ void HoldStandardStreams();
 std::string WithoutControls(std::string_view text);
 
 /// The only function that writes results to standard output, WithoutControls.
-/// PrintError keeps a failed write, so that one lost answer does not cost the
-/// files after it. Later results are then not written.
+/// PrintError remembers a failed write, so that files are still written after a
+/// lost answer. Later results are then not printed.
 void PrintResult(std::string_view text);
 
 /// As PrintResult, but bold; for terminals.
@@ -32,24 +32,23 @@ void PrintStrong(std::string_view text);
 int PrintError();
 
 /// The only function that writes messages to standard error: "errmap: ...", in
-/// one line. If a message cannot be written, it is lost: there is nowhere to
-/// report it.
+/// one line. A message that cannot be written is lost.
 void WriteMessage(std::string_view text);
 
-/// From now on, messages advise only these options (WithOwnRemedies).
+/// From now on, messages mention only these options as remedies
+/// (WithOwnRemedies).
 void AdviseOnly(std::set<std::string, std::less<>> options);
-/// From now on, messages advise any option.
+/// From now on, messages may mention any option.
 void AdviseAny();
 
-/// Draws on a terminal, unfiltered; only for text of our own.
+/// Draws on a terminal, unfiltered; only for the program's own text.
 void DrawOnTerminal(std::string_view text);
 
-/// Returns the message without clauses that advise an option unknown to
-/// `has`: the library does not know which command reads its messages. For
-/// a command without --missing, "empty cell; fill it in, or drop such
-/// rows with --missing drop-rows" becomes "empty cell; fill it in". Text
-/// about another command ("errmap fit ... --model X") and quoted text
-/// stay.
+/// Returns the message without clauses that advise an option unknown to `has`,
+/// since the library does not know which command shows its messages. For a
+/// command without --missing, "empty cell; fill it in, or drop such rows with
+/// --missing drop-rows" becomes "empty cell; fill it in". Text about another
+/// command ("errmap fit ... --model X") and quoted text stay.
 std::string WithOwnRemedies(
     std::string_view message,
     const std::function<bool(std::string_view option)>& has);
@@ -59,8 +58,8 @@ std::string WithOwnRemedies(
 /// ignored at the program's start stays ignored.
 const std::atomic<bool>& InstallInterruptFlag();
 
-/// Returns what standard output can show; 80 columns if it is not a terminal.
-/// The environment's COLUMNS, LINES and NO_COLOR take precedence.
+/// Returns the capabilities of standard output; 80 columns if it is not a
+/// terminal. The environment's COLUMNS, LINES and NO_COLOR take precedence.
 report::Terminal OutputTerminal();
 
 /// PrintResult with bold strong lines if standard output has colours.

@@ -37,7 +37,7 @@ inline constexpr auto kComponents = [] {
   return all;
 }();
 
-/// Which slide's position a component depends on.
+/// The slide on whose position a component depends.
 enum class Slide { kNone, kX, kZ };
 
 /// Forward is away from home, towards the work: X downwards, Z to the left.
@@ -86,7 +86,7 @@ double TrueError(Component component,
                  Direction direction,
                  const TemperatureRise& rise);
 
-/// Position of the tool tip against the work, error vector in mm.
+/// Position of the tool tip relative to the work; error vector in mm.
 struct ToolTipError {
   double x = 0.0;
   double y = 0.0;

@@ -48,7 +48,7 @@ struct DayProgramme {
 /// All bodies are at air temperature when the rest begins.
 inline constexpr int kRestHours = 5;
 
-/// How hard the machine works.
+/// Intensity of the machine's work.
 struct Workload {
   double duty = 1.0;   // multiplies every feed duty (the product at most 1)
   double speed = 1.0;  // multiplies every spindle speed

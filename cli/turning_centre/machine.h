@@ -52,7 +52,7 @@ enum Body : std::size_t {
   kNumBodies,
 };
 
-/// What the machine does during a phase.
+/// Activity of the machine during a phase.
 struct DriveState {
   bool is_on = false;        // pumps and drives powered
   double spindle_rpm = 0.0;  // >= 0

@@ -23,7 +23,7 @@ struct SimulationOptions {
   /// Standard deviation of a reading of a displacement, um: a laser
   /// interferometer in a shop.
   double noise_um = 0.15;
-  /// Likewise of an angle, urad: 0.1 arcsec, an autocollimator.
+  /// The same for an angle, urad: 0.1 arcsec, an autocollimator.
   double noise_urad = 0.5;
   double sensor_noise = 0.02;  // of a thermocouple's reading, degC
   /// Thermocouples by number, 0 to 39; each in at most one list.

@@ -7,7 +7,7 @@
 
 namespace errmap::turning_centre {
 
-/// A lump of a thermal network, with one temperature.
+/// A body of a thermal network, with one temperature.
 struct ThermalBody {
   std::string name;
   double heat_capacity = 0.0;    // J/K, > 0
@@ -24,7 +24,7 @@ struct ThermalLink {
   bool only_coolant = false;  // proportional to the coolant flow
 };
 
-/// What acts on the network; constant over a step, except the air.
+/// Inputs of the network; constant over a step, except the air.
 struct ThermalLoad {
   std::vector<double> heat;  // (bodies) W
   double forced_air = 0.0;   // >= 0

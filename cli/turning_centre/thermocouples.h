@@ -13,7 +13,8 @@ namespace errmap::turning_centre {
 
 inline constexpr std::size_t kNumThermocouples = 40;
 
-/// A line of NISTIR 5367, Table 1, with what the sensor reads here.
+/// A line of NISTIR 5367, Table 1, with the place that the sensor measures
+/// here.
 struct ThermocoupleSite {
   std::string_view location;  // as the table has it
   std::string_view axis;      // "x", "z", "spindle", "bed" or "none"
@@ -69,8 +70,8 @@ class Thermocouples {
   Readings Read(double hours_on, int cycle);
 
   /// Returns the logger's readings between measurements; `hours_on` as for
-  /// Read. They have noise of their own, so that a log changes no result of
-  /// Read. Sensors stop only at a Read.
+  /// Read. They have separate noise, so that a log does not change the results
+  /// of Read. Sensors stop only at a Read.
   Readings Log(double hours_on);
 
  private:

@@ -9,9 +9,9 @@ namespace errmap::data {
 /// Writes a file completely or not at all: under a temporary name beside the
 /// target, flushed to disk, then renamed over it. Also removes what a killed
 /// process left of the same target. The parent folder must exist. A link at the
-/// path is replaced, without a change to the file it leads to. In another
-/// user's folder a link is refused. Throws std::system_error naming the path;
-/// the old file is then unchanged.
+/// path is replaced, and the file to which it points stays unchanged. In
+/// another user's folder a link is refused. Throws std::system_error naming the
+/// path; the old file is then unchanged.
 void WriteFileAtomically(const std::string& path, std::string_view content);
 
 /// Writes a file as above, without the flush to disk, for many files before one
@@ -22,12 +22,13 @@ void WriteFileUnflushed(const std::string& path, std::string_view content);
 /// std::system_error naming it.
 void FlushFileSystemOf(const std::string& folder);
 
-/// Waits, at most a second, until no file is being written, and lets no thread
-/// begin one. For a process that is about to end while its threads still run.
+/// Waits at most a second until no file is being written, and prevents threads
+/// from beginning one. For a process that is about to end while its threads
+/// still run.
 void EndWriting();
 
-/// Removes from `folder` what a killed process had begun to write. Leaves files
-/// that another process is writing now, and those that cannot be removed.
+/// Removes partial files of a killed process from `folder`. Leaves files that
+/// another process is writing now, and those that cannot be removed.
 void RemoveAbandonedFiles(const std::string& folder);
 
 /// Size limits of a file of settings, maps or lists: 4 MiB for text that people

@@ -4,7 +4,7 @@
 
 namespace errmap::data {
 
-/// An open file, closed at the end of its owner's lifetime; below 0: none.
+/// An open file, closed by the destructor; below 0: none.
 class FileDescriptor {
  public:
   explicit FileDescriptor(int descriptor) : descriptor_(descriptor) {}
@@ -25,7 +25,7 @@ class FileDescriptor {
   int Release() { return std::exchange(descriptor_, -1); }
 
   /// Closes the file. Some file systems report a failed write only here.
-  /// Returns 0 if all is well.
+  /// Returns 0 on success.
   int Close();
 
  private:

@@ -7,8 +7,8 @@ namespace errmap::data {
 /// True if there is a symbolic link at the path.
 bool IsLink(const std::string& path);
 
-/// True if the folder that holds the path's last part belongs to this user, who
-/// can therefore be trusted with a link there.
+/// True if the folder of the path belongs to this user, so that a link there
+/// can be trusted.
 bool IsInOwnFolder(const std::string& path);
 
 /// Throws std::system_error if there is a link at the path in another user's

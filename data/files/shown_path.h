@@ -4,12 +4,12 @@
 
 namespace errmap::data {
 
-/// Returns a path as reports, maps and journals show it. Of an absolute path it
-/// is the file's name only, since folders may name users and customers.
+/// Returns a path as reports, maps and journals show it. An absolute path is
+/// reduced to the file's name, since folders may name users and customers.
 std::string ShownPath(const std::string& path);
 
-/// Shows paths as given from now on. Call it before anything else, if the user
-/// asked for it.
+/// From now on, shows paths as given. Call it before any other function, if the
+/// user asked for it.
 void KeepPaths();
 
 }  // namespace errmap::data

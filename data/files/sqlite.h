@@ -14,7 +14,7 @@ struct sqlite3_stmt;
 
 namespace errmap::data {
 
-/// SQLite cannot do something; what() says what, in SQLite's words.
+/// An operation of SQLite failed; what() has SQLite's message.
 class SqliteError : public std::runtime_error {
  public:
   SqliteError(const std::string& what, int code, int system_error)
@@ -38,7 +38,7 @@ struct Blob {
   std::string_view bytes;
 };
 
-/// The file is damaged or is not a database; what() says what to do.
+/// The file is damaged or is not a database; what() has the remedy.
 class DamagedDatabase : public InputError {
  public:
   DamagedDatabase(const std::string& file, const std::string& why);
@@ -58,9 +58,9 @@ class Statement {
     return *this;
   }
 
-  /// Goes to the next row; false at the end. Throws SqliteError.
+  /// Moves to the next row; false at the end. Throws SqliteError.
   bool Next();
-  /// Runs to the end.
+  /// Runs the statement to its end.
   void Run();
 
   std::string Text(int column) const;
@@ -98,11 +98,11 @@ class Statement {
 class Database {
  public:
   enum class Access {
-    /// For a file that nobody writes any more: takes no locks, and needs only
-    /// the right to read.
+    /// For a file that is no longer written: takes no locks, and needs only
+    /// read permission.
     kRead,
-    /// For a file that nobody else knows of: writes are not flushed, and after
-    /// a failed write the file is useless.
+    /// For a private file: writes are not flushed, and after a failed write the
+    /// file is useless.
     kPrivate,
     /// For a file that other processes may write at the same time, each change
     /// in a transaction.

@@ -5,8 +5,7 @@
 namespace errmap::data {
 
 /// FORTRAN edit descriptors, as written by today's compilers (gfortran 12). A
-/// value that needs more columns than its field takes them; no field is filled
-/// with asterisks.
+/// value wider than its field extends it instead of becoming asterisks.
 
 /// Iw: "   397".
 std::string EditI(long long value, int width);
@@ -23,7 +22,7 @@ std::string EditG(double value, int width, int digits);
 /// 0.331210256 " and " 9.8869840267804862E-002".
 std::string ListDirected(float value);
 std::string ListDirected(double value);
-/// An integer likewise, twelve columns.
+/// The same for an integer, in twelve columns.
 std::string ListDirected(long long value);
 
 }  // namespace errmap::data

@@ -10,7 +10,7 @@ namespace errmap::data {
 
 /// The content of a pattern file of the report's 1995 program.
 struct PatternTable {
-  /// "Scale factor for unit conversion if necessary": that program reads it and
+  /// "Scale factor for unit conversion if necessary": the program reads it but
   /// never applies it.
   double scale = 1.0;
   std::vector<std::string> inputs;   // (I) names: "position_mm", "t00_degC"
@@ -45,10 +45,9 @@ PatternTable ReadPatterns(const std::string& path);
 PatternTable ParsePatterns(std::string_view text, const std::string& name);
 
 /// Returns the text of a table in that form. The stacked form has the report's
-/// columns, but a number that they would round gets as many digits as it needs.
-/// So each form reads back to the same numbers, and text in such a form is
-/// reproduced byte for byte. Throws std::invalid_argument if the table has no
-/// inputs or targets.
+/// columns, but a number that they would round gets all its digits. So each
+/// form reads back to the same numbers, and its text is reproduced byte for
+/// byte. Throws std::invalid_argument if the table has no inputs or targets.
 std::string PatternText(const PatternTable& table, PatternForm form);
 
 }  // namespace errmap::data

@@ -7,13 +7,12 @@
 
 namespace errmap::data {
 
-/// Reads text as list-directed READ statements of FORTRAN do. Each reading
-/// begins on a new line and takes as many lines as it needs. Values are
-/// separated by blanks, tabs or commas, may be repeated (3*0.5) and have
-/// exponents with E or D. Text after the last value of a reading is a comment.
-/// If it is one more number, which FORTRAN would ignore, that is an error here.
-/// All functions throw InputError naming file, line, and what was expected and
-/// found.
+/// Reads text like FORTRAN's list-directed READ statements. Each reading begins
+/// on a new line and takes as many lines as it needs. Values are separated by
+/// blanks, tabs or commas, may be repeated (3*0.5) and have exponents with E or
+/// D. Text after the last value of a reading is a comment. A further number,
+/// which FORTRAN would ignore, is an error here. All functions throw InputError
+/// naming file, line, and what was expected and found.
 class RecordReader {
  public:
   /// `text` must outlive the reader; `file` begins every message.
@@ -22,7 +21,8 @@ class RecordReader {
   /// `what` names the values in messages: "41 column flags".
   std::vector<double> Numbers(std::size_t count, const std::string& what);
   std::vector<long long> Integers(std::size_t count, const std::string& what);
-  /// Whole numbers and others in one reading: Numbers checked by WholeNumber.
+  /// For whole numbers and others in one reading: Numbers checked by
+  /// WholeNumber.
   long long WholeNumber(double value, const std::string& what) const;
   /// Reads words, in single or double quotes or up to the next blank.
   std::vector<std::string> Words(std::size_t count, const std::string& what);
@@ -30,7 +30,7 @@ class RecordReader {
   /// ends.
   std::string Text(const std::string& what);
 
-  /// True if nothing but blank lines is left.
+  /// True if only blank lines remain.
   bool AtEnd() const;
   /// 1-based line of the last value read.
   std::size_t line() const { return line_; }

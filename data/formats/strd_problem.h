@@ -8,7 +8,7 @@ namespace errmap::data {
 
 enum class StrdKind { kNonlinear, kLinear, kUnivariate };
 
-/// A certified parameter. All numbers are NIST's decimal text, since a double
+/// A certified parameter. All numbers are in NIST's decimal text, since doubles
 /// would round them.
 struct StrdParameter {
   std::string name;

@@ -14,8 +14,8 @@
 
 namespace errmap::data {
 
-/// The role of a column. It determines which cells are allowed and what a
-/// message about them advises.
+/// The role of a column. It determines which cells are allowed, and the advice
+/// in messages about them.
 enum class ColumnUse { kTarget, kInput, kWeight, kGroup, kOther };
 
 struct ColumnInUse {
@@ -37,21 +37,21 @@ std::size_t RequireColumn(const CsvTable& table,
 /// Throws InputError if the column holds no numbers at all.
 void RequireNumbers(const CsvTable& table, const ColumnInUse& column);
 
-/// Says why the text that might be a column's unit is not read as one.
+/// Returns why a text that looks like a column's unit is not read as one.
 std::string WhyNoUnit(const Header& header);
 
 /// Throws InputError, with the known units, if a name has an unknown unit: in
 /// brackets or parentheses, or for the target also bare.
 void RequireKnownUnit(const CsvTable& table, const ColumnInUse& column);
 
-/// Throws InputError if a column of numbers holds none. It is such a column if
-/// its name means a position, or if every text in it is a number with a unit or
-/// thousands separators ("12.7 mm", "1.234,5").
+/// Throws InputError if a column of numbers holds none. A column is meant to
+/// have numbers if its name means a position, or if every text in it is a
+/// number with a unit or thousands separators ("12.7 mm", "1.234,5").
 void RefuseNumbersAsText(const CsvTable& table, const CsvColumn& column);
 
 /// Throws InputError if some numbers of these columns have a decimal comma and
-/// others a decimal point: "1.234" may then be a thousand. Columns used as
-/// groups are skipped, since they are labels ("03.05.").
+/// others a decimal point: "1.234" may then be a thousand. Columns of groups
+/// are skipped, since they have labels ("03.05.").
 void RefuseMixedDecimals(const CsvTable& table,
                          const std::vector<ColumnInUse>& columns);
 
@@ -73,7 +73,7 @@ bool KeepPassing(const CsvTable& table,
 std::vector<bool> RowsThatPass(const CsvTable& table,
                                const std::vector<ColumnFilter>& filters);
 
-/// Returns those of the rows that pass (one flag per row of the table) whose
+/// Of the rows that pass (one flag per row of the table), returns those whose
 /// cells in these columns are all finite numbers (groups: not missing). Throws
 /// InputError on the first other cell. If `missing` says so, rows with an
 /// empty, NA, NaN or infinite cell are dropped instead.
@@ -91,10 +91,10 @@ void RefuseMissingCell(const CsvTable& table,
 Eigen::VectorXd ValuesOfRows(const CsvColumn& column,
                              const std::vector<Eigen::Index>& rows);
 
-/// Throws InputError that names the table's file.
+/// Throws InputError naming the table's file.
 [[noreturn]] void ThrowUnusable(const CsvTable& table, const std::string& what);
 
-/// Returns a column's name for a remark: printable, and never cut short.
+/// Returns a column's name for a remark, printable and in full.
 std::string NameInRemark(const std::string& name);
 
 /// Returns names for a message, separated by commas, shortened if there are

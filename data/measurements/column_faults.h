@@ -39,14 +39,14 @@ struct ColumnFault {
   /// whole column cannot be trusted.
   bool of_cells = false;
   /// The first row's value. For kStep: the height; kNoisy: the noise's standard
-  /// deviation; kDrifting: the change from first to last row; kOtherUnit: how
-  /// many times larger the others are.
+  /// deviation; kDrifting: the change from first to last row; kOtherUnit: the
+  /// factor by which the others are larger.
   double value = 0.0;
   /// Reference for comparison. For kImpossible and kOutlying: the range of all
   /// other values. kJump: the neighbours (both the same). kStuck: low 0, high
-  /// the median range of the others meanwhile. kNoisy: the same for their
+  /// the median range of the others in these rows. kNoisy: the same for their
   /// noise. kDrifting: high the scatter about the drift, low the number of
-  /// others. kZero: low what a linear map predicts for the worst row.
+  /// others. kZero: low the prediction of a linear map for the worst row.
   double low = 0.0;
   double high = 0.0;
 };
@@ -55,7 +55,7 @@ struct ColumnFault {
 std::vector<Eigen::Index> RowsOfCellFaults(
     const std::vector<ColumnFault>& faults);
 
-/// Columns of measurements, (m) rows in the order in which they were measured.
+/// Columns of measurements: (m) rows in order of measurement.
 struct MeasuredColumns {
   const ColumnInfo& target;
   const Eigen::VectorXd& target_values;   // (m)
@@ -65,14 +65,14 @@ struct MeasuredColumns {
   Eigen::Index num_sessions = 0;          // 0: not known
 };
 
-/// Returns a sentence if such rows affect every figure of a study, with the
+/// If such rows affect every figure of a study, returns a sentence with the
 /// option that leaves them out; else "".
 std::string DoubtOfRows(const ColumnFault& fault,
                         const MeasuredColumns& measured);
 
 /// Searches target and inputs for faulty readings. The thresholds are chosen so
 /// that healthy machines give no faults; the unit test has the measurements.
-/// Drift is searched for over three sessions or more.
+/// The search for drift needs three sessions or more.
 std::vector<ColumnFault> FindColumnFaults(const MeasuredColumns& measured);
 
 }  // namespace errmap::data

@@ -9,7 +9,7 @@
 
 namespace errmap::data {
 
-/// A column of a file that a map knows by another name or in another unit.
+/// A column of a file that has another name or unit in the map.
 struct MatchedColumn {
   ColumnInfo of_map;
   ColumnInfo of_file;
@@ -25,7 +25,7 @@ struct MatchedColumn {
 };
 
 /// Returns the column of that name, or else the only one with that name in
-/// another unit ("t1 [K]" for "t1_degC", letters in any case). Throws
+/// another unit ("t1 [K]" for "t1_degC"), in upper or lower case. Throws
 /// InputError if there is none or more than one, or its unit cannot be
 /// converted. The message ends with `remedy`.
 MatchedColumn MatchColumn(
@@ -42,12 +42,12 @@ struct TableForMap {
   CsvTable table;
   std::vector<std::string> remarks;  // one line for each column that differs
   Reading reading = {};              // of its rows
-  /// Rows of the file, if they were put in order of time; else empty.
+  /// Rows of the file, if they were sorted by time; else empty.
   std::vector<Eigen::Index> order = {};
 };
 
-/// The target of a map, and the column that the user named for it, or "". That
-/// is a column of the table, or a derived one (reading/derived_columns.h).
+/// The target of a map, and the column that the user named for it, or "". It
+/// may be a derived column (reading/derived_columns.h).
 struct TargetOfMap {
   ColumnInfo column;
   std::string named = {};

@@ -27,21 +27,21 @@ struct ColumnRoles {
 ColumnRoles ChooseRoles(const CsvTable& table,
                         const DatasetSelection& selection);
 
-/// Returns the column that numbers the cycles by its name, and the only one
-/// that is called a time; kNoColumn: none. For tables that are not read whole.
+/// Returns the column whose name numbers cycles, and the only one with the name
+/// of a time; kNoColumn: none. For tables that are only partly read.
 std::ptrdiff_t CycleColumn(const CsvTable& table);
 std::ptrdiff_t TimeColumn(const CsvTable& table);
 
-/// True if a column numbers or dates the rows by its name ("Cycle No.", "Takt",
-/// "time_s"), or holds something that no controller knows.
+/// True if a column, judged by its name, numbers or dates the rows ("Cycle
+/// No.", "Takt", "time_s"), or is unknown to controllers.
 bool KeepsRecord(std::string_view name);
-/// True as above, except for a column whose values mostly have decimals: it is
+/// As above, but false for a column whose values mostly have decimals: that is
 /// a measurement.
 bool KeepsRecord(const CsvColumn& column);
 
-/// True if a column follows the row number, whatever its name. It has whole
-/// numbers without a unit that always rise or always fall, or that count the
-/// readings at each place: 1, 2, 3, 1, 2, 3.
+/// True if a column follows the row number, whatever its name. Its values are
+/// whole numbers without a unit that always rise or always fall, or that count
+/// the readings at each position: 1, 2, 3, 1, 2, 3.
 bool CountsRows(const CsvColumn& column);
 
 /// True if an input is read by a sensor: it is not a position, and does not
@@ -49,13 +49,12 @@ bool CountsRows(const CsvColumn& column);
 bool IsSensor(const ColumnInfo& column);
 
 /// True if a column's name says that it counts cycles, runs or the like
-/// ("elapsed_cycles"). Days do not count as such: an age in days is a state of
-/// wear.
+/// ("elapsed_cycles"). False for days: an age in days is a state of wear.
 bool CountsCycles(const ColumnInfo& column);
 
-/// True if each value of a column has its own error, as up and down motion
-/// differ by hysteresis. Its name is direction, axis, machine or the like, with
-/// 2 to 24 values and no empty cell.
+/// True if each value of a column has its own error, as directions of motion
+/// have because of hysteresis. The name means direction, axis, machine or the
+/// like. The column has 2 to 24 values and no empty cell.
 bool PartsComponents(const CsvTable& table, const CsvColumn& column);
 
 }  // namespace errmap::data

@@ -12,7 +12,7 @@
 
 namespace errmap::data {
 
-/// Rows where the numbers of cycles start again.
+/// Rows at which cycle numbers start again.
 struct CycleRestarts {
   std::string column;
   std::vector<bool> begins;  // (rows) the first row is none
@@ -32,9 +32,8 @@ bool CountOver(const CycleRestarts& restarts,
                const CsvColumn& date,
                const std::vector<Eigen::Index>& rows);
 
-/// True if cycles start again more often than there are sessions, each time in
-/// another session or where another column of sessions changes: days and the
-/// shifts of each.
+/// True if cycles start again more often than there are sessions, always where
+/// a session or another column of sessions changes, such as days and shifts.
 bool PartFurther(const CycleRestarts& restarts,
                  const Grouping& sessions,
                  const CsvTable& table,

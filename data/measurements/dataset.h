@@ -16,7 +16,7 @@
 
 namespace errmap::data {
 
-/// The role of a column in a map. Only the Reading of its data decides it.
+/// The role of a column in a map, as decided by the Reading of its data.
 enum class Role {
   kUnknown,
   kPosition,  // commanded: neither filtered nor zeroed
@@ -44,8 +44,8 @@ bool IsPosition(const ColumnInfo& column);
 /// True if a column is a sensor's or a switch's.
 bool IsReadBySensor(const ColumnInfo& column);
 
-/// Returns the role of a column by its name alone: for maps written before
-/// roles were stored, and for data made in memory.
+/// Returns the role that a column's name implies: for maps written before roles
+/// were stored, and for data made in memory.
 Role RoleByName(const ColumnInfo& column);
 
 /// The group of each row (warm-up cycle, day, segment).
@@ -62,7 +62,7 @@ struct Grouping {
 std::string WordFor(const Grouping& grouping);
 
 /// Every row of the table as read, in file order. It includes rows dropped or
-/// held out, since filters of the inputs run through all of them.
+/// held out, since filters run through all of them.
 struct SessionLog {
   /// Sessions of all rows. A session is an uninterrupted run. The column is ""
   /// if time separates sessions, or if there is only one.
@@ -77,16 +77,15 @@ struct SessionLog {
   Eigen::MatrixXd input_values;  // (rows x p) NaN: no number; (0 x 0): made
 };
 
-/// What is subtracted from the target: nothing, or its value in the session's
-/// first row, as in a shop that re-zeroes at the start.
+/// Value subtracted from the target: none, or that in the session's first row,
+/// as in a shop that re-zeroes at the start.
 enum class Alignment { kNone, kFirst };
 /// "none", "first".
 std::string_view ToString(Alignment align);
 
 /// Measurements ready for a fit: m finite rows of p inputs, one target.
 ///
-/// Immutable once built; constructed by MakeDataset, or from its parts for
-/// data that are already in memory.
+/// Immutable; made by MakeDataset, or from parts for data in memory.
 class Dataset {
  public:
   struct Parts {
@@ -99,7 +98,7 @@ class Dataset {
     Grouping groups;                 // column "" where there are none
     Eigen::VectorXd weights;         // (m) positive, or (0): all equal
     std::vector<Eigen::Index> rows;  // (m) data row in the file; empty: 0..m-1
-    /// What was subtracted from the target.
+    /// Value subtracted from the target.
     Alignment align = Alignment::kNone;
     /// Null if sessions and times are unknown.
     std::shared_ptr<const SessionLog> log = {};
@@ -138,7 +137,7 @@ class Dataset {
   Eigen::Index num_sessions() const;
   bool has_sessions() const { return num_sessions() >= 2; }
 
-  /// Index of the input of that name, or -1.
+  /// Returns the index of the input of that name, or -1.
   Eigen::Index FindInput(std::string_view name) const;
   /// Input or target.
   const ColumnInfo& ColumnOf(const ColumnFault& fault) const {
@@ -192,7 +191,7 @@ struct ColumnFilter {
 std::string ValueText(const ColumnFilter& filter);
 
 /// Selects the part of a table that becomes the data set; empty fields have the
-/// command line's defaults. (The `= {}` let designated initialisers leave
+/// command line's defaults. (With `= {}`, designated initialisers may leave
 /// fields out.)
 struct DatasetSelection {
   /// Default: the only column of errors, by its name (ErrorSign, in several
@@ -217,8 +216,8 @@ struct DatasetSelection {
   bool keep_dead = false;
   /// Only rows that pass all of these are used and checked.
   std::vector<ColumnFilter> where = {};
-  /// True for rows that only judge a fitted map: they have exactly the named
-  /// inputs, if any, and their target need not vary.
+  /// True for rows that only test a fitted map: they have exactly the named
+  /// inputs, if any, and their target may be constant.
   bool only_to_judge = false;
   /// False: the data set gets no log.
   bool with_log = true;
@@ -234,11 +233,12 @@ struct PreparedDataset {
   Dataset dataset;
   std::vector<DroppedColumn> dropped;  // would-be inputs left out, and why
   std::vector<std::string> remarks;    // one line each, for people
-  /// Those remarks that every answer must show, as whole sentences.
+  /// Remarks that every answer must show, as whole sentences.
   std::vector<std::string> doubts = {};
   std::string time_column = {};          // "": rows are counted
   std::vector<ColumnFilter> where = {};  // its rows meet these
-  /// Faults found in the columns in use, also in rows left out because of them.
+  /// Faults found in the columns in use, including rows left out because of
+  /// them.
   std::vector<ColumnFault> faults;
   Reading reading = {};
 };
@@ -247,19 +247,19 @@ struct PreparedDataset {
 /// in use. Other columns may hold anything.
 ///
 /// Default inputs are the numeric columns other than target, group, weight,
-/// time and session. Columns that only keep records (KeepsRecord), or name the
-/// machine or tool, are not. Errors measured beside the target are left out
-/// with a remark unless named in `inputs`. These are columns of its stem
+/// time and session. Columns for record keeping (KeepsRecord), or with the name
+/// of a machine or tool, are no inputs. Other measured errors are left out with
+/// a remark unless named in `inputs`. These are columns of its stem
 /// (StemOfColumn), columns of its unit whose name differs only in the letter of
 /// an axis, and columns named as errors. So are columns in nm, um, uin, arcsec
 /// or urad, except positions and axes of one letter. Dead inputs are dropped
 /// with a remark unless `keep_dead`: one value in all rows, or an unnamed
-/// thermometer stuck from a row on. So are inputs that together give the target
-/// (FindLeaks). An input that repeats another, or has one value in nearly all
-/// rows, is kept with a remark. Neither are columns of `where`, nor those
-/// without a name in the header. The log holds the rows that `where` selects.
-/// kFirst subtracts from the target the first value kept of each session, with
-/// a remark. Faulty readings are returned in `faults`.
+/// thermometer stuck from a row on. So are inputs that together determine the
+/// target (FindLeaks). An input that repeats another, or has one value in
+/// nearly all rows, is kept with a remark. Neither are columns of `where`, nor
+/// those without a name in the header. The log holds the rows that `where`
+/// selects. kFirst subtracts from the target the first value kept of each
+/// session, with a remark. Faulty readings are returned in `faults`.
 ///
 /// Throws InputError naming file, row, column and remedy. Causes:
 /// - an unknown column, or no or several candidates for the target

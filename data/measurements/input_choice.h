@@ -28,7 +28,7 @@ ChosenInputs ChooseInputs(const CsvTable& table,
                           const ColumnRoles& roles,
                           const FoundSessions& found);
 
-/// Throws InputError with the first reasons why no input is left.
+/// Throws InputError with the first few reasons why no input is left.
 [[noreturn]] void ThrowNoInputs(const CsvTable& table,
                                 const std::vector<DroppedColumn>& dropped);
 

@@ -8,8 +8,8 @@
 
 namespace errmap::data {
 
-/// The column that joined tables get if nothing in them tells the files apart.
-/// A map that takes its sessions from it treats each file as a session.
+/// Column that joined tables get if no other column distinguishes the files. If
+/// a map takes its sessions from it, each file is a session.
 inline constexpr const char* kFileColumn = "file";
 
 struct JoinedTable {
@@ -18,16 +18,16 @@ struct JoinedTable {
 };
 
 /// Stacks tables (at least one) of one component. Keeps the columns that all
-/// have, in the names and units of the first. Letters may differ in case, and
-/// units are converted. A single table is unchanged. Sessions come from the
+/// have, in the names and units of the first. Upper and lower case may differ,
+/// and units are converted. A single table is unchanged. Sessions come from the
 /// column that FindSessions finds in each file. If it finds none, a file is a
-/// session, even with gaps in its time. If two files give a session the same
-/// name, the names get the file's label (FileLabel). If no column has sessions,
-/// kFileColumn does, and files numbered within a day are one session
-/// (SessionsOfFiles). If `selection` names that column, nothing else divides a
-/// file. Throws InputError if units contradict, or if a column `error*` or one
-/// that `selection` names is missing in a file. Otherwise throws as
-/// FindSessions does.
+/// session, even with gaps in its time. If sessions of two files have the same
+/// name, the file's label (FileLabel) is added. If no column has sessions,
+/// kFileColumn gets them, and files numbered within a day are one session
+/// (SessionsOfFiles). If `selection` names that column, no file is divided.
+/// Throws InputError if units contradict, or if a column `error*` or one that
+/// `selection` names is missing in a file. Otherwise throws as FindSessions
+/// does.
 JoinedTable JoinTables(std::vector<CsvTable> tables,
                        const DatasetSelection& selection);
 

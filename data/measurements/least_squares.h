@@ -5,8 +5,8 @@
 namespace errmap::data {
 
 /// Returns the b (p) that minimises |design b - wanted|, by a QR decomposition
-/// with column pivoting; any such b if columns depend on each other. design: (n
-/// x p), wanted: (n).
+/// with column pivoting; one of several such b if columns are dependent.
+/// design: (n x p), wanted: (n).
 Eigen::VectorXd SolveLeastSquares(const Eigen::MatrixXd& design,
                                   const Eigen::VectorXd& wanted);
 

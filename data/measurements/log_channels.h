@@ -10,7 +10,7 @@
 
 namespace errmap::data {
 
-/// Readings of a log that were taken at the same times.
+/// Columns of a log with common times.
 struct LogPart {
   std::vector<Eigen::Index> rows;
   struct Column {
@@ -23,7 +23,7 @@ struct LogPart {
 /// Returns the columns of a log other than its times, as one part with all
 /// rows. A log with a row for each channel and time (time, channel, value)
 /// gives a part for each channel, with the channel's name and the unit of the
-/// values. Times, dates and running numbers are not readings. `time` (rows of
+/// values. Times, dates and running numbers are not returned. `time` (rows of
 /// the log); `known`: false if it is missing; `clock`: the columns from which
 /// it was read.
 std::vector<LogPart> PartsOfLog(const CsvTable& log,

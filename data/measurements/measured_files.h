@@ -7,7 +7,7 @@
 
 namespace errmap::data {
 
-/// Files of one component, as the user names them, in order of time.
+/// Files of one component as named by the user, in order of time.
 struct MeasuredFiles {
   std::vector<std::string> paths;    // files, at least one
   std::vector<std::string> remarks;  // what was left out, one line each
@@ -21,7 +21,7 @@ struct MeasuredFiles {
 /// by their names.
 MeasuredFiles FindFiles(const std::vector<std::string>& given);
 
-/// True if a table is one that `compare --out` wrote beside its results.json:
+/// True if a table was written by `compare --out` beside its results.json:
 /// residuals.csv, or one in residuals/.
 bool IsOfComparison(const std::string& table);
 

@@ -7,7 +7,7 @@
 
 namespace errmap::data {
 
-/// Returns the filter that keeps rows of one direction of motion, by its column
+/// Returns the filter for a direction of motion, recognised by its column
 /// ("direction", "approach") or its word; null if there is none.
 const ColumnFilter* DirectionFilter(std::span<const ColumnFilter> filters);
 

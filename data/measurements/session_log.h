@@ -14,9 +14,9 @@
 namespace errmap::data {
 
 /// Gives `parts` a log of `log_rows` (n, ascending rows of the table), which
-/// include its own rows, with the sessions (n) `found`. If its rows are all of
-/// them, its input values become the log's. Otherwise cells of `blanked` are
-/// NaN in the log.
+/// include those of `parts`, with the sessions (n) `found`. If they are the
+/// same rows, the input values of `parts` become those of the log. Otherwise
+/// cells of `blanked` are NaN in the log.
 void TakeLog(const CsvTable& table,
              const std::vector<Eigen::Index>& log_rows,
              std::span<const ColumnFault> blanked,

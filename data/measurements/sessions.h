@@ -37,7 +37,8 @@ struct FoundSessions {
   std::string counter = {};         // column that restarts with each session
   double gap = 0.0;                 // s, of a night; 0: not looked for
   Evidence evidence = Evidence::kNone;
-  /// What was found, one line each; empty for one run without times.
+  /// Description of the sessions and times, one line each; empty for one run
+  /// without times.
   std::vector<std::string> remarks;
 };
 
@@ -46,16 +47,15 @@ struct FoundSessions {
 ///
 /// Time is the column named, else the first usable of ColumnsOfTime. It holds
 /// numbers (s, ms, min, h by its unit), or what ParseDateTime reads. Without
-/// one, rows are counted. Sessions are the column named, else of several files
-/// the file (kFileColumn), unless one clock goes on over all, else the first
-/// usable column called as in kSessionColumns or by other words for sessions
-/// and runs, else the only column of dates, if time has none. Without one,
-/// sessions are cut where time goes back or over a night (Nights); if that
-/// gives one, where a count of cycles restarts. A word that returns after
-/// another
-/// ("day", "night", "day") begins a new session. A default column that is
-/// unusable is skipped with a remark. "none" means no column, unless one has
-/// that name. The target and the weight are never used.
+/// one, rows are counted. Sessions are the column named, else each of several
+/// files (kFileColumn), unless one clock continues through all. Otherwise they
+/// are the first usable column with a name in kSessionColumns or another word
+/// for sessions and runs, else the only column of dates, if time has none.
+/// Without one, a session ends where time goes back or at a night (Nights). If
+/// that gives one session, they end where a count of cycles restarts. A word
+/// that recurs after another ("day", "night", "day") begins a new session. A
+/// default column that is unusable is skipped with a remark. "none" means no
+/// column, unless one has that name. The target and the weight are never used.
 ///
 /// Throws InputError, with row and remedy, if a named column is missing, is the
 /// target or the weight, holds no times, or is not in order. Also if a cell is
@@ -65,7 +65,7 @@ FoundSessions FindSessions(const CsvTable& table,
                            const DatasetSelection& selection,
                            const std::vector<Eigen::Index>& rows);
 
-/// How sessions are separated other than by columns with such names.
+/// Other ways to separate sessions than columns with such names.
 struct SessionClues {
   Clock clock;
   Nights nights;

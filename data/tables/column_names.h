@@ -8,7 +8,7 @@
 
 namespace errmap::data {
 
-/// The columns of a table, still without cells.
+/// The columns of a table, without cells yet.
 struct NamedColumns {
   std::vector<CsvColumn> columns;
   std::size_t num_named = 0;       // columns up to the last with a name

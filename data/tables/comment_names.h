@@ -15,9 +15,9 @@ struct CommentNames {
   std::size_t line = 0;            // of the file; 0: there are none
 };
 
-/// Returns the names in the nearest comment above a table that has as many as a
-/// row has cells ("# day;cycle;x_mm", "# columns: time;X"). Adds the units of a
-/// comment that has these.
+/// Returns the names in the nearest comment above a table with as many names as
+/// a row has cells ("# day;cycle;x_mm", "# columns: time;X"). Adds units if
+/// another comment has them.
 CommentNames FindNamesInComments(std::string_view above,
                                  char delimiter,
                                  const NumberColumns& columns);

@@ -24,21 +24,21 @@ struct CsvRecord {
   CsvCells::Position start;
 };
 
-/// More columns than any measurement has, to limit memory.
+/// Limit that bounds memory, above the number of columns of any measurement.
 inline constexpr std::size_t kMostCsvColumns = 1U << 16U;
 
-/// Returns the file's first rows from the cursor, which stays; skips comments
-/// and blank lines. Ends early if a quote is never closed, or after much text.
-/// Throws InputError if a row has more cells than kMostCsvColumns.
+/// Returns the file's first rows from the cursor, which does not move; skips
+/// comments and blank lines. Ends early if a quote is never closed, or after
+/// much text. Throws InputError if a row has more cells than kMostCsvColumns.
 std::vector<CsvRecord> FirstRecords(CsvCells cells);
 
-/// Returns the most frequent number of cells in these rows from `first` on, in
-/// a tie the later one. It is above 1 if a quarter of the rows have that many,
-/// and 1 if there are no rows.
+/// Returns the most frequent number of cells in these rows from `first` on; in
+/// a tie, the later one. A number above 1 is preferred if a quarter of the rows
+/// have it. 1 if there are no rows.
 std::size_t UsualWidth(const std::vector<CsvRecord>& records,
                        std::size_t first);
 
-/// Returns the dialect by which most rows at the cursor have the same number of
+/// Returns the dialect in which most rows at the cursor have the same number of
 /// cells, and most of their cells are numbers, times or empty.
 CsvDialect FindDialect(const CsvCells& cells);
 

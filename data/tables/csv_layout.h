@@ -24,9 +24,9 @@ struct CsvLayout {
 };
 
 /// Returns the layout of the table from the cursor, which is at the first row
-/// that is not a comment. The first row of the table is the first with numbers
-/// where most rows below have them. The names are in the nearest line above
-/// with as many cells, none of them a number there, else in such a comment,
+/// that is not a comment. The first row of the table is the first one with
+/// numbers where most rows below have numbers. The names are in the nearest
+/// line above with as many cells and no number there, else in such a comment,
 /// else there are none. Lines further up are titles. Units below the names are
 /// read later. `text_above` is the file's text up to the cursor.
 CsvLayout FindLayout(const CsvCells& cells,

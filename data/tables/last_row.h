@@ -23,7 +23,7 @@ bool HoldsRemarkAlone(const CsvTable& table, std::size_t cells);
 bool AreTotals(const CsvTable& table);
 /// For a row of words: true if it repeats these names; never if there are none.
 bool RepeatsNames(const CsvTable& table, std::span<const std::string> names);
-/// For a row of words: true if it has units.
+/// For a row of words: true if its cells are units.
 bool HasUnits(const CsvTable& table, std::size_t width);
 /// For a row of words with this many cells: true if they are in half of the
 /// columns that held numbers so far.

@@ -15,8 +15,8 @@ struct CellCounts {
   std::size_t words = 0;
 };
 
-/// The columns of a file's first records that hold numbers, and what a row has
-/// there. A number may follow a label that all cells of its column have
+/// Columns that hold numbers in a file's first records, and the content of a
+/// row there. A number may follow a label that all cells of its column have
 /// ("T1=21.4").
 class NumberColumns {
  public:
@@ -31,9 +31,9 @@ class NumberColumns {
 
   /// Counts over the columns of numbers.
   CellCounts CountsOf(const std::vector<std::string>& cells) const;
-  /// True if a line may be that of names: it has no number where the rows have
-  /// them. A separator at the rows' ends, or columns that no row reaches, may
-  /// make it shorter or longer by one.
+  /// True if a line may have the names: it has no number where the rows have
+  /// numbers. A separator at the rows' ends, or columns that no row reaches,
+  /// may make it shorter or longer by one.
   bool MayBeNames(const std::vector<std::string>& cells) const;
   /// True if a line has units for most columns of numbers.
   bool AreUnits(const std::vector<std::string>& cells) const;

@@ -9,8 +9,8 @@
 
 namespace errmap::data {
 
-/// The lines of a file that are not rows of its table: rows with another number
-/// of cells than the header, blank lines between rows, repeated names.
+/// Lines of a file that are not rows of its table: rows with another number of
+/// cells than the header, blank lines between rows, repeated names.
 class OddRowList {
  public:
   /// Records a line with this many cells; the table has `num_rows` rows so far.
@@ -28,8 +28,8 @@ class OddRowList {
   /// "2 rows are left out for another number of cells than the header's 3:
   /// line 8 has 2, line 9 has 4".
   std::string LeftOutText(const CsvLayout& layout) const;
-  /// Says what these lines are and what to do. `num_rows` is the number of
-  /// complete rows.
+  /// Returns a message on these lines and what to do. `num_rows` is the number
+  /// of complete rows.
   std::string RefusalText(const CsvLayout& layout,
                           std::size_t num_rows,
                           OddRows odd,

@@ -13,7 +13,7 @@
 namespace errmap::data {
 
 /// Adds rows to the columns of a table cell by cell, and removes cells that
-/// turn out not to be a row. End completes a row.
+/// turn out not to form a row. End completes a row.
 class RowBuilder {
  public:
   /// `table`, with its columns and without rows, must outlive this.
@@ -32,13 +32,13 @@ class RowBuilder {
   void AddText(std::size_t column, std::string_view text);
   /// Completes the row of these cells, which began on this line.
   void End(std::size_t line);
-  /// Removes the first `cells` of the row that was begun.
+  /// Removes the first `cells` cells of the unfinished row.
   void Undo(std::size_t cells);
 
   /// Returns true, and removes all rows, if they must be read again because
   /// columns have thousands separators.
   bool PartThousands();
-  /// Drops texts that only removed rows had.
+  /// Removes texts that only removed rows used.
   void DropTextsOfUndone();
 
  private:

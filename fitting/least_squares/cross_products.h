@@ -4,10 +4,10 @@
 
 namespace errmap::fitting {
 
-/// Sums over rows of the products of k columns and a response: least squares,
-/// ridge and lasso need nothing else. They can be added and subtracted, so one
-/// pass over the rows serves all folds. Columns should be near mean 0 and sd 1:
-/// digits that cancel in a variance are lost here.
+/// Sums over rows of the products of k columns and a response: all that least
+/// squares, ridge and lasso need. They can be added and subtracted, so one pass
+/// over the rows serves all folds. Columns should have mean near 0 and sd near
+/// 1: otherwise cancellation loses digits.
 struct CrossProducts {
   double weight = 0.0;           // sum of w
   VectorXd columns;              // (k) sum of w x
@@ -20,7 +20,7 @@ struct CrossProducts {
   CrossProducts& operator-=(const CrossProducts& other);
 };
 
-/// Sums over no rows.
+/// Returns sums over zero rows.
 CrossProducts NoRows(Index num_columns);
 
 /// Sums over the rows of `columns` (n x k) and `response` (n). `weights` (n)

@@ -17,8 +17,8 @@ struct ExtendedLeastSquaresFit {
   Index degrees_of_freedom = 0;  // n - p
   /// |R| |R^-1| (Frobenius) of the design with columns of unit length.
   double condition = 0.0;
-  /// False if the columns depend on each other to working precision: the
-  /// coefficients are then meaningless.
+  /// False if the columns are dependent to working precision. The coefficients
+  /// are then meaningless.
   bool full_rank = false;
 };
 

@@ -13,15 +13,15 @@ struct LeastSquaresFit {
   VectorXd coefficients;  // (p) 0 for aliased columns
   Index rank = 0;
   std::vector<Index> aliased;  // columns determined by earlier ones
-  /// Columns nearly determined by earlier ones but kept, since 106 bits tell
-  /// them apart. The solution is then computed in 106 bits.
+  /// Columns that earlier ones nearly determine, but that 106 bits distinguish,
+  /// so they are kept. The solution is then computed in 106 bits.
   std::vector<Index> nearly_aliased;
   double residual_sum_of_squares = 0.0;  // weighted
   /// Largest over smallest pivot of the scaled columns kept: a lower bound of
   /// their condition number, and usually close to it.
   double condition = 0.0;
   /// (p) of the coefficients, NaN if aliased. (0) unless requested, needed (53
-  /// bits lack the digits wanted) and affordable for the size of the design.
+  /// bits give too few digits) and affordable for the size of the design.
   VectorXd standard_deviations;
   int bits = 53;  // precision of the solution: 53 or 106
 };
@@ -32,7 +32,7 @@ struct ExtendedSystem {
   ExtendedVector response;
 };
 
-/// A leverage this near to 1 is 1: the row has a coefficient to itself.
+/// A leverage this close to 1 counts as 1: one coefficient fits this row alone.
 inline constexpr double kLeastSlack = 1e-9;
 
 /// Limit of rows times rank. A larger design, about half a second in 106 bits,
@@ -50,11 +50,11 @@ struct LeastSquaresOptions {
   /// show that double may give fewer, the solution is refined to all 15, with
   /// residuals in 106 bits. 0: as many digits as double gives.
   double digits = 0.0;
-  /// True to compute their standard deviations to the same digits, at many
-  /// times the cost. Changes nothing else.
+  /// True to compute standard deviations to the same digits, at many times the
+  /// cost. Changes nothing else.
   bool with_deviations = false;
-  /// Returns the unrounded numbers of design and response; null: the doubles
-  /// are exact. Called only if 106 bits are needed.
+  /// Returns design and response before rounding; null: the doubles are exact.
+  /// Called only if 106 bits are needed.
   std::function<ExtendedSystem()> exact = {};
   /// Length of the effect of data rounding on a `combination` (p) of the
   /// columns, weights included. A column that leaves at most 64 times that is
@@ -75,8 +75,8 @@ struct RegressionProblem {
   const MatrixXd& terms;     // (n x k), without the intercept
   const VectorXd& response;  // (n)
   const VectorXd& weights;   // (n) not negative, or (0): all equal
-  /// (n) the intercept's column if the rows are those of a triangle, not
-  /// observations; (0): ones; zeros: no intercept.
+  /// (n) the intercept's column, if the rows are those of a triangle and not
+  /// observations. (0): ones; zeros: no intercept.
   VectorXd intercept = {};
   double observations = 0.0;  // 0: number of rows with weight above 0
 
@@ -97,8 +97,8 @@ struct RegressionProblem {
 };
 
 /// Least squares by Householder QR on columns scaled to unit length, in the
-/// order given, never by normal equations. If digits require it, the solution
-/// is refined by Bjorck's iteration (BIT 7, 1967) with residuals in 106 bits.
+/// order given, without normal equations. If digits require it, the solution is
+/// refined by Bjorck's iteration (BIT 7, 1967) with residuals in 106 bits.
 /// Among dependent columns, the later ones are aliased: they get coefficient 0,
 /// are listed, and do not affect the solution.
 ///

@@ -7,7 +7,7 @@ namespace errmap::fitting {
 /// Orthonormal basis Q (n x k) and triangle R (k x k) of columns A = Q R that
 /// are added and removed one at a time.
 ///
-/// Gram-Schmidt done twice adds columns and keeps Q orthonormal to machine
+/// Gram-Schmidt, applied twice, adds columns and keeps Q orthonormal to machine
 /// precision ("twice is enough": Giraud, Langou and Rozloznik 2005). Givens
 /// rotations remove them (Golub and Van Loan, 6.5.2).
 class OrthogonalBasis {

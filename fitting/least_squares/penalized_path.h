@@ -32,9 +32,9 @@ class PenalizedPath {
                 const VectorXd& response,
                 const VectorXd& weights);
 
-  /// Returns descending strengths worth trying. Ridge: from 10 times a column's
-  /// variance down to the onset of rounding. Lasso: from the strength at which
-  /// all coefficients are 0 down to a share of it.
+  /// Returns a descending grid of useful strengths. Ridge: from 10 times a
+  /// column's variance down to the onset of rounding. Lasso: from the strength
+  /// at which all coefficients are 0 down to a share of it.
   std::vector<double> Grid() const;
 
   struct Solutions {
@@ -52,7 +52,7 @@ class PenalizedPath {
   Solutions Solve(const std::vector<double>& strengths) const;
 
   /// Takes one step of iterative refinement of a ridge solution for `strength`
-  /// > 0. The residuals e enter by the sums of w e and, (k), of w e x. Normal
+  /// > 0. The residuals e enter as the sums of w e and, (k), of w e x. Normal
   /// equations lose twice the digits that nearly dependent columns cost; this
   /// recovers half (Björck 1996, 2.9.3). Does nothing if the matrix is not
   /// positive definite at this strength.

@@ -67,14 +67,14 @@ struct RegressionDiagnostics {
 /// std::invalid_argument if shapes do not agree.
 RegressionDiagnostics Diagnose(const RegressionProblem& problem,
                                const LeastSquaresFit& solution);
-/// Returns the diagnostics of the solution by SolveLeastSquares.
+/// Solves with SolveLeastSquares and returns the diagnostics.
 RegressionDiagnostics Diagnose(const RegressionProblem& problem);
 
 /// Solves for the intercept's column and the terms, in this order.
 LeastSquaresFit SolveRegression(const RegressionProblem& problem,
                                 const LeastSquaresOptions& options = {});
 
-/// Diagnostics that need every row, computed in a separate pass.
+/// Diagnostics that need a separate pass over all rows.
 struct RowDiagnostics {
   double press = 0.0;  // sum of w (e / (1 - h))^2; infinite at leverage 1
   double largest_residual = 0.0;  // largest in size, with sign, not weighted
@@ -94,8 +94,7 @@ struct RowDiagnostics {
   }
 };
 
-/// How other columns determine a column: x = sum of weights x columns, if they
-/// do.
+/// A column as a weighted sum of others, if they determine it.
 struct AliasRelation {
   bool constant = false;  // the column does not vary
   /// Columns (of those given) that contribute, largest first; contributions are

@@ -6,8 +6,7 @@
 
 namespace errmap::fitting {
 
-/// State of an optimizer whose cost may rise: the current point and the best
-/// point so far.
+/// Current point and best point so far, for optimizers whose cost may rise.
 class BestPoint {
  public:
   BestPoint(const Objective& f,
@@ -42,7 +41,7 @@ class BestPoint {
     return MoveTo(&trial_, trial_cost, &trial_gradient_);
   }
 
-  /// Makes one iteration to a point already evaluated and feasible. Swaps its x
+  /// Moves to a feasible point already evaluated, as one iteration. Swaps its x
   /// and gradient with the current ones.
   bool MoveTo(VectorXd* at, double its_cost, VectorXd* slope) {
     x.swap(*at);

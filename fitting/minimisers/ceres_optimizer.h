@@ -37,14 +37,14 @@ struct CeresOptions {
   void Validate() const;
 };
 
-/// Ceres Solver for our objectives: on one thread, silent, and held to our
-/// StoppingRules by a GuardedRun; its own tolerances are switched off.
+/// Ceres Solver for our objectives: on one thread, without output, under our
+/// StoppingRules by a GuardedRun. Its own tolerances are switched off.
 /// Levenberg-Marquardt and dogleg steps use the residuals with their analytic
 /// Jacobian, and the ridge as further residuals sqrt(ridge) x_i. Each point
 /// they request is also evaluated as the objective; both evaluations are
 /// counted.
 ///
-/// Claims kGradient only if our own evaluation confirms it. If Ceres ends by
+/// Claims kGradient only if our own evaluation confirms it. If Ceres stops by
 /// itself, the summary says kNoDescent with Ceres' own text.
 class CeresOptimizer final : public Optimizer {
  public:

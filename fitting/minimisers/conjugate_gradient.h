@@ -19,10 +19,10 @@ struct ConjugateGradientOptions {
 /// Conjugate gradients of NISTIR 5367, section 6.5, without Moller's two
 /// additions: curvature by the difference quotient of Eq. 95, direction of Eq.
 /// 94, steepest descent every n steps. The report takes the step mu / delta
-/// (Eq. 90-91) unchecked, and has none if the curvature is not positive. Here
-/// it is the first trial of a line search for the strong Wolfe conditions, so
-/// the cost never rises. If no lower cost is found along a direction, it is
-/// replaced by steepest descent. Each trial evaluates cost and gradient.
+/// (Eq. 90-91) unchecked, and defines none if the curvature is not positive.
+/// Here it is the first trial of a line search for the strong Wolfe conditions,
+/// so the cost never rises. If the search finds no lower cost, steepest descent
+/// replaces the direction. Each trial evaluates cost and gradient.
 ///
 /// Ends like kMoller of ScaledConjugateGradient.
 class ConjugateGradient final : public Optimizer {

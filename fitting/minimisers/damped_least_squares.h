@@ -22,9 +22,8 @@ class DampedLeastSquares {
   /// True if cost and gradient are finite, so that steps may be computed.
   bool is_finite() const;
 
-  /// Called once the run accepts x: D grows by its columns. Until then D is
-  /// that of the starting point of the step, so both are measured in the same
-  /// way.
+  /// Called once the run accepts x: updates D by its columns. Until then D is
+  /// that of the step's starting point, so both points use the same metric.
   virtual void Settle() {}
 
   /// Computes the step (n) for a damping; false if rounding leaves none.
@@ -49,13 +48,13 @@ class DampedLeastSquares {
   double cost_ = 0.0;
 };
 
-/// Makes one that uses Householder QR. `scale` (n) is the D of kMarquardt, set
-/// by the first MoveTo, increased by Settle, and shared by the spaces of one
-/// run. Null for D = I.
+/// Creates the solver by Householder QR. `scale` (n) is the D of kMarquardt,
+/// set by the first MoveTo, increased by Settle, and shared by the spaces of
+/// one run. Null for D = I.
 std::unique_ptr<DampedLeastSquares> MakeParameterSpace(
     const ResidualFunction& residuals, std::shared_ptr<VectorXd> scale);
 
-/// Makes one that uses Cholesky factorisation of J J' + mu I; D = I.
+/// Creates the solver by Cholesky factorisation of J J' + mu I; D = I.
 std::unique_ptr<DampedLeastSquares> MakePatternSpace(
     const ResidualFunction& residuals);
 

@@ -43,7 +43,7 @@ struct TracePoint {
   double gradient_norm = 0.0;
 };
 
-/// Result of a minimisation. Until one has run, it says so.
+/// Result of a minimisation. By default it states that none has run.
 struct FitSummary {
   Termination termination = Termination::kFailed;
   std::string message = "not run";

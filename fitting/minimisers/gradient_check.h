@@ -26,9 +26,8 @@ struct GradientCheck {
 };
 
 /// Compares the gradient of `f` at x (n) with Ridders' derivatives for every
-/// parameter. The scale of each is max(|numeric|, 1e-6 times the largest
-/// gradient component), since a component near zero cannot be judged by its own
-/// size.
+/// parameter. Errors are relative to max(|numeric|, 1e-6 times the largest
+/// gradient component), since a component near zero gives no useful scale.
 GradientCheck CheckGradient(const Objective& f,
                             const VectorXd& x,
                             double step = 0.1);

@@ -20,11 +20,11 @@ struct GradientDescentOptions {
 /// Steepest descent at a constant rate with momentum, the usual "back
 /// propagation" (NISTIR 5367, section 6.4): x += -eta g + alpha (last step).
 /// Included to show why the report abandoned it. The cost may rise; the result
-/// is the best point seen.
+/// is the best point found.
 ///
 /// Ends like ScaledConjugateGradient. Ends with kNoDescent if the steps leave
-/// the region where the objective is finite. Also if the gradient is small at a
-/// point that is not the best seen.
+/// the region where the objective is finite, or if the gradient is small at a
+/// point that is not the best found.
 class GradientDescent final : public Optimizer {
  public:
   /// Throws std::invalid_argument if an option is out of range.

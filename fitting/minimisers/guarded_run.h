@@ -8,20 +8,20 @@
 
 namespace errmap::fitting {
 
-/// Stands between a foreign solver and an objective: every solver then obeys
-/// the limits and goals of our own, and reports in the same terms.
+/// Stands between a third-party solver and an objective. So every solver obeys
+/// the same limits and goals as ours, and reports in the same terms.
 ///
 /// Each new point is one evaluation of value and gradient; a repeated request
 /// for the last point is answered from memory. Limits are checked before each
-/// evaluation, goals after it. The best point is kept: the lowest cost, among
-/// equal ones the smaller gradient. Exceptions never pass through the solver:
-/// one from the objective ends the run, with its text. `Finish` rethrows
-/// std::bad_alloc. An iteration is a solver iteration that found a better
-/// point.
+/// evaluation, goals after it. The best point is the one of lowest cost, or of
+/// smaller gradient if costs are equal. Exceptions never pass through the
+/// solver: one from the objective ends the run, and the summary has its text.
+/// `Finish` rethrows std::bad_alloc. Only solver iterations that find a better
+/// point are counted.
 class GuardedRun {
  public:
   /// The run ends after more than `patience` requests in a row without a better
-  /// point, since some solvers never notice. All three references must outlive
+  /// point, since some solvers never stop. All three references must outlive
   /// this object.
   GuardedRun(const Objective& f,
              const StoppingRules& rules,
@@ -31,12 +31,12 @@ class GuardedRun {
   /// Evaluates the start. Returns false if the run ends there.
   bool Start(const VectorXd& x0);
 
-  /// Evaluates value and gradient at x (n numbers). Returns false if there are
-  /// none: x is infeasible, or the run has ended and the solver must stop.
+  /// Evaluates value and gradient at x (n numbers). Returns false if x is
+  /// infeasible, or if the run has ended and the solver must stop.
   bool Evaluate(const double* x);
 
-  /// Counts one more evaluation, of residuals, besides that of Evaluate.
-  /// Returns false if the limits forbid it; the run has then ended.
+  /// Counts an evaluation of residuals in addition to that of Evaluate. Returns
+  /// false if the limits forbid it; the run has then ended.
   bool Spend();
 
   /// Value and gradient of the last Evaluate that returned true, or of the
@@ -51,11 +51,11 @@ class GuardedRun {
   /// Ends an iteration of the solver; it counts if it found a better point.
   void EndIteration();
 
-  /// Ends the run, unless it has ended, by the exception being handled: an
-  /// exception of the solver.
+  /// Call in a catch block: ends the run, unless it has ended, with the
+  /// solver's exception.
   void Fail() noexcept;
 
-  /// Returns the best point. If the solver gave up by itself, the summary says
+  /// Returns the best point. If the solver stopped by itself, the summary says
   /// kNoDescent with `solver_text`. Throws std::bad_alloc if the run ran out of
   /// memory.
   Minimum Finish(const std::string& solver_text);

@@ -6,7 +6,7 @@
 
 namespace errmap::fitting {
 
-/// Metric D of the damping term lambda |D p|^2.
+/// Scaling D of the damping term lambda |D p|^2.
 enum class LmScaling {
   kNone,  // D = I
   // D_j = the largest |J_j| of the points accepted so far (More 1978), 1 if
@@ -24,17 +24,18 @@ enum class LmSpace {
 struct LevenbergMarquardtOptions {
   StoppingRules stopping = {.iterations = 200};
   /// The first lambda is this times the mean of (|J_j| / D_j)^2 over the
-  /// parameters; above 0. Of 1e-3, 1e-2 and 0.1 it took the fewest trials on
-  /// nets of 2341 weights. For curve fits from poor starts 1 to 100 is safer.
+  /// parameters; above 0. Compared with 1e-3 and 0.1, the default needed the
+  /// fewest trials on nets of 2341 weights. For curve fits from poor starts, 1
+  /// to 100 is safer.
   double initial_damping = 1e-2;
   /// kMarquardt makes the iterations independent of the parameters' units.
   LmScaling scaling = LmScaling::kNone;
   /// Ends, without claiming a minimum, if |D p| <= this |D x|. At least 0; at 0
   /// it ends only when x + p == x.
   double step_tolerance = 0.0;
-  /// Costs that differ by less than this, relative, are not distinguished by
-  /// their values alone; in [0, 1). A cost that is a sum of squared differences
-  /// of large numbers has few digits; the gradient at a minimum has many.
+  /// Relative difference below which costs are not compared by value alone; in
+  /// [0, 1). A sum of squared differences of large numbers has few correct
+  /// digits; the gradient at a minimum has many.
   double cost_resolution = 1e-10;
   LmSpace space = LmSpace::kAuto;
 
@@ -46,20 +47,18 @@ struct LevenbergMarquardtOptions {
 /// Levenberg-Marquardt for f = 1/2 |r|^2 + 1/2 c |x|^2 in residual form, with J
 /// the Jacobian of r and g = J'r + c x. The step p minimises
 ///
-///   1/2 |r + J p|^2 + 1/2 c |x + p|^2 + 1/2 lambda |D p|^2,
+///   1/2 |r + J p|^2 + 1/2 c |x + p|^2 + 1/2 lambda |D p|^2.
 ///
-/// whose first two terms fall by predicted = 1/2 p'(lambda D^2 p - g). With
-/// rho = (f(x) - f(x + p)) / predicted, p is accepted if rho > 1e-4; then
-/// lambda *= max(1/3, 1 - (2 rho - 1)^3), nu = 2. If not, or if f(x + p) or
-/// the gradient there is not finite, lambda *= nu, nu *= 2 (Nielsen 1999,
-/// IMM-REP-1999-05).
+/// The first two terms fall by predicted = 1/2 p'(lambda D^2 p - g). With rho =
+/// (f(x) - f(x + p)) / predicted, p is accepted if rho > 1e-4; then lambda *=
+/// max(1/3, 1 - (2 rho - 1)^3), nu = 2. If not, or if f(x + p) or the gradient
+/// there is not finite, lambda *= nu, nu *= 2 (Nielsen 1999, IMM-REP-1999-05).
 ///
 /// If predicted <= cost_resolution f, differences of costs are mostly rounding.
 /// p is then accepted if the cost falls as above by more than rounding, or
-/// changes by at most cost_resolution f while
-/// e = g'(J'J + c I + lambda D^2)^-1 g falls; lambda /= 3 if e falls below a
-/// quarter. This turns the 8 digits that costs can give into those of the
-/// gradient.
+/// changes by at most cost_resolution f while e = g'(J'J + c I + lambda D^2)^-1
+/// g falls; lambda /= 3 if e falls below a quarter. Costs alone give 8 digits;
+/// this gives the digits of the gradient.
 ///
 /// In pattern space, with mu = c + lambda,
 ///   (J J' + mu I) u = -(r - (c / mu) J x),  p = -(c / mu) x + J'u,
@@ -77,9 +76,10 @@ struct LevenbergMarquardtOptions {
 /// falls in ten trials. It then ends with kResolution if the cost shows a
 /// minimum (cost_resolution.h), else with kNoDescent. Also ends at the limits
 /// and goals of StoppingRules. If residual form and objective give different
-/// costs at x0, it ends with kFailed. Later it ends with kNoDescent, at the end
-/// or at x0, whichever has the lower objective. Final cost and gradient are the
-/// objective's own, evaluated again at the end.
+/// costs at x0, it ends with kFailed. If they differ later, it ends with
+/// kNoDescent, at the last point or at x0, whichever has the lower objective.
+/// Final cost and gradient are those of the objective, evaluated again at the
+/// end.
 class LevenbergMarquardt final : public Optimizer {
  public:
   /// Throws std::invalid_argument if an option is out of range.

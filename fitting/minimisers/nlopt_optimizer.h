@@ -44,14 +44,14 @@ struct NloptOptions {
   void Validate() const;
 };
 
-/// NLopt for our objectives, held to our StoppingRules by a GuardedRun; its own
-/// tolerances are switched off. Methods without derivatives get none, but the
-/// gradient is still evaluated with each value, so their minimum is judged like
-/// any other.
+/// NLopt for our objectives, under our StoppingRules by a GuardedRun. Its own
+/// tolerances are switched off. Derivative-free methods get none, but the
+/// gradient is still evaluated with each value, so their minimum is checked
+/// like any other.
 ///
 /// Claims kGradient only if our own evaluation confirms it. If NLopt ends by
-/// itself (also by round-off or failure), the best point seen is kept and the
-/// summary says kNoDescent with NLopt's own words.
+/// itself (also by round-off or failure), the result is the best point found,
+/// and the summary says kNoDescent with NLopt's own text.
 class NloptOptimizer final : public Optimizer {
  public:
   /// Maximum number of parameters that crs2_lm searches.

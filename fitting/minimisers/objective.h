@@ -9,8 +9,8 @@ namespace errmap::fitting {
 template <typename Scalar>
 using VectorOf = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
-/// A point x of an objective that moves along directions p. It keeps what both
-/// ends of a step share (a net: its pre-activations). Made by
+/// A point x of an objective that moves along directions p. It reuses values
+/// that both ends of a step share (a net: its pre-activations). Made by
 /// BasicObjective::NewPath; the objective must outlive it.
 template <typename Scalar>
 class Path {
@@ -20,8 +20,8 @@ class Path {
   virtual void SetDirection(const VectorOf<Scalar>& p) = 0;
   /// Returns p'Hp at x, H the Hessian; not finite if f is not.
   virtual Scalar Curvature() = 0;
-  /// Number of gradients of f that one Curvature evaluates; it is counted as
-  /// these. 0: it needs none and is counted as a curvature evaluation.
+  /// Number of gradient evaluations in one Curvature. It counts as that many,
+  /// or as one curvature evaluation if 0.
   virtual int gradients_per_curvature() const { return 0; }
   /// Returns f(x + a p); not finite if x + a p is infeasible.
   virtual Scalar Value(Scalar a) = 0;
@@ -72,7 +72,7 @@ class BasicObjective {
   virtual ~BasicObjective() = default;
   virtual Index num_parameters() const = 0;
   /// Returns f(x); fills `gradient` (n) unless null. A non-finite value marks x
-  /// infeasible: the optimizer shortens its step, nothing throws.
+  /// as infeasible: the optimizer then shortens its step and does not throw.
   virtual Scalar Evaluate(const Vector& x, Vector* gradient) const = 0;
   /// Returns a path that starts at x. The default uses Evaluate and computes
   /// curvature from a difference of gradients.

@@ -23,12 +23,12 @@ struct StoppingRules {
   /// Stop when RmsError(f) < this (egoal); at least 0, and 0 never stops.
   double cost_goal = 0.0;
   /// Stop when |g| < this * max(1, |x|) (gwgoal); at least 0. The default is
-  /// the report's: it stops only at a true minimum.
+  /// that of the report: it stops only at a true minimum.
   double gradient_goal = 1e-12;
   /// Every `progress_interval` accepted steps (nfreq, at least 1), stop when
   /// RmsError(f) > this * its value at the last check (errdel). Above 0;
   /// infinity never stops. At 1, as in the report, only growth stops. A value v
-  /// below 0 must fall likewise by (1 - this) |v|.
+  /// below 0 must fall by (1 - this) |v|.
   double slow_ratio = std::numeric_limits<double>::infinity();
   std::int64_t progress_interval = 1;
 
@@ -44,7 +44,7 @@ struct Iterate {
   const VectorXd& x;  // (n) valid only during the call
 };
 
-/// Surroundings of a run that do not change its mathematics.
+/// Control of a run that does not change its mathematics.
 struct RunControl {
   const std::atomic<bool>* stop = nullptr;  // set from outside to interrupt
   bool keep_trace = false;

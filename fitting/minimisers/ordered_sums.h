@@ -6,8 +6,8 @@
 
 namespace errmap::fitting {
 
-/// Returns x'y summed one by one, like SDOT in NISTIR 5367, Appendix A: in
-/// single precision, roundings decide which path its program takes.
+/// Returns x'y, summed term by term like SDOT in NISTIR 5367, Appendix A. In
+/// single precision, rounding decides which path that program takes.
 template <typename Scalar>
 Scalar OrderedDot(const VectorOf<Scalar>& x, const VectorOf<Scalar>& y) {
   Scalar sum = 0;
@@ -15,8 +15,8 @@ Scalar OrderedDot(const VectorOf<Scalar>& x, const VectorOf<Scalar>& y) {
   return sum;
 }
 
-/// Returns |x| like its SNRM2: scaled while all elements so far are so small
-/// that their squares would underflow, then summed one by one.
+/// Returns |x| like its SNRM2: scaled as long as squares would underflow, then
+/// summed term by term.
 template <typename Scalar>
 Scalar OrderedNorm(const VectorOf<Scalar>& x) {
   constexpr Scalar kSmall = Scalar(4.441e-16);

@@ -13,8 +13,8 @@
 
 namespace errmap::fitting {
 
-/// Bookkeeping common to every iterative optimizer: limits, goals, time and
-/// trace of its iterations, and the summary that reports them.
+/// Bookkeeping for every iterative optimizer: limits, goals, time, trace and
+/// summary.
 class RunMonitor {
  public:
   RunMonitor(const StoppingRules& rules, const RunControl& run)
@@ -64,9 +64,8 @@ class RunMonitor {
     }
   }
 
-  /// Ends the run if a limit forbids another pass of at most `needed`
-  /// evaluations after `evaluations`. Called before each pass, so that limits
-  /// always hold.
+  /// Ends the run if `evaluations` plus another `needed` would exceed a limit.
+  /// Called before each pass, so that limits always hold.
   bool StopAtLimit(std::int64_t evaluations, std::int64_t needed) {
     const auto limit = Exhausted(evaluations, needed);
     if (!limit) return false;

@@ -46,15 +46,15 @@ struct ScaledConjugateGradientOptions {
 /// Moller's scaled conjugate gradients (Neural Networks 6, 1993; NISTIR 5367,
 /// section 6.5). Each pass models f along a direction p by a parabola of
 /// curvature p'Hp + lambda |p|^2 and tries its minimum. It then adjusts lambda
-/// by how well the parabola predicted the cost.
+/// to the accuracy of that prediction.
 ///
 /// kMoller works on a Path of the objective. It needs a curvature for each
 /// direction, a value for each pass and a gradient for each accepted step. The
 /// first failure after a success needs another value. Six failures in a row
 /// restart it from steepest descent; 61 along steepest descent end it. A step
 /// to a non-finite cost or gradient is a failure; a quarter of it is tried
-/// next. Before it ends, cost and gradient are recomputed at the result. A goal
-/// that this does not confirm does not end the run.
+/// next. Before it ends, it recomputes cost and gradient. A goal that this does
+/// not confirm does not end the run.
 ///
 /// kNetcg takes curvature from a difference of gradients over sigma |w| /
 /// |p|. It multiplies lambda by 4 after a failure, by 16 after a poor

@@ -12,8 +12,8 @@
 
 namespace errmap::fitting {
 
-/// One run of ScgVariant::kMoller. Members carry the symbols of section 6.5,
-/// equations are its own.
+/// One run of ScgVariant::kMoller. Members have the symbols of section 6.5;
+/// equation numbers refer to it.
 template <typename Scalar>
 class MollerRun {
  public:

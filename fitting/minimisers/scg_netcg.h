@@ -9,9 +9,9 @@
 
 namespace errmap::fitting {
 
-/// One run of ScgVariant::kNetcg. Members carry the symbols of section 6.5,
-/// steps are numbered as there. Scalars are kept in the precision of the
-/// vectors, as the program does.
+/// One run of ScgVariant::kNetcg. Members have the symbols, and steps the
+/// numbers, of section 6.5. Scalars are kept in the precision of the vectors,
+/// as the program does.
 template <typename Scalar>
 class NetcgRun {
  public:

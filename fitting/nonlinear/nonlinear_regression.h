@@ -17,7 +17,7 @@ class RegressionFunction {
   virtual ~RegressionFunction() = default;
   virtual Index num_parameters() const = 0;
   virtual Index num_observations() const = 0;
-  /// Indices of parameters in which f is jointly linear while the others are
+  /// Indices of parameters in which f is jointly linear if the others are
   /// fixed.
   virtual std::vector<Index> linear_parameters() const { return {}; }
   /// Fills `residuals` (n) and, unless null, `jacobian` (n x p), dr_i/db_j.
@@ -149,8 +149,8 @@ struct PolishedParameters {
 
 /// Takes Gauss-Newton steps from `b` (p) in 106 bits, each halved until it
 /// lowers the sum of squares. This gains digits that a minimiser in double
-/// cannot see, for which the sum is flat within the root of the rounding unit.
-/// Ends if no step lowers the sum, or if J is rank deficient.
+/// cannot reach, since there the sum is flat within the root of the rounding
+/// unit. Ends if no step lowers the sum, or if J is rank deficient.
 PolishedParameters PolishRegression(const RegressionFunction& function,
                                     const ExtendedVector& b);
 
@@ -162,8 +162,8 @@ struct RegressionFit {
 /// Minimises `function` from `start` (p) by Levenberg-Marquardt with several
 /// strategies: scalings, first dampings, and the ProjectedObjective if there
 /// are linear parameters. Polishes the result with the lowest sum of squares.
-/// Every strategy is always run: a curved valley may stop one but not the next.
-/// Ends with kGradient if polishing has converged, else as the best run did.
+/// Every strategy always runs, since a curved valley may stop one but not the
+/// next. Ends with kGradient if polishing converged, else as the best run did.
 /// Throws std::invalid_argument as Optimizer::Minimize does.
 RegressionFit FitNonlinearRegression(const RegressionFunction& function,
                                      const VectorXd& start,

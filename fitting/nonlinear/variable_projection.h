@@ -7,14 +7,14 @@
 
 namespace errmap::fitting {
 
-/// A regression with its conditionally linear parameters c eliminated: for
-/// given others, a, they are the least squares solution, so that
+/// A regression without its conditionally linear parameters c. For given other
+/// parameters a, c is the least squares solution, so that
 ///
 ///   f(a) = min over c of 1/2 |r(a, c)|^2
 ///
 /// (Golub & Pereyra, SIAM J. Numer. Anal. 10, 1973). The Jacobian is Kaufman's
 /// (BIT 15, 1975): that of r in a, projected onto the complement of the columns
-/// of c. Its J'r is the exact gradient. A bad guess of c does no harm.
+/// of c. Its J'r is the exact gradient. The initial guess of c does not matter.
 /// `function` must outlive it.
 class ProjectedObjective final : public Objective, private ResidualFunction {
  public:

@@ -34,9 +34,9 @@ struct BestSubsetResult {
 /// Returns the best subset of the candidates by `options.criterion` among all
 /// 2^m, with `include` always in. Uses branch and bound over a tree of
 /// triangles from which columns are dropped (Furnival and Wilson 1974; Gatu and
-/// Kontoghiorghes 2006). A branch is cut if even the fit of all its columns,
-/// penalised as its fewest, does not beat the best so far. Practical up to
-/// about 40 candidates.
+/// Kontoghiorghes 2006). A branch is cut if its lower bound does not beat the
+/// best so far: the fit of all its columns with the penalty of the fewest.
+/// Practical up to about 40 candidates.
 ///
 /// Throws std::invalid_argument for bad shapes or options, or if `include` has
 /// more terms than rows.

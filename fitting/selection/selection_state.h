@@ -30,8 +30,8 @@ struct SelectionMove {
 
 /// The chosen terms with an orthonormal basis of their span. For every
 /// candidate it keeps the part z orthogonal to that span: the squared length
-/// z'z and the product with the response z'y. Both are downdated by X'q when a
-/// unit vector q joins, never recomputed; each carries a bound of its rounding
+/// z'z and the product with the response z'y. When a unit vector q joins, both
+/// are updated by X'q and not recomputed. Each has a bound of its rounding
 /// error. A candidate is orthogonalised again if that bound could change which
 /// one is best. A step costs one pass X'q.
 class SelectionState {
@@ -47,7 +47,7 @@ class SelectionState {
   const VectorXd& residual() const { return residual_; }
   /// Diagonal of the hat matrix (n).
   const VectorXd& leverage() const { return leverage_; }
-  /// Residual sums of squares below this are rounding.
+  /// Residual sums of squares below this are only rounding.
   double noise() const { return noise_; }
 
   /// Returns the best entry among candidates with `open` true; ties go to the

@@ -22,7 +22,7 @@ struct StepwiseOptions {
   /// Stops when the best move does not lower this (p: is not significant);
   /// kNone: when no move is left.
   Criterion stop = Criterion::kBic;
-  /// Chooses the lowest of the models passed through (p and kNone: the last).
+  /// Chooses the model of lowest value among all steps (p and kNone: the last).
   Criterion choose = Criterion::kBic;
   /// p: a term enters if p <= enter and leaves if p > remove. 0 <
   /// enter <= remove < 1; otherwise a term could enter and leave
@@ -107,11 +107,11 @@ struct ExcludedTerm {
 };
 
 /// Returns every candidate that is not in `chosen`, in column order, with its
-/// partial F if it entered now. Returns those judged so far if interrupted.
+/// partial F if it entered now. If interrupted, returns those tested so far.
 std::vector<ExcludedTerm> JudgeExcluded(const RegressionProblem& problem,
                                         const std::vector<Index>& chosen);
 
-/// Returns the sum of squared errors over the judged folds (FoldCodes). Each is
+/// Returns the sum of squared errors over the tested folds (FoldCodes). Each is
 /// predicted by the terms in `design` (n x k, with intercept and weights).
 double CrossValidatedError(const MatrixXd& design,
                            const VectorXd& response,

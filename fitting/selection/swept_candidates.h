@@ -8,8 +8,8 @@
 namespace errmap::fitting {
 
 /// Every candidate with the chosen terms swept out, stored as a matrix (n x m).
-/// For criteria that need the rows of each candidate, such as PRESS and
-/// cross-validation; two numbers per candidate do not suffice.
+/// For criteria that need all rows of each candidate, such as PRESS and
+/// cross-validation.
 class SweptCandidates {
  public:
   /// `fitted` (n): true for rows to fit. `held_out` (n): true for rows, none of
@@ -22,13 +22,14 @@ class SweptCandidates {
   void Follow(const std::vector<Index>& chosen);
 
   /// Returns PRESS, the sum over rows of (e / (1 - h))^2, after entry of each
-  /// candidate. Infinite if a leverage is 1, for those determined by the chosen
-  /// terms and those not `open`. All rows must be fitted.
+  /// candidate. Infinite if a leverage is 1, if the chosen terms determine the
+  /// candidate, or if it is not `open`. All rows must be fitted.
   VectorXd PressAfterEntry(const VectorXd& leverage,
                            const std::vector<bool>& open) const;
 
   /// Returns the squared error on the held-out rows after entry of each
-  /// candidate in `open`. One determined on the fitted rows adds nothing.
+  /// candidate in `open`. A candidate that the chosen terms determine on the
+  /// fitted rows adds nothing.
   VectorXd HeldOutErrorAfterEntry(const std::vector<bool>& open) const;
 
  private:

@@ -14,10 +14,10 @@ namespace errmap::models {
 /// hold-outs of the training rows only. Unless an input only grows, these
 /// weights are averaged with those of a blend of straight lines. The power p is
 /// the number of groups held out, at most 8 (the likelihood, if each were one
-/// error), or the number of sessions minus one (3 to 7). To choose one of
-/// several near-equals is a gamble; to average them is not.
+/// error), or the number of sessions minus one (3 to 7). Averaging several
+/// near-equal maps is safer than choosing one.
 struct BlendOptions {
-  /// Adds NetInViews in its views, unless an input only grows. Its figures
+  /// Adds NetInViews in its views, unless an input only grows. Results then
   /// depend on the processor.
   bool net = false;
   /// Averages gain from different views, so the default is view=auto.

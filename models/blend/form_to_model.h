@@ -7,9 +7,9 @@
 
 namespace errmap::models {
 
-/// Returns the model of a form read from a file. `parameters` of a polynomial
-/// tells whether its intercept is one. Throws std::invalid_argument if the form
-/// is inconsistent.
+/// Returns the model of a form read from a file. For a polynomial, `parameters`
+/// shows whether the intercept was fitted. Throws std::invalid_argument if the
+/// form is inconsistent.
 std::shared_ptr<const ErrorModel> ModelOfForm(ModelDescription form,
                                               Index parameters);
 

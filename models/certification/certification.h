@@ -30,19 +30,19 @@ struct NonlinearCertificate {
   std::string stop = {};  // fitting::ToString of the termination
   bool claims_minimum = false;
   std::string message = {};  // the solver's message or its exception's text
-  /// Why a claimed minimum may differ from the certified one; empty: it may
-  /// not.
+  /// The reason, if a claimed minimum may differ from the certified one; else
+  /// empty.
   std::string other_minimum = {};
   std::vector<CertifiedEstimate> estimates = {};
   double rss = 0.0;
 };
 
-/// All runs of one solver, with its floors. Solved means lre_parameters above
-/// 4.
+/// All runs of one solver, with its floors. A problem is solved if
+/// lre_parameters is above 4.
 struct SolverCertificate {
   std::string solver;
-  /// The models that this solver fits in the commands, such as "net:scg" for
-  /// "scg:moller"; empty for the default solver.
+  /// Models that this solver fits, such as "net:scg" for "scg:moller"; empty
+  /// for the default solver.
   std::optional<std::string> fits = {};
   int runs = 0;
   int solved = 0;
@@ -75,8 +75,8 @@ struct UnivariateCertificate {
   double sd = 0.0;
   double autocorrelation = 0.0;  // at lag 1
   double condition = 0.0;        // sqrt(1 + (mean / sd)^2)
-  /// Precision of the values above: 53 if double data hold the digits, 106 if
-  /// the condition requires the decimal text.
+  /// Precision of the values above: 53 if doubles suffice, 106 if the condition
+  /// requires the decimal text.
   int bits = 0;
   /// The same from double data, whatever the condition: compare uses these.
   double lre_mean_double = 0.0;
@@ -101,8 +101,8 @@ struct AgreementCertificate {
 };
 
 /// The default solver's name: Levenberg-Marquardt with its fallbacks and polish
-/// (fitting::FitNonlinearRegression). Only the library has it: the commands fit
-/// nets, with the other solvers.
+/// (fitting::FitNonlinearRegression). Only the library uses it: the commands
+/// fit nets with the other solvers.
 inline constexpr const char* kDefaultSolver = "lm";
 
 /// The floors for an installation: LRE are minima, errors are maxima. Floors of
@@ -121,7 +121,7 @@ struct CertificationFloors {
   double univariate_lre = 13.0;
   /// A double keeps 8 digits of 0.1 added to 10000000.
   double univariate_lre_sd_numacc4 = 8.0;
-  /// For the values from plain double data: the mean; sd and autocorrelation.
+  /// Floors for plain double data: the mean; sd and autocorrelation.
   double univariate_double_lre_mean = 13.0;
   double univariate_double_lre = 8.0;
   double gradient_relative_error = 1e-6;
@@ -129,7 +129,7 @@ struct CertificationFloors {
 
 /// All results; the member names of these structs are their keys in JSON.
 struct Certification {
-  /// One line in words for each floor that was missed.
+  /// One sentence for each floor that was missed.
   std::vector<std::string> missed;
   std::vector<NonlinearCertificate> nonlinear;
   std::vector<SolverCertificate> nonlinear_summary;
@@ -154,10 +154,10 @@ void CertifyAgreement(Certification* certification);
 
 /// Adds a row: the gradient of `f` at x (n) against Ridders extrapolation.
 /// Checks the Jacobian of its residuals, if any, along random combinations.
-/// Components are multiplied by their parameter's size; those below 1e-3 of the
-/// largest are judged by that limit. `gradient_size`: the largest component at
-/// a typical point, for use at a minimum, where the gradient vanishes; 0: the
-/// largest at x.
+/// Components are multiplied by their parameter's size. Errors are relative to
+/// each component, or to 1e-3 of the largest if that is more. `gradient_size`:
+/// the largest component at a typical point, for use at a minimum, where the
+/// gradient vanishes; 0: the largest at x.
 void CertifyGradient(const std::string& name,
                      const fitting::Objective& f,
                      const VectorXd& x,

@@ -9,9 +9,9 @@
 
 namespace errmap::models {
 
-/// What a minimiser must reach. The floors fit its method, and lie slightly
-/// below what it once reached, since its path depends on the processor's
-/// rounding. measured.md has both.
+/// Accuracy that a minimiser must reach. Floors lie slightly below the measured
+/// accuracy, since the path depends on the processor's rounding. measured.md
+/// has both.
 struct SolverFloors {
   int solved = 0;                      // of the runs on NIST's problems
   double mean_lre_parameters = 0.0;    // over these runs
@@ -27,14 +27,14 @@ struct CertifiedSolver {
       make;
   SolverFloors floors;
   bool needs_residuals = false;  // accepts only objectives in residual form
-  /// Runs on NIST's problems. A fixed learning rate does not suit parameters
-  /// whose sizes differ by powers of ten.
+  /// Whether it runs on NIST's problems. A fixed learning rate does not suit
+  /// parameters whose sizes differ by powers of ten.
   bool fits_formulas = true;
-  /// Runs on nets too; minimisers without derivatives do not.
+  /// Whether it runs on nets; derivative-free minimisers do not.
   bool fits_nets = true;
 };
 
-/// Every minimiser of this program; to add one, add one line.
+/// Returns every minimiser of this program; to add one, add one line.
 const std::vector<CertifiedSolver>& CertifiedSolvers();
 
 }  // namespace errmap::models

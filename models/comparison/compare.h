@@ -14,8 +14,8 @@
 
 namespace errmap::models {
 
-/// How maps are compared. Empty options are chosen as `errmap compare` chooses
-/// them.
+/// Options of a comparison. For empty ones, the defaults of `errmap compare`
+/// apply.
 struct ComparisonOptions {
   std::vector<std::string> holdouts = {};  // SPECs; empty: DefaultHoldouts
   std::vector<std::string> models = {};    // SPECs; empty: all that suit
@@ -30,7 +30,7 @@ struct ComparisonOptions {
 };
 
 /// Runs the whole study of one component, as `errmap compare FILE` does. Reads
-/// the CSV file, holds rows out, fits every model, judges them, and adds the
+/// the CSV file, holds out rows, fits and judges every model, and adds the
 /// predicted errors to the maps. The component has the file's name without its
 /// extension. MakeComponentRecord or report::MakeRecord turns it into
 /// results.json. Throws data::InputError if the data cannot be used,
@@ -40,14 +40,14 @@ ComponentStudy CompareMaps(const std::string& file,
                            const ComparisonOptions& options);
 
 /// Runs the study for measurements in memory; a caller may add recipes. The
-/// data set's source becomes the component's name. A map may be tested on a
-/// file (`file:TEST.csv`) that has the data set's columns.
+/// data set's source becomes the component's name. A hold-out `file:TEST.csv`
+/// needs the data set's columns.
 ComponentStudy CompareMaps(const data::Dataset& dataset,
                            const ComparisonOptions& options,
                            OwnRecipes own = {});
 
-/// Returns a selection that reads other rows for judging only. They have the
-/// columns of `like` (target, inputs, groups); the rest is as in `selection`.
+/// Returns a selection for reading test rows. It takes the columns (target,
+/// inputs, groups) of `like`, and all else from `selection`.
 data::DatasetSelection SelectionLike(const data::Dataset& like,
                                      data::DatasetSelection selection);
 

@@ -26,14 +26,14 @@ struct ComponentPlan {
 /// The caller's own recipes in a study.
 struct OwnRecipes {
   std::vector<std::unique_ptr<ModelRecipe>> recipes = {};
-  /// True: they join the default models if no SPECs are given.
+  /// True: if no SPECs are given, they are added to the default models.
   bool beside_defaults = false;
 };
 
 /// Plans the fits of a component that has its data and hold-outs. The models
-/// are those of `specs` and `own`, or if there are none all that suit the data,
-/// and the baselines that any map must beat. `left_out` (may be null) receives
-/// one line for each default model that does not suit, with the reason. Throws
+/// are those of `specs` and `own`, or by default all that suit the data, and
+/// the baselines that any map must beat. `left_out` (may be null) receives one
+/// line for each unsuitable default model, with the reason. Throws
 /// std::invalid_argument if a SPEC is wrong, data::InputError naming the
 /// component's file if a fold trains on fewer than two rows.
 ComponentPlan PlanModels(ComponentStudy component,
@@ -43,8 +43,8 @@ ComponentPlan PlanModels(ComponentStudy component,
 
 /// Fits the planned models, judges them and adds the predicted errors to the
 /// maps. For the recommended map, also finds the sensors that it needs and the
-/// value of another session. The results go into plan->comparison; if
-/// options.stop ended the run, those finished by then. Keeps the maps fitted to
+/// value of another session. The results go into plan->comparison. If
+/// options.stop ended the run, only finished ones do. Keeps the maps fitted to
 /// folds (FoldResult::map) if `keep_fold_maps` is set.
 void RunComponent(ComponentPlan* plan,
                   StudyOptions options,

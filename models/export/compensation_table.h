@@ -11,7 +11,7 @@
 
 namespace errmap::models {
 
-/// The largest number of points that LinuxCNC holds for a joint.
+/// Largest number of points that LinuxCNC accepts for a joint.
 inline constexpr int kMostCompPoints = 256;
 
 struct CompFileOptions {

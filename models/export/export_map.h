@@ -9,7 +9,7 @@
 
 namespace errmap::models {
 
-/// A map ready to be written, and how far its program deviates from it.
+/// A map ready to be written, and the deviation of its program from it.
 struct MapExport {
   std::string name;  // a safe identifier
   Precision precision = Precision::kDouble;
@@ -20,8 +20,8 @@ struct MapExport {
   Deviations deviations = {};          // from the map
 
   /// Largest deviation allowed in a file's self-test (target's unit). It is
-  /// AllowedDeviation, or twice the deviation found if that is larger: the
-  /// map's own sums then cancel, and no order of summation helps.
+  /// AllowedDeviation, or twice the deviation found if that is larger. The
+  /// map's own sums then cancel, so no order of summation is more accurate.
   double tolerance() const;
 };
 
@@ -38,7 +38,7 @@ inline constexpr std::size_t kLongestMapName = 40;
 /// decreasing positions, with its controller. Compares it with each map. Throws
 /// std::invalid_argument as MakeMapProgram, JoinedPrograms and AddController.
 /// Also throws if the name is not a safe identifier of at most kLongestMapName
-/// characters. Also if single precision loses more than AllowedDeviation within
+/// characters, or if single precision loses more than AllowedDeviation within
 /// the trained range.
 MapExport PrepareExport(const std::vector<const FittedModel*>& maps,
                         const std::string& name,

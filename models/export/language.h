@@ -33,7 +33,7 @@ struct Syntax {
 };
 
 /// Writes the instructions and routines of a program in one language. The
-/// program decides what is computed and in which order; a language decides only
+/// program determines the arithmetic and its order; a language determines only
 /// the notation.
 class Language {
  public:
@@ -126,7 +126,7 @@ inline constexpr LocalArray kLocalArrays[] = {{Space::kGain, 'g'},
 std::vector<CellInfo> KeptCells(const MapProgram& program);
 
 /// Number of values in a saved state: the map's identity, the filters, the
-/// cells of KeptCells, and their sum. The sum exposes a changed state.
+/// cells of KeptCells, and their sum. The sum detects a changed state.
 int NumSaved(const MapProgram& program);
 
 /// Returns the names of the bits in `mask`, with `between` between them.
@@ -141,7 +141,8 @@ Lines AboutMap(const MapProgram& program,
                const std::string& name,
                Precision precision);
 
-/// The series of MeanDecay in `u`, nested, for languages without expm1.
+/// Returns the series of MeanDecay in `u` in nested form, for languages without
+/// expm1.
 std::string MeanDecaySeries(const std::string& u);
 
 /// Joins `items` with commas, in lines of at most 78 characters, each after

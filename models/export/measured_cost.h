@@ -22,11 +22,11 @@ struct MeasuredCost {
   double worst_ns = 0.0;
 };
 
-/// The compiler and its flags, for people and JSON.
+/// The compiler and its flags, for display and JSON.
 inline constexpr const char* kCostCompiler = "cc -std=c99 -O2";
 
-/// Compiles the map's C and runs it. Returns nothing, with the reason in `why`,
-/// if it cannot be compiled or run here.
+/// Compiles the map's C and runs it. If that fails here, returns nothing and
+/// sets `why` to the reason.
 std::optional<MeasuredCost> MeasureCost(const MapExport& map, std::string* why);
 
 }  // namespace errmap::models

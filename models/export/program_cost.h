@@ -6,7 +6,7 @@
 
 namespace errmap::models {
 
-/// Operations of one step of a program: counted, so the same on any machine.
+/// Counted operations of one step of a program, the same on any machine.
 struct ProgramCost {
   std::int64_t additions = 0;  // and subtractions
   std::int64_t multiplications = 0;
@@ -19,7 +19,7 @@ struct ProgramCost {
 };
 
 /// Returns the cost of a step of a program with its controller, including
-/// checks and limits. Whatever depends on the readings is counted as if it
+/// checks and limits. Code that runs only for some readings is counted as if it
 /// always ran.
 ProgramCost CostOf(const MapProgram& program);
 

@@ -41,7 +41,7 @@ struct TextFunction {
 };
 
 /// A function block and the functions it calls, before formatting. The bodies
-/// are already in the target form: SCL marks local names.
+/// are already in the target dialect, since SCL marks local names.
 struct TextBlock {
   std::string name;
   Precision precision = Precision::kDouble;

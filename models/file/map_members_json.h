@@ -57,9 +57,9 @@ T ReadWord(const ModelJsonNode& node) {
   node.RefuseWord(words, word);
 }
 
-/// Reads every member except those with keys in `except`, left to the caller.
-/// Those of `may_lack`, which older files do not have, keep their values if
-/// they are missing or null.
+/// Reads every member except those with keys in `except`, which the caller
+/// reads. Members in `may_lack`, which older files do not have, keep their
+/// values if they are missing or null.
 template <typename T>
 void ReadMembers(const ModelJsonNode& node,
                  T* value,

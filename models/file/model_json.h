@@ -20,7 +20,7 @@ using ModelJson = nlohmann::ordered_json;
 
 inline constexpr const char* kModelSchema = "errmap-model-1";
 
-/// Value of an interval's units that are whole sessions.
+/// Value of an interval's key `units` for whole sessions.
 inline constexpr const char* kWholeSessions = "sessions";
 
 /// Returns the key of an interval's half-width: "90", "95".

@@ -16,9 +16,8 @@ struct MeasuredSession {
   std::vector<Index> rows;
 };
 
-/// Says why new sessions cannot be compared with the map's promise; "" if they
-/// can. They can if the map's errors are known in at least three sessions that
-/// it never saw.
+/// Returns why new sessions cannot be compared with the map's promise; "" if
+/// they can. That needs the map's errors in at least three held-out sessions.
 std::string WhyNotWatched(const FittedModel& fitted);
 
 /// Returns the map's results in each session of `rows`. `relations` (null:

@@ -32,8 +32,8 @@ struct SensorRelations {
   /// (s) RMS of those sessions' shifts, each over sqrt(1 + its distance /
   /// `distance`), since extrapolation increases the error.
   VectorXd spread;
-  /// (s) Average variance of the shifts of rows about their session's shift:
-  /// the additional variance of a part of a session.
+  /// (s) Average variance of row shifts about their session's shift: part of a
+  /// session has this additional variance.
   VectorXd within;
   Index sessions = 0;
   Index rows = 0;  // of a session, the median; 0: not known
@@ -51,7 +51,7 @@ struct SensorRelations {
 /// for fewer than two of them or fewer than three sessions.
 std::optional<SensorRelations> LearnRelations(const data::Dataset& training);
 
-/// The sensors of a session, by the mean of its rows.
+/// Shifts of the sensors in a session, by the mean of its rows.
 struct SensorShifts {
   VectorXd shift;     // (s) value less what the others tell, its unit
   VectorXd distance;  // (s) of the others, squared, after Mahalanobis
@@ -78,10 +78,10 @@ ExpectedErrors ExpectedOf(const HeldOutErrors& errors,
                           const VectorXd& elapsed,
                           const VectorXd& position);
 
-/// Two days do not show how much days differ.
+/// Fewer days do not show how much days differ.
 inline constexpr Index kFewestSessions = 3;
-/// With fewer rows, or less than half of the travel, errmap check tells more:
-/// the mean over half a sweep depends on the shape of the map.
+/// Fewer rows, or less than half of the travel, are left to errmap check: the
+/// mean over half a sweep depends on the shape of the map.
 inline constexpr Index kFewestRows = 5;
 /// True if these rows (`position` (m), or (0) if there are none) are too few.
 bool AreTooFew(const HeldOutErrors& errors,
@@ -107,9 +107,10 @@ struct WatchedSession {
   double p_sensor = 1.0;
 };
 
-/// Fills in the sensor of a session with this many rows, by t statistics. They
-/// use the spread of the sessions, shrunk to their common spread. It is larger
-/// the further the state is from the trained ones, and the fewer the rows.
+/// Fills in the most deviating sensor of a session with this many rows, by t
+/// statistics. They use the spread of the sessions, shrunk to their common
+/// spread. It is larger the further the state is from the trained ones, and the
+/// fewer the rows.
 void JudgeSensors(const SensorRelations& relations,
                   const SensorShifts& shifts,
                   WatchedSession* session);
@@ -121,8 +122,8 @@ struct MapJudgement {
   double p = 1.0;         // of both, and of one and two sessions
   double found = 0.0;     // RMSE of the sessions behind p
   double offset = 0.0;    // mean error of the same
-  /// Expected from held-out sessions of such rows, or the promise if that is
-  /// larger.
+  /// Expected error from similar rows of held-out sessions, or the promise if
+  /// that is larger.
   double promised = 0.0;
 };
 
@@ -133,22 +134,22 @@ std::optional<MapJudgement> JudgeSessions(
     const HeldOutErrors& held_out, const std::vector<WatchedSession>& sessions);
 
 /// A map is worse, or a sensor changed, if p is below this. It applies to each
-/// component by itself, however many are watched.
+/// component separately, however many are watched.
 inline constexpr double kSurelyChanged = 0.0025;
-/// The error must exceed the promise by the difference that never matters. It,
-/// or its offset added to the promise, must also exceed the promise by this
-/// share.
+/// To be worse, the error must exceed the promise by the difference that never
+/// matters. The error, or the promise plus its offset, must also exceed the
+/// promise by this share.
 inline constexpr double kLeastWorse = 0.2;
 /// `indifference` in the unit of the judgement.
 bool IsWorse(const MapJudgement& judgement, double indifference);
-/// If p is below this and the error exceeds the promise as above, one more
-/// session decides. So it does if the error is three times the promise: few
-/// sessions do not show how rare that is.
+/// If p is below this and the error exceeds the promise as above, the map is
+/// doubtful until one more session. It is also doubtful if the error is three
+/// times the promise, since few sessions do not show how rare that is.
 inline constexpr double kDoubtful = 0.02;
 bool IsDoubtful(const MapJudgement& judgement, double indifference);
 
-/// A session counts as outside the trained states if a larger share of its rows
-/// is.
+/// A session counts as outside the trained states if more than this share of
+/// its rows is outside.
 inline constexpr double kMostlyOutside = 0.5;
 
 enum class WatchStatus {

@@ -18,11 +18,11 @@ struct EarlierRows {
 
 /// Puts the rows of the file `arguments.after` before those of a table, in
 /// `found` and in its `readings` (rows x inputs of the map, NaN if a filter
-/// does not read them). They have a clock, an order and names of their own.
-/// Uses those that lie before the first row of their session: the session of
-/// that name if both files have the same column of sessions, else the one that
-/// begins next without a night between. Throws data::InputError if the file is
-/// unusable or one clock has dates and the other none.
+/// does not read them). The file may have its own clock, order and names. Uses
+/// rows before the first row of their session: the session of that name if both
+/// files have the same column of sessions, else the next one to begin without a
+/// night between. Throws data::InputError if the file is unusable or one clock
+/// has dates and the other none.
 EarlierRows PrependEarlier(const FittedModel& fitted,
                            const data::CsvTable& table,
                            const MapDataArguments& arguments,

@@ -9,18 +9,18 @@
 
 namespace errmap::models {
 
-/// Adds which view it is to what a map chose.
+/// Adds the view to the choices recorded in a map.
 void NoteView(const ViewedRows& viewed, FittedModel* fitted);
 
 /// Fits rows that are already in some view.
 using FitRows =
     std::function<FittedModel(const data::Dataset&, const FitContext&)>;
 
-/// Applies `fit` to `training` as it is without `options`, else in the view
-/// named in them. If none is named, it takes the view with the least
-/// TypicalError of `fit` on inner hold-outs, of equals the simplest. The map
-/// reads the columns of `training`; it is guarded if `fit` guards. Throws as
-/// MakeViews and `fit` do.
+/// Without `options`, applies `fit` to `training` unchanged; else in the view
+/// that they name. If they name none, takes the view with the least
+/// TypicalError of `fit` on inner hold-outs, or the simplest of equals. The map
+/// reads the columns of `training`, and has guards if `fit` sets them. Throws
+/// as MakeViews and `fit` do.
 FittedModel FitInView(const data::Dataset& training,
                       const std::optional<ViewOptions>& options,
                       const FitContext& context,

@@ -10,7 +10,7 @@
 
 namespace errmap::models {
 
-/// How a derived input follows from an input within a session.
+/// Kind of a derived input.
 enum class Filter {
   kEma,   // a first-order lag, dy/dt = (x - y) / tau, begun in its steady
           // state y = x (models/history/lag.h)
@@ -26,7 +26,7 @@ bool RunsInTime(Filter filter);
 /// Returns true if it depends on earlier rows of its session.
 bool Remembers(Filter filter);
 
-/// Assumed course of an input from one reading to the next.
+/// Assumed course of an input between two readings.
 enum class Between {
   kLinear,  // straight: lags do not depend on the sampling rate
   kHeld,    // jumps to the later one; default of files without it
@@ -72,16 +72,16 @@ struct History {
   /// within kLeapSteps median steps of each other; else NaN.
   double latest_start = stats::kNaN;
   /// Start of the training sessions (models/history/session_start.h). If the
-  /// weighted readings of a session's first row exceed the limit, it began like
-  /// no training session. NaN: training sessions begin too much like other
-  /// rows.
+  /// weighted readings of a session's first row exceed the limit, the session
+  /// began unlike all training sessions. NaN: first rows of training sessions
+  /// resemble other rows too much.
   std::vector<StartReading> start_readings = {};
   double start_limit = stats::kNaN;
-  /// Time of day at which sessions begin: its mean (s), and the allowed delay
-  /// (s). NaN if it varies too much.
+  /// Mean time of day at which sessions begin (s), and the allowed delay (s).
+  /// NaN if it varies too much.
   double start_clock = stats::kNaN;
   double start_clock_late = stats::kNaN;
-  /// Used if rows are counted as time: they cannot show gaps.
+  /// Used if time is counted in rows, which cannot show gaps.
   std::vector<RowChange> row_changes = {};
   /// Longest step between readings within the training sessions; NaN if
   /// unknown.
@@ -89,18 +89,17 @@ struct History {
   std::vector<DerivedInput> derived;
   std::vector<std::string> form_inputs;  // columns or derived inputs, in order
 
-  /// Returns the column that `name` is, or is derived from in the end.
+  /// Returns the column of that name, or the one from which `name` is derived.
   std::string RootOf(std::string name) const;
   /// Returns the longest step between readings that the filters can bridge
   /// (models/history/README.md). It is twice the longest step of training, or
   /// three times the shortest time constant if that is more. Infinity if
   /// unknown or nothing is filtered.
   double longest_bridged() const;
-  /// Returns the time after which filters that began in a steady state have
-  /// forgotten a start in the middle of a session. It is kSettledTaus times the
-  /// longest time constant; those of filters of filters add up. Infinity if an
-  /// input is zeroed, since the zero was taken elsewhere; 0 if nothing is
-  /// remembered.
+  /// Returns the time after which filters that started in mid-session have
+  /// forgotten their assumed steady state. It is kSettledTaus times the longest
+  /// time constant; those of filters of filters add up. Infinity if an input is
+  /// zeroed, since the true zero is then unknown; 0 without filters.
   double settles_after() const;
   /// Returns the shortest pause that separates sessions, s.
   double night() const;
@@ -140,8 +139,7 @@ double LongestStep(const data::Dataset& training);
 std::vector<RowChange> RowChanges(const data::Dataset& training,
                                   const History& history);
 
-/// Why the filter state of a map at a row may differ from what it would be in
-/// use.
+/// Reason why the filter state at a row may be wrong.
 enum class Missing {
   kNothing,
   kStart,     // the session begins like none of training (BeginsInside), and
@@ -151,16 +149,16 @@ enum class Missing {
               // twice the largest of row_changes, for leap / mean rows
 };
 
-/// Returns one value per row of a log whose inputs are columns() of the
-/// history. `from_rest`: sessions are known to begin with the log's rows.
+/// Returns that reason for each row of a log whose inputs are columns() of the
+/// history. `from_rest`: sessions are known to begin with the log's first rows.
 std::vector<Missing> FindMissing(const data::SessionLog& log,
                                  const History& history,
                                  bool from_rest = false);
 
 /// Returns the inputs of the form per row of `dataset` (m x form_inputs).
-/// Filters run through all rows of its log, so a selection of rows gets the
-/// same values. Throws std::invalid_argument if a column or a log that the
-/// history needs is missing, or if its time has another unit.
+/// Filters run through all rows of its log, so the values do not depend on the
+/// selection of rows. Throws std::invalid_argument if a column or a log that
+/// the history needs is missing, or if its time has another unit.
 MatrixXd DeriveInputs(const data::Dataset& dataset, const History& history);
 
 /// Returns the rows of `dataset` with form_inputs as inputs, log included, so

@@ -9,7 +9,7 @@
 namespace errmap::models {
 
 /// Runs the filters of a history reading by reading, as a controller does. It
-/// stores nothing but `state`.
+/// stores only `state`.
 class HistoryState {
  public:
   /// `columns` are those of the readings. Throws std::invalid_argument if an
@@ -20,7 +20,7 @@ class HistoryState {
 
   /// Begins a session: filters start in the steady state of these readings (one
   /// per column), and the zero is taken here. NaN means not yet known: values
-  /// that depend on it begin with its first number. Throws
+  /// that depend on it start with the first known reading. Throws
   /// std::invalid_argument if the number of readings is wrong.
   void Start(const Eigen::Ref<const VectorXd>& readings);
 
@@ -40,8 +40,8 @@ class HistoryState {
     return form_columns_;
   }
 
-  /// Returns readings held, filters and zeros (columns + derived inputs): all
-  /// that must be saved for a restart. Empty before Start.
+  /// Returns the last readings, filters and zeros (columns + derived inputs):
+  /// the state to save for a restart. Empty before Start.
   VectorXd state() const;
   /// Continues from the result of state(). Throws std::invalid_argument if the
   /// size is wrong.
@@ -57,8 +57,8 @@ class HistoryState {
   };
 
   void SetReadings(const Eigen::Ref<const VectorXd>& readings);
-  /// Computes all derived values; if time `passes`, the filters advance by
-  /// gains_.
+  /// Computes all derived values; advances the filters by gains_ if time
+  /// `passes`.
   void Update(bool passes);
 
   Index num_columns_ = 0;

@@ -13,7 +13,7 @@
 
 namespace errmap::models {
 
-/// How to read the files on which a map is used.
+/// Options for reading the files to which a map is applied.
 struct MapDataArguments {
   std::string after;       // file of earlier rows
   bool from_rest = false;  // true: sessions begin where the rows do
@@ -30,8 +30,8 @@ data::DatasetSelection SelectionOfRows(const History* history,
                                        const data::CsvTable& table,
                                        const MapDataArguments& arguments);
 
-/// Finds sessions and times of a table's rows as a map's memory needs them.
-/// Throws data::InputError as MakeMapLog does.
+/// Finds the sessions and times of a table's rows for a map's memory. Throws
+/// data::InputError as MakeMapLog does.
 data::FoundSessions FindSessionsFor(const History& history,
                                     const data::CsvTable& table,
                                     const MapDataArguments& arguments);
@@ -51,10 +51,10 @@ MatrixXd ReadingsOf(const FittedModel& fitted, const data::CsvTable& table);
 /// Returns the same, but throws data::InputError if a cell is not a number.
 MatrixXd InputsOf(const FittedModel& fitted, const data::CsvTable& table);
 
-/// Uses every row of the table, with or without a target; of earlier rows only
-/// the columns that the map remembers. Throws data::InputError if the tables
-/// lack the column of sessions or times that the map needs, or if that is
-/// unusable (data/measurements/sessions.h).
+/// Uses every row of the table, with or without a target. Of earlier rows, it
+/// uses only the columns that the map filters or zeroes. Throws
+/// data::InputError if the tables lack the column of sessions or times that the
+/// map needs, or if that is unusable (data/measurements/sessions.h).
 MapLog MakeMapLog(const FittedModel& fitted,
                   const data::CsvTable& table,
                   const MapDataArguments& arguments);

@@ -17,9 +17,8 @@ struct RowsForMap {
   const MatrixXd& inputs;  // (rows x inputs of the map)
 };
 
-/// Rows for the filters of a map if points lie between the rows of a log:
-/// both, session by session, in time order. At equal times the log is
-/// first.
+/// Merges points and the rows of a log for the filters of a map, session by
+/// session, in time order. At equal times the log comes first.
 struct PointLog {
   std::shared_ptr<const data::SessionLog> log;
   std::vector<Index> rows;       // (points) index in the log

@@ -17,18 +17,19 @@ namespace errmap::models {
 // starts, scaled so that the mean row of training has z = 1. Starts left out of
 // w and mean give the limit. The second indicator is the time of day.
 
-/// Returns the rows of the log of each session of these rows, which have one.
+/// Returns the log rows of each session that occurs in these rows, which have a
+/// log.
 std::vector<std::vector<Index>> RowsOfSessions(const data::Dataset& training);
 
 /// Fills start_readings, start_limit, start_clock and start_clock_late of a
-/// history whose other members are set, from the sessions of these rows. Fewer
-/// than four sessions tell nothing, nor do starts that vary as much as rows
+/// history whose other members are set, from the sessions of these rows. Leaves
+/// them unset for fewer than four sessions, or if starts vary as much as rows
 /// within a session.
 void LearnStarts(const data::Dataset& training, History* history);
 
 /// Returns true if a session whose first known row is `row` of the log begins
-/// like none of training: later by its clock, or with thermometers as later in
-/// a session. The log's inputs are columns() of the history.
+/// unlike all training sessions: later by its clock, or with temperatures
+/// typical of later rows. The log's inputs are columns() of the history.
 bool BeginsInside(const data::SessionLog& log,
                   Index row,
                   const History& history);

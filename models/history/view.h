@@ -13,7 +13,7 @@
 
 namespace errmap::models {
 
-/// Form of the inputs that a map reads. Positions are unchanged in all of them.
+/// Form in which a map reads its inputs. Positions are unchanged in every view.
 enum class View {
   kRaw,             // as measured
   kHistory,         // and passed through first-order filters
@@ -25,7 +25,7 @@ const std::vector<std::string>& ViewWords();
 std::string_view ToString(View view);
 View ViewOf(std::string_view word);  // of one of these words
 
-/// Options of a map that may read its inputs in another form than measured.
+/// Options of a map that may transform its inputs.
 struct ViewOptions {
   std::optional<View> view = {};  // empty: chosen on inner hold-outs
   /// Time constants of the filters, above 0, in the unit of time. Empty: from
@@ -36,8 +36,8 @@ struct ViewOptions {
   /// False: no intercept in any view. True: an intercept, except in a zeroed
   /// view if each session begins with a negligible error.
   bool intercept = true;
-  /// True: sine and cosine replace angles; empty: chosen with the view if an
-  /// angle turns far enough, else not.
+  /// True: sine and cosine replace angles. Empty: chosen with the view if an
+  /// angle turns far enough; otherwise angles stay.
   std::optional<bool> sine_and_cosine = {};
 
   bool operator==(const ViewOptions&) const = default;
@@ -58,16 +58,17 @@ struct ViewedRows {
 };
 
 /// Returns the views of `options` that these rows allow, simplest first;
-/// without options the rows as measured. Filters and zeros need an input
-/// besides positions, filters also sessions with a length, zeros two sessions
-/// or more. Unless named, a zero alone is offered only without filters. Throws
-/// std::invalid_argument if a view requested by name is not possible.
+/// without options, only the rows as measured. Filters and zeros need an input
+/// besides positions. Filters also need sessions of some length, and zeros two
+/// sessions or more. Unless named, a zero alone is offered only without
+/// filters. Throws std::invalid_argument if a view requested by name is not
+/// possible.
 std::vector<ViewedRows> MakeViews(const data::Dataset& training,
                                   const std::optional<ViewOptions>& options,
                                   double indifference);
 
-/// Returns the same for the fitted rows, shared through context.shared with the
-/// recipes that hold them at the same time.
+/// Returns the same for the fitted rows, shared through context.shared with
+/// other recipes that use them at the same time.
 std::shared_ptr<const std::vector<ViewedRows>> SharedViews(
     const data::Dataset& training,
     const std::optional<ViewOptions>& options,
@@ -82,10 +83,10 @@ std::vector<double> MakeTimeConstants(const data::Dataset& training);
 double LargestFirstError(const data::Dataset& training);
 
 /// Returns, for each input of `rows`, true if it hardly ever returns to earlier
-/// values, such as an age. With three sessions or more, their means only rise
+/// values, as with an age. With three sessions or more, their means only rise
 /// or only fall. On average less than a tenth of a later session's rows is
-/// within earlier values. Later measurements lie beyond them, so a map is a
-/// straight line in these inputs.
+/// within earlier values. Later measurements lie beyond the earlier ones, so a
+/// map is linear in these inputs.
 std::vector<bool> ColumnsThatOnlyGrow(const data::Dataset& rows);
 
 }  // namespace errmap::models

@@ -8,9 +8,9 @@
 
 namespace errmap::models {
 
-/// Options of views in a SPEC: view, history, zero, intercept and angles. A map
-/// without `view` reads its inputs as measured; the others are then only
-/// checked.
+/// Options of views in a SPEC: view, history, zero, intercept and angles.
+/// Without `view`, a map reads its inputs as measured, and the other options
+/// are only checked.
 const OptionList<std::optional<ViewOptions>>& ViewOptionList();
 /// The option clip of all families that may extrapolate, for their member
 /// `clip`.
@@ -28,7 +28,7 @@ Option<Options> ClipOption() {
 void NameTheView(ModelSpec* spec, bool intercept_counts);
 inline void NameTheViewOf(ModelSpec* spec) { NameTheView(spec, true); }
 
-/// Returns a key of the options besides view that decide MakeViews' result.
+/// Returns a key of the options besides view that affect MakeViews.
 std::string KeyOf(const std::optional<ViewOptions>& options);
 
 }  // namespace errmap::models

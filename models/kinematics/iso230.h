@@ -17,7 +17,7 @@ struct PositioningTest {
   std::vector<bool> upwards;  // (n) approached in the positive direction
 };
 
-/// Deviations of the approaches to one position from one side.
+/// Deviations of the approaches to one position in one direction.
 struct Approaches {
   Index runs = 0;
   double mean = 0.0;
@@ -39,7 +39,7 @@ std::vector<PositioningPoint> PositioningPointsOf(const PositioningTest& test);
 
 /// ISO 230-2:2014, clause 3, with the means and standard deviations (n - 1) of
 /// the runs at each target position and direction. A figure is NaN if it needs
-/// runs in both directions, or two in one, and there are fewer.
+/// runs in both directions, or two in one direction, and the data lack them.
 struct PositioningFigures {
   /// Bidirectional systematic positioning error E: range of all means.
   double systematic = 0.0;
@@ -71,13 +71,14 @@ PositioningFigures PositioningFiguresOf(
 
 /// Returns, for each row, true if it approached its position upwards, from the
 /// order of `positions` (n). The step before the row decides. If that is 0 or
-/// more than half the travel, a sweep begins, and the step after decides.
+/// more than half the travel, the row begins a sweep, and the step after it
+/// decides.
 std::vector<bool> ApproachedUpwards(const VectorXd& positions);
 
 /// The test of positions along a diagonal, from runs in both directions. The
 /// name has the signs of X, Y and Z along it: "ppp", or "p0n" if Y does not
 /// move. `points` (n x 3) are nominal, `errors` (n x 3) were measured there,
-/// and `upwards` is true for rows that ran in the direction of the signs. Its
+/// and `upwards` is true for rows that ran in the direction of the signs. The
 /// figures are those of ISO 230-6:2002, clause 5. Throws std::invalid_argument
 /// if the name is not a diagonal, the sizes do not agree or the points have no
 /// length along it.

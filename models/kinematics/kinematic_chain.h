@@ -9,32 +9,32 @@
 
 namespace errmap::models {
 
-/// The side of the machine that a link is on: both begin at its base, one ends
-/// at the tool, the other at the workpiece.
+/// Side of the machine to which a link belongs. Both branches begin at the
+/// base; one ends at the tool, the other at the workpiece.
 enum class Branch { kTool, kWork };
 
 enum class Joint { kFixed, kLinear, kRotary };
 
-/// Direction of an error: its link moves along (X, Y, Z) or turns about (A, B,
-/// C) an axis of the frame of the link before it. The letters are those of ISO
-/// 230-1, clause 3.
+/// Direction of an error: the link moves along (X, Y, Z) or turns about (A, B,
+/// C) an axis of the previous link's frame. The letters are those of ISO 230-1,
+/// clause 3.
 enum class ErrorDirection { kX, kY, kZ, kA, kB, kC };
 inline constexpr int kNumErrorDirections = 6;
 
 /// A, B and C: rad, positive by the right-hand rule; the others are lengths.
 bool IsRotation(ErrorDirection direction);
 
-/// A rigid element of the machine, placed relative to the one before it on its
+/// A rigid element of the machine, placed relative to the previous one on its
 /// branch. Lengths are in one unit of the caller's choice, say mm; angles in
 /// rad.
 struct KinematicLink {
   std::string name;
   Branch branch = Branch::kTool;
   Joint joint = Joint::kFixed;
-  /// Direction of motion or axis of rotation of a moving joint, in the frame of
-  /// the link before. Any length but 0.
+  /// Direction of motion or axis of rotation of a moving joint, in the previous
+  /// link's frame. Any length but 0.
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();
-  /// Origin of this link's frame in that of the link before, at coordinate 0.
+  /// Origin of this link's frame in the previous link's frame, at coordinate 0.
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   std::vector<ErrorDirection> errors = {};  // each at most once
 };

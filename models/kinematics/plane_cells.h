@@ -15,9 +15,9 @@ struct WorkingPlane {
   Index up = 1;
 };
 
-/// Returns the plane of the sensitive directions: for X and Z with Z across, as
-/// lathes are drawn; for all three X and Y. Empty if fewer than two are
-/// sensitive.
+/// Returns the plane of the sensitive directions. For X and Z, Z is horizontal,
+/// as lathes are drawn; for all three it is X and Y. Empty if fewer than two
+/// are sensitive.
 std::optional<WorkingPlane> WorkingPlaneOf(
     const std::array<bool, 3>& sensitive);
 
@@ -31,7 +31,7 @@ struct PlaneCell {
   double rms = stats::kNaN;  // of their lengths in the plane
 };
 
-/// Cells that have points, row by row from below.
+/// Cells with points, row by row from the bottom.
 struct PlaneCells {
   double width = 0.0;  // of a cell
   double height = 0.0;

@@ -6,8 +6,9 @@
 
 namespace errmap::models {
 
-/// A session at the tool (m x 3 each): the true errors minus those by maps that
-/// were not fitted to the session, and first-order half-widths at its poses.
+/// A session at the tool (m x 3 each): true errors minus the predictions of
+/// maps that were not fitted to the session, and first-order half-widths at its
+/// poses.
 struct HeldOutToolTip {
   Eigen::MatrixX3d errors;
   Eigen::MatrixX3d half_widths;
@@ -15,8 +16,8 @@ struct HeldOutToolTip {
 
 /// Returns half-widths (n x 3) within which `coverage` of the errors of a
 /// further session lie. They are `first_order` (n x 3), with one factor for
-/// each direction, times Student's t. The factor gives errors over half-widths
-/// their average root mean square over the sessions. The degrees of freedom
+/// each direction, times Student's t. The factor is the average root mean
+/// square of errors over half-widths in the sessions. The degrees of freedom
 /// follow from the differences between the sessions' mean squares
 /// (Satterthwaite 1946, JCGM 100:2008, G.4), with a confidence of 80 %, and at
 /// least one for each session.

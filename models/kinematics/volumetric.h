@@ -15,8 +15,8 @@ struct ComponentAtPoints {
   /// (m) A share `coverage` of errors lies within it of `values`. 0: exact;
   /// NaN: not known.
   VectorXd half_widths;
-  /// Degrees of freedom of the standard deviation; half_widths are it times
-  /// Student's t. Infinite if it is known.
+  /// Degrees of freedom of the standard deviation; half_widths are the standard
+  /// deviation times Student's t. Infinite if it is known exactly.
   double degrees_of_freedom = std::numeric_limits<double>::infinity();
 };
 
@@ -37,10 +37,11 @@ struct VolumetricErrors {
   /// (errors)(m x 3) The contribution of each error of the chain to
   /// first_order.
   std::vector<Eigen::MatrixX3d> contributions;
-  /// (m x 3) The same share for independent components, to first order (JCGM
-  /// 100:2008, 5.1.2 and G.4.1). The squares of standard deviations times
-  /// sensitivities add up. Student's t has the degrees of freedom of Welch and
-  /// Satterthwaite. NaN if a component with an effect is unknown.
+  /// (m x 3) Half-widths for the same share, for independent components, to
+  /// first order (JCGM 100:2008, 5.1.2 and G.4.1). The squares of standard
+  /// deviation times sensitivity are summed. Student's t has the degrees of
+  /// freedom of Welch and Satterthwaite. NaN if a component with an effect is
+  /// unknown.
   Eigen::MatrixX3d half_widths;
   /// (m x 3) Quantiles of the exact form over `draws` of the same components,
   /// each from its Student's t (JCGM 101:2008, 6.4.9). NaN like half_widths, or

@@ -12,15 +12,15 @@
 
 namespace errmap::models {
 
-/// The models whose curves are drawn by default. There is one of each kind: the
-/// simple, the linear, and the quickest of those often recommended. The blend,
-/// which is recommended most often, joins if the data have at most
-/// kMostForBlend input values.
+/// The models whose curves are drawn by default. They are simple maps, a linear
+/// one, and the quickest of those often recommended. The blend, which is
+/// recommended most often, is added if the data have at most kMostForBlend
+/// input values.
 inline constexpr const char* kLearningModels =
     "mean,poly:temperature,poly:full:degree=1,poly:ridge:view=auto,blend";
 inline constexpr Index kMostForBlend = 20000;
 
-/// The units that a map learns from, one after another.
+/// Units that are added to the training rows one after another.
 enum class LearnBy { kSessions, kGroups };
 
 /// Hold-outs of a learning curve. For each number of units there are folds that

@@ -24,7 +24,7 @@ struct LearningPointRecord {
   double high = kNotKnown;
 };
 
-/// Quantiles at 5, 50 and 95 %; NaN: infinite.
+/// Quantiles at 5, 50 and 95 %; NaN stands for infinity.
 using QuantilesRecord = std::array<double, 3>;
 
 struct LearningLawRecord {
@@ -69,7 +69,7 @@ struct LearningRecord {
   std::optional<LearningCurvesRecord> curves;
   std::optional<SensorCurve> sensors;
   std::optional<std::vector<NextState>> next;
-  /// Only the parts that readers need are read back.
+  /// Only the parts that readers need are read.
   LeftOut<LearningSourceRecord> provenance;
 };
 

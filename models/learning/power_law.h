@@ -13,20 +13,19 @@ struct LearningPoint {
   double relative_error = 0.0;  // standard deviation of log rmse
 };
 
-/// error(n)^2 = floor^2 + (gain * n^-exponent)^2. It is not one fit: every
-/// law on a grid is weighted by its likelihood. Squares add, since the
-/// error is a map's bias plus the scatter of what it learnt. For smooth
-/// maps the scatter falls at least as n^-1/2 (Cortes et al. 1994 for the
-/// form).
+/// error(n)^2 = floor^2 + (gain * n^-exponent)^2. Every law on a grid is
+/// weighted by its likelihood, instead of one fit. Squares add, since the error
+/// is a map's bias plus the scatter of its fit. For smooth maps the scatter
+/// falls at least as n^-1/2 (Cortes et al. 1994 for the form).
 ///
 /// The sizes are tested on the same units, so their errors are correlated.
-/// Small sizes, at which maps interpolate or fail outright, follow no law. So a
-/// size counts less the further it is from the largest.
+/// Small sizes, at which maps interpolate or fail outright, follow no law. So
+/// smaller sizes get less weight.
 class PowerLaw {
  public:
-  /// `units` (at least 2) is the number of units behind the points' scatter.
-  /// Throws std::invalid_argument for fewer units, fewer than two sizes, or
-  /// values that are not above 0.
+  /// `units` (at least 2) is the number of units from which the points' scatter
+  /// comes. Throws std::invalid_argument for fewer units, fewer than two sizes,
+  /// or values that are not above 0.
   PowerLaw(const std::vector<LearningPoint>& points, double units);
 
   struct Quantiles {

@@ -25,7 +25,7 @@ struct SensorCurve {
   struct Chosen {
     std::string sensor;
     double stability = stats::kNaN;  // share of outer folds that also choose it
-    /// Rise of the held-out error if the best of all others replaces it.
+    /// Increase of the held-out error if the best other sensor replaces it.
     /// Sensors with similar readings can replace each other at no cost. NaN if
     /// there is no other.
     double replaced_cost = stats::kNaN;
@@ -43,8 +43,8 @@ struct SensorCurve {
   /// Fewest sensors with at most kTolerance times the error of all; empty if no
   /// point reaches it.
   std::optional<Index> enough;
-  /// As many sensors as `enough`, or else as `points` has, chosen from all
-  /// rows.
+  /// Sensors chosen from all rows: as many as `enough`, or else as many as
+  /// `points` has.
   std::vector<Chosen> chosen;
 };
 
@@ -52,7 +52,7 @@ struct SensorSearch {
   Index most_sensors = 8;
   int jobs = 1;  // does not change results
   const std::atomic<bool>* stop = nullptr;
-  /// Called by any thread after each of `all` searches.
+  /// Called from any thread after each of `all` searches.
   std::function<void(int done, int all)> progress = {};
 };
 

@@ -45,8 +45,8 @@ NetForm FormOfWeights(const NetShape& shape,
                       const TargetScaling& target);
 
 /// Returns such a net as a map with the columns and ranges of its training
-/// rows. It is for training loops of your own, such as with early stopping.
-/// Throws std::invalid_argument as FeedforwardNet does.
+/// rows. For your own training loops, such as with early stopping. Throws
+/// std::invalid_argument as FeedforwardNet does.
 FittedModel MapOfWeights(const NetShape& shape,
                          const VectorXd& w,
                          const ColumnScaling& inputs,

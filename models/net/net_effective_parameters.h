@@ -10,9 +10,9 @@ namespace errmap::models {
 ///
 /// J (P x N) and c are those of E = 1/2 |r|^2 + 1/2 c |w|^2 (net_residuals.h;
 /// Moody 1992; MacKay 1992, Eq. 4.9, with J'J for the Hessian of the misfit).
-/// If biases have no decay, I omits them. It is the number of directions in the
-/// space of the targets that the fit follows: the rank of J if wfactor is 0,
-/// and less for larger wfactors.
+/// If biases have no decay, I omits them. It is the number of directions in
+/// target space that the fit can follow: the rank of J if wfactor is 0, and
+/// less for larger wfactors.
 ///
 /// `training` holds the fitted rows and their wfactor. Computed in the smaller
 /// of the spaces of patterns and weights, or in that of the weights if biases

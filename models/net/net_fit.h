@@ -18,7 +18,7 @@
 
 namespace errmap::models {
 
-/// Training rows as scaled for a net, and the way back to physical units.
+/// Training rows scaled for a net, and the conversion back to physical units.
 struct NetRows {
   ColumnScaling scaling;
   TargetScaling target;
@@ -55,7 +55,7 @@ struct NetTrial {
   std::uint64_t seed = 1;
 };
 
-/// Most rows used to compare nets, and in all but the last fit along a path.
+/// Most rows used to compare nets and for all but the last fit along a path.
 inline constexpr Index kMostTuningRows = 5'000;
 
 /// Trains at each of `wfactors` in turn: first from the start of `seed`, then
@@ -74,7 +74,7 @@ fitting::Minimum TrainAlong(const NetRows& rows,
 class WfactorWalk {
  public:
   /// Each step trains from the last weights if `warm`, else from the start of
-  /// `seed`. All arguments must outlive the walk.
+  /// `seed`. All arguments must outlive this object.
   WfactorWalk(const NetDesign& design,
               const NetTrainer& trainer,
               const data::Dataset& training,
@@ -144,9 +144,9 @@ struct NetTuning {
 /// The trainers of a recipe's fits.
 struct NetTrainers {
   NetTrainer full;
-  /// Compare the wfactors of a tuned net. `along_path` is like `full`, in
-  /// single precision if the method has one. `brief` is shorter and may suffice
-  /// for the fit. If both are empty, `full` compares.
+  /// Used to compare the wfactors of a tuned net. `along_path` is like `full`,
+  /// in single precision if the method has it. `brief` is shorter and may
+  /// suffice for the fit. If both are empty, `full` is used.
   NetTrainer along_path;
   NetTrainer brief;
   std::int64_t full_iterations = 0;
@@ -175,8 +175,8 @@ struct TunedNet {
 /// node. (P - 1 nodes can reproduce any P targets.)
 std::vector<std::int64_t> HiddenToTry(Index rows);
 
-/// Returns the fewest nodes whose error is at most 5 % above the least, and
-/// that error, from errors by number of nodes (NaN: not judged). Throws
+/// Takes errors by number of nodes (NaN: not tested). Returns the fewest nodes
+/// whose error is at most 5 % above the least, and that error. Throws
 /// std::invalid_argument if there is no error.
 std::pair<std::int64_t, double> FewestGoodNodes(
     const std::vector<std::pair<std::int64_t, double>>& scores);
@@ -185,16 +185,17 @@ std::pair<std::int64_t, double> FewestGoodNodes(
 /// fit starts from the weights of context.seed.
 ///
 /// wfactor: goes down WfactorPath until three more values (whole decades: two)
-/// bring no lower error, or a rival is out of reach; of equal errors takes the
-/// larger. Along the path a fit continues the last, so all of them cost little
-/// more than one. Otherwise each fit starts again and trains briefly, whole
-/// decades first, then the half decades beside the best. The choice is then
-/// also trained in full, and the iterations with the lower error are taken
-/// (early stopping). Hidden nodes: the fewest of HiddenToTry whose error is at
-/// most 5 % above the least, about the effect of another start. Both: wfactor
-/// with the design's nodes (or the most below them that are tried), then the
-/// nodes with that wfactor, then, if their number changed, the wfactor again;
-/// the iterations last. Throws std::invalid_argument if none could be judged.
+/// give no lower error, or a rival is out of reach; of equal errors it takes
+/// the larger wfactor. Along the path each fit continues the last one, so all
+/// of them cost little more than one. Otherwise each fit starts again and
+/// trains briefly, whole decades first, then the half decades beside the best.
+/// The choice is then also trained in full, and the number of iterations with
+/// the lower error is taken (early stopping). Hidden nodes: the fewest of
+/// HiddenToTry whose error is at most 5 % above the least, which is about the
+/// effect of another start. Both: first wfactor with the design's nodes (or the
+/// most tried below them), then the nodes with that wfactor. If their number
+/// changed, then wfactor again; last the iterations. Throws
+/// std::invalid_argument if no option could be tested.
 TunedNet TuneNet(const NetDesign& design,
                  const NetTuning& tuning,
                  const NetTrainers& trainers,

@@ -29,11 +29,10 @@ struct BlockSize {
   std::ptrdiff_t outputs = 0;
 };
 
-/// Operations of a net on a block of patterns. Outputs must not
-/// overlap other arguments, except that y may be s. Each element of a
-/// product is summed in the order of the inner dimension, sums over
-/// patterns in theirs. A block cut into strips therefore gives the
-/// same bits.
+/// Operations of a net on a block of patterns. Outputs must not overlap other
+/// arguments, except that y may be s. Each element of a product is summed in
+/// the order of the inner dimension, and sums over patterns in the order of
+/// patterns. So cutting a block into strips does not change the bits.
 template <typename Scalar>
 struct NetKernels {
   std::string_view name;  // "plain", "baseline", "avx2" or "avx512"
@@ -46,7 +45,7 @@ struct NetKernels {
                    Scalar* s);
 
   /// Computes d_w1 += delta x' for delta (height x columns) and the same x. If
-  /// `anew`, d_w1 starts from 0.
+  /// `anew`, d_w1 is first set to 0.
   void (*add_products)(BlockSize size,
                        std::ptrdiff_t inner,
                        const Scalar* delta,
@@ -54,9 +53,9 @@ struct NetKernels {
                        bool anew,
                        Scalar* d_w1);
 
-  /// Computes y = 1 / (1 + e^-s) of n numbers, Eq. 18: 0 and 1 in the limits,
-  /// NaN for NaN. Relative error is below 4 epsilon (1 + |s|), the size of the
-  /// effect of rounding s.
+  /// Computes y = 1 / (1 + e^-s) of n numbers, Eq. 18, with 0 and 1 at the
+  /// limits, and NaN for NaN. Relative error is below 4 epsilon (1 + |s|), the
+  /// size of the effect of rounding s.
   void (*logistic)(std::ptrdiff_t n, const Scalar* s, Scalar* y);
 
   /// Computes y = logistic(s), o = w2'y (Eq. 16, 17 without the bias).
@@ -96,12 +95,12 @@ struct NetKernels {
                    Scalar* d_w2);
 };
 
-/// Returns the same with the C library's exp and sums in the order of the
-/// formulas: the reference in tests, and the arithmetic of the 1995 program.
+/// Returns kernels that use the C library's exp and sum in the order of the
+/// formulas, as the 1995 program does; also the reference for tests.
 template <typename Scalar>
 const NetKernels<Scalar>& PlainNetKernels();
 
-/// Returns the versions that this machine can run, slowest first.
+/// Returns the kernels that this machine can run, slowest first.
 template <typename Scalar>
 std::span<const NetKernels<Scalar>> AvailableNetKernels();
 

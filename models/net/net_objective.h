@@ -12,8 +12,8 @@ namespace errmap::models {
 ///        + wfactor |w|^2 / (2 N)
 /// over P patterns, with back-propagated gradient (Eq. 40-67) and exact
 /// curvatures along a path. This is Eq. 20 as coded in the report's program; if
-/// the shape says so, w excludes biases (N does not). Memory besides the
-/// patterns is that of a block of rows.
+/// the shape says so, w excludes biases (N does not). Besides the patterns, it
+/// needs memory for one block of rows.
 template <typename Scalar>
 class BasicNetObjective final : public fitting::BasicObjective<Scalar> {
  public:

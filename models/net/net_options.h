@@ -103,7 +103,7 @@ enum class Decay {
 /// hold-outs.
 enum class StartRule { kCost, kCrossValidation };
 
-/// A net with one hidden layer. Empty options follow from the others
+/// A net with one hidden layer. Defaults of empty options depend on the others
 /// (Resolved), since a net in a view must hold beyond its training data.
 struct NetOptions {
   NetMethod method = ScgTraining{};
@@ -115,10 +115,12 @@ struct NetOptions {
   /// Empty means all, or in a view only the weights. net:lm and net:ceres allow
   /// only all.
   std::optional<Decay> decay = {};
-  /// Instead of a wfactor: takes the largest whose RMS residual on the training
-  /// rows is at most this, above 0, in the target's unit (Eq. 126-135).
+  /// Instead of a wfactor: takes the largest wfactor whose RMS residual on the
+  /// training rows is at most this (Eq. 126-135). Above 0, in the target's
+  /// unit.
   std::optional<double> discrepancy = {};
-  /// The fit goes down WfactorPath. Empty: if it chooses the wfactor of a view.
+  /// The fit goes down WfactorPath. Empty: true if it chooses the wfactor of a
+  /// view.
   std::optional<bool> path = {};
   /// Limit of a fit, including its path; 1 .. 1e9. Empty: 1500, for net:lm 200,
   /// in a view at most 500.
@@ -137,14 +139,14 @@ struct NetOptions {
   /// 1 .. 1e9 (fitting::StoppingRules::progress_interval).
   std::int64_t nfreq = fitting::StoppingRules().progress_interval;
   std::optional<double> seconds = {};  // 1e-3 .. 1e12; empty: no limit
-  /// Number of starts, of which one is taken, 1 .. 10,000; empty: 1.
+  /// Number of starts, of which the best is taken, 1 .. 10,000; empty: 1.
   std::optional<std::int64_t> starts = {};
   std::optional<StartRule> choose = {};  // for several starts; empty: kCost
   /// Number of starts averaged, 1 .. 100. Empty: 1, in a view 3 unless `starts`
   /// or `discrepancy` is given.
   std::optional<std::int64_t> members = {};
   /// Maximum number of training rows, at least 100; kAllRows uses all. Time
-  /// grows with the rows; accuracy beyond these hardly does.
+  /// grows with the rows, but accuracy hardly does beyond this number.
   std::int64_t rows = 20'000;
   std::optional<ViewOptions> view = {};
   bool clip = true;  // true: the map is guarded (Guards)
@@ -158,8 +160,8 @@ struct NetOptions {
   void Validate() const;
   bool operator==(const NetOptions&) const = default;
 
-  /// Returns the options with all empty ones filled in, except wfactor beside
-  /// discrepancy and choose beside one start.
+  /// Returns the options with all empty ones filled in, except wfactor with a
+  /// discrepancy, and choose with one start.
   NetOptions Resolved() const;
 
   // For resolved options:

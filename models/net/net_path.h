@@ -11,12 +11,12 @@ namespace errmap::models {
 /// trial step; one more gives the gradient at the accepted step.
 ///
 /// S, T and the hidden outputs are stored while they fit the caches. For more
-/// patterns they are recomputed block by block, which is then no slower and
-/// needs no memory besides the patterns. Stored values are renewed from the
-/// weights from time to time, before rounding errors accumulate.
+/// patterns they are recomputed block by block, which is no slower then and
+/// needs no further memory. Stored values are recomputed from the weights from
+/// time to time, before rounding errors accumulate.
 ///
-/// To save cache, one buffer has the hidden outputs of the point and of trial
-/// points; after a trial, those of the point are recomputed if needed. S is
+/// To save cache, the point and its trial points share one buffer of hidden
+/// outputs. After a trial, those of the point are recomputed if needed. S is
 /// updated only when T is available anyway.
 template <typename Scalar>
 class NetPath final : public fitting::Path<Scalar> {

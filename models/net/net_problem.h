@@ -19,7 +19,7 @@ enum class NetArithmetic {
 };
 
 /// Nodes of a one-hidden-layer net and the layout of its weight vector w: w1 (H
-/// x (I+1)) by columns, then w2 (J x (H+1)) likewise. The last column of each
+/// x (I+1)) by columns, then w2 (J x (H+1)) by columns. The last column of each
 /// is the bias (NISTIR 5367, Eq. 14-17).
 struct NetShape {
   Index inputs = 0;   // I
@@ -117,8 +117,8 @@ struct PackedWeights {
             const PackedWeights& direction);
 };
 
-/// Adds the bias to o (J x columns), the sums into the output nodes from
-/// pattern `begin` on, and turns it into the outputs z (Eq. 17, 18). Returns
+/// Adds the bias to o (J x columns), the inputs of the output nodes from
+/// pattern `begin` on, and replaces them by the outputs z (Eq. 17, 18). Returns
 /// the sum of squared, weighted residuals.
 template <typename Scalar>
 double Outputs(const NetProblem<Scalar>& problem,
@@ -137,7 +137,7 @@ void OutputSlopes(const NetProblem<Scalar>& problem,
 
 /// Returns half the second derivative along a line of the sum of squares
 /// returned by Outputs, from z and the first and second derivatives of o (J x
-/// columns). `bias_step` (J) is yet to be added to the first.
+/// columns). `bias_step` (J) is added to the first.
 template <typename Scalar>
 double OutputCurvature(const NetProblem<Scalar>& problem,
                        Index begin,

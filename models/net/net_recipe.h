@@ -7,8 +7,8 @@
 
 namespace errmap::models {
 
-/// The net that comparisons offer besides the report's, which is overtrained
-/// for unseen groups: "net:scg:view=auto".
+/// The net that comparisons add to the report's, which overfits for unseen
+/// groups: "net:scg:view=auto".
 inline NetOptions NetInViews() { return {.view = ViewOptions()}; }
 
 /// Further operations of a net's recipe.
@@ -18,7 +18,7 @@ class NetRecipe : public ModelRecipe {
   /// hidden nodes, wfactor, and one start, with the seed given by the caller.
   virtual std::unique_ptr<NetRecipe> WithChoicesOf(
       const FittedModel& fitted) const = 0;
-  /// Effective parameters of a fit of it: see net_effective_parameters.h.
+  /// Effective parameters of such a fit: see net_effective_parameters.h.
   virtual double EffectiveParametersOf(const FittedModel& fitted,
                                        const data::Dataset& training) const = 0;
 };

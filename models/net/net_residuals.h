@@ -20,7 +20,7 @@ namespace errmap::models {
 /// c as in NetProblem).
 class NetResiduals final : public fitting::ResidualFunction {
  public:
-  /// `problem` must outlive this object and all that it makes.
+  /// `problem` must outlive this object and all objects that it makes.
   explicit NetResiduals(const NetProblem<double>& problem);
 
   Index num_residuals() const override {

@@ -21,7 +21,7 @@ struct NetTraining {
   std::uint64_t seed = 1;  // for methods that draw at random
 };
 
-/// A method to minimise a net's objective; empty: none.
+/// A method that minimises a net's objective; empty: none.
 using NetTrainer = std::function<fitting::Minimum(
     const NetTraining& training, const fitting::RunControl& run)>;
 

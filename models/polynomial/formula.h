@@ -19,7 +19,7 @@ struct NamedTerm {
   std::vector<Factor> factors;
   std::size_t position = 0;  // 1-based, of its first character
 
-  /// Compares the terms, not their positions.
+  /// Compares terms without their positions in the text.
   bool operator==(const NamedTerm& other) const {
     return factors == other.factors;
   }
@@ -38,7 +38,7 @@ std::vector<NamedTerm> ParseTerms(std::string_view text,
 
 /// Returns the powers of the inputs `names` in each term. Throws
 /// std::invalid_argument if a term is given twice or an input does not exist;
-/// the message names it and those that do.
+/// the message names it and lists the inputs.
 std::vector<TermPowers> ResolveTerms(const std::vector<NamedTerm>& terms,
                                      const std::vector<std::string>& names,
                                      const std::string& what);

@@ -28,8 +28,8 @@ struct TermRows {
 
 /// Least squares in which the rows of a session share an offset: squares of
 /// differences between sessions have weight `between` relative to changes
-/// within one. Rows are fitted less 1 - sqrt(between) times their session's
-/// mean (Fuller and Battese 1973).
+/// within one. Before the fit, 1 - sqrt(between) times the session's mean is
+/// subtracted from each row (Fuller and Battese 1973).
 class SessionOffsets {
  public:
   /// Leaves rows as they are.
@@ -53,11 +53,11 @@ class SessionOffsets {
   VectorXd weights_;  // (sessions)
 };
 
-/// Share of its trained range by which an input may exceed it before a shrunk
-/// map becomes straight in it. Beyond, a parabola predicts nothing useful,
-/// while a straight line through the same data still holds: measured in
-/// models/uncertainty/measured.md. Exact least squares (Eq. 7 to 9 and similar)
-/// are limited only by their guards.
+/// Share of its trained range by which an input may leave it before a shrunk
+/// map becomes linear in it. Further out, a parabola predicts nothing useful,
+/// while a straight line through the same data still holds
+/// (models/uncertainty/measured.md). Exact least squares (Eq. 7 to 9 and
+/// similar) are limited only by their guards.
 inline constexpr double kBendMargin = 0.1;
 
 /// Terms over rows in one view, for ridge and lasso. Products are formed from
@@ -87,8 +87,8 @@ struct RowRanges {
   double error_max;
 };
 
-/// Cross-products of a basis over each inner fold, from one pass over the rows:
-/// its penalties need nothing else of the rows.
+/// Cross-products of a basis over each inner fold, from one pass over the rows.
+/// All penalties need only these.
 class SummedBasis {
  public:
   using Rows = std::vector<Index>;
@@ -104,11 +104,12 @@ class SummedBasis {
   /// Empty if the penalty is given.
   const std::optional<InnerFolds>& inner() const { return folds_; }
 
-  /// Returns the path for all rows, or for those that predict a fold.
+  /// Returns the path for all rows, or for the training rows of a fold.
   fitting::PenalizedPath PathOf(fitting::Penalty penalty,
                                 std::optional<Index> fold) const;
-  /// Returns a path's solutions for `strengths`, descending. Rows are fitted
-  /// less a share of their offsets; the intercepts are those of the errors.
+  /// Returns a path's solutions for `strengths`, descending. The fit subtracts
+  /// a share of the session offsets; the intercepts are those of the errors
+  /// themselves.
   fitting::PenalizedPath::Solutions Solve(
       const fitting::PenalizedPath& path,
       const std::vector<double>& strengths) const;
@@ -170,8 +171,8 @@ struct PenalizedCandidate {
   VectorXd coefficients;  // (terms) for the scaled inputs of the design
 };
 
-/// A candidate and the basis of its coefficients, without the rows: those of
-/// all folds would be too many.
+/// A candidate and the basis of its coefficients, without the rows, which would
+/// need too much memory for all folds.
 struct PenalizedFit {
   std::vector<Index> inputs;  // those of the viewed rows
   ColumnScaling scaling;
@@ -184,10 +185,10 @@ struct PenalizedFit {
   }
 };
 
-/// Fits a penalty to a basis. Held-out rows are clipped, if the basis says so,
-/// to the ranges of their own fold's training rows. Errors far below
+/// Fits a penalty to a basis. If the basis requests it, held-out rows are
+/// clipped to the ranges of their fold's training rows. Errors far below
 /// `indifference` (target's unit) count as equal. A ridge search ends early if
-/// its first three strengths have an RMSE above `promising`. Throws
+/// its first three strengths all have an RMSE above `promising`. Throws
 /// std::invalid_argument if folds are missing.
 std::shared_ptr<const PenalizedFit> FitPenalty(const SummedBasis& basis,
                                                fitting::Penalty penalty,
@@ -220,7 +221,7 @@ struct BasisCandidate {
 };
 
 /// Returns every penalty over every basis of `options` that these rows allow,
-/// in a fixed order; takes available ones from context.shared. Throws
+/// in a fixed order. Reuses those in context.shared. Throws
 /// std::invalid_argument if no basis is possible.
 std::vector<BasisCandidate> JudgeBases(
     const data::Dataset& training,

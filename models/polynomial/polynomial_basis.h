@@ -30,14 +30,14 @@ std::string TermName(const TermPowers& term,
 
 /// Returns the coefficients of the same polynomial in the inputs' own units:
 /// terms with coefficients, by order; the intercept has all powers 0. Expanded
-/// in extended precision, for reading only: high powers of raw millimetres
-/// cancel in computation.
+/// in extended precision. For display only: computing with high powers of raw
+/// millimetres loses digits by cancellation.
 std::vector<PolynomialTerm> ExpandToPhysicalUnits(const PolynomialForm& form);
 
 /// Returns "error_mm = 3.79060810e-03 + 1.81768672e-04*position_mm + ..." in
-/// the inputs' own units. Uses 9 to 17 digits: as many as the text needs to
-/// give the predictions over the trained range to a millionth of `rmse` (0: 17
-/// digits). The powers cancel, so some fits need more digits.
+/// the inputs' own units. Uses 9 to 17 digits, so that the text predicts to a
+/// millionth of `rmse` over the trained range (0: 17 digits). Powers cancel, so
+/// some fits need more digits than others.
 std::string EquationText(const PolynomialForm& form,
                          const data::ColumnInfo& target,
                          const std::vector<TrainedInput>& inputs,

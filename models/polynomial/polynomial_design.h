@@ -14,9 +14,9 @@ namespace errmap::models {
 
 struct FitContext;
 
-/// Returns the scaling of the columns `inputs` of `training` for `terms`: it
-/// makes each input's largest size, after any centring, 1 (its sd, if it is
-/// standardised).
+/// Returns the scaling of the columns `inputs` of `training` for `terms`: after
+/// any centring, it makes each input's largest absolute value 1 (or its sd, if
+/// it is standardised).
 ColumnScaling PolynomialScaling(const data::Dataset& training,
                                 const std::vector<Index>& inputs,
                                 const std::vector<TermPowers>& terms,
@@ -45,8 +45,8 @@ class PolynomialDesign {
   MatrixXd Rows(const std::vector<Index>& rows) const;
   MatrixXd Rows(Index first, Index count) const;
 
-  /// Returns intercept's column and terms (n x (k + 1)) and response (n) in 106
-  /// bits, from the decimals that the data are roundings of.
+  /// Returns the intercept's column and terms (n x (k + 1)) and response (n) in
+  /// 106 bits, from the decimals before rounding to double.
   fitting::ExtendedSystem Exact() const;
   /// Returns the length of the effect of rounding the data to double on a
   /// combination (k + 1) of the intercept's column and the terms, with weights.
@@ -73,7 +73,7 @@ struct DesignRows {
   std::vector<Index> parts;
 
   bool are_observations() const { return intercept.size() == 0; }
-  /// Returns the problem of these rows, which must outlive it.
+  /// Returns the regression problem of these rows, which must outlive it.
   fitting::RegressionProblem Problem() const {
     return {terms, response, weights, intercept, observations};
   }
@@ -94,12 +94,12 @@ DesignRows CollectRows(const PolynomialDesign& design,
                        const std::vector<Index>& parts,
                        const FitContext& context);
 
-/// Returns true if CollectRows makes triangles of such a design.
+/// Returns true if CollectRows turns such a design into triangles.
 bool NeedsTriangle(Index rows, Index terms, double most_values);
 
 /// Returns `context`, but preferring a triangle if the design has more than
-/// `most_values` numbers and few columns. One pass then costs less than the
-/// many of least squares over rows that fit no cache.
+/// `most_values` numbers and few columns. One pass then costs less than many
+/// passes over rows that do not fit the cache.
 FitContext PreferTriangle(const PolynomialDesign& design,
                           double most_values,
                           const FitContext& context);

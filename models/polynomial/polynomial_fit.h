@@ -32,8 +32,8 @@ class PolynomialRecipe : public ModelRecipe {
   /// Fits intercept and `terms` by least squares in the columns `inputs` of
   /// `training`. Terms that depend on earlier ones are omitted and named.
   /// Coefficients are refined in 106 bits if the condition leaves double fewer
-  /// than 13 digits. With context.explain it adds the report, which a caller
-  /// that chose the terms completes; the map is the same. Throws
+  /// than 13 digits. With context.explain it adds the report, to which a caller
+  /// adds how it chose the terms; the map is the same. Throws
   /// std::invalid_argument if there are fewer rows than coefficients.
   FittedModel FitTerms(const data::Dataset& training,
                        const std::vector<Index>& inputs,
@@ -47,8 +47,8 @@ class PolynomialRecipe : public ModelRecipe {
   bool guarded_;
 };
 
-/// Returns the terms `chosen` of a design, over only those inputs that one of
-/// them has.
+/// Returns the `chosen` terms of a design, over only the inputs that they
+/// contain.
 struct UsedTerms {
   std::vector<Index> inputs;
   std::vector<TermPowers> terms;

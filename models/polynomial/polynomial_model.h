@@ -6,9 +6,8 @@
 
 namespace errmap::models {
 
-/// Returns true if a term with these powers is not a straight line in the
-/// inputs that bend within a range. Such a term reads these inputs clipped to
-/// their range.
+/// Returns true if a term with these powers is curved in the inputs that are
+/// limited to a range. Such a term reads these inputs clipped to their range.
 bool Bends(const std::vector<BendRange>& within,
            const std::vector<int>& powers);
 

@@ -31,8 +31,8 @@ struct ConstantOptions {
   bool operator==(const ConstantOptions&) const = default;
 };
 
-/// The report's forms in position x and one temperature T; two of them use only
-/// one of them.
+/// The report's forms in position x and one temperature T; two of the forms use
+/// only one of these.
 enum class PositionTemperatureForm {
   kPosition,
   kTemperature,
@@ -122,8 +122,8 @@ struct BestSubsetOptions {
 struct PenaltyRule {
   /// The strength, if given, at least 0; empty: chosen by inner hold-outs.
   std::optional<double> strength = {};
-  /// True to take the strongest within one standard error of the least (Breiman
-  /// et al. 1984).
+  /// True to take the strongest penalty within one standard error of the least
+  /// error (Breiman et al. 1984).
   bool one_standard_error = false;
 
   bool operator==(const PenaltyRule&) const = default;
@@ -145,7 +145,7 @@ struct BasisOptions {
 
   bool operator==(const BasisOptions&) const = default;
 
-  /// Returns true if more than one basis may be judged.
+  /// Returns true if more than one basis may be tried.
   bool chooses_basis() const { return view && (!view->view || !terms); }
 };
 

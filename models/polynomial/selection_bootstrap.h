@@ -14,8 +14,8 @@ using ChooseTerms = std::function<std::vector<Index>(
 
 /// Reports the share of `repetitions` in which each candidate is chosen, for
 /// `chosen` (as lines of the coefficient table) and for the excluded ones. Each
-/// repetition draws rows with replacement, or whole groups if there are any:
-/// those of `units` (r); draws enter as weights. NaN if interrupted.
+/// repetition draws rows with replacement, or whole groups `units` (r) if there
+/// are any; the draws become weights. NaN if interrupted.
 void ReportInclusion(const TermDictionary& dictionary,
                      const DesignRows& rows,
                      const std::vector<Index>& units,

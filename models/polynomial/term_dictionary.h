@@ -17,7 +17,7 @@ namespace errmap::models {
 /// Options in a SPEC of the terms to choose from: terms, degree, centred,
 /// include and exclude.
 OptionList<TermOptions> TermOptionList();
-/// Adds the degree and excluded terms, options of penalised families as well.
+/// Adds the options degree and exclude, which penalised families also have.
 Option<std::optional<int>> DegreeOption();
 Option<std::vector<NamedTerm>> TermsOption(const std::string& name,
                                            const std::string& about);
@@ -40,12 +40,12 @@ struct TermDictionary {
 
 struct LeastSquaresRecord;
 
-/// Returns a fold's choice, part of its result: "chosen: x, x*t".
+/// Returns the choice in a fold, as part of its result: "chosen: x, x*t".
 std::string ChosenTerms(const TermDictionary& dictionary,
                         const std::vector<Index>& chosen);
 
-/// Adds to `record` why candidates that are not in a model add nothing to it,
-/// and the F of the others. Stops early if interrupted.
+/// Adds to `record`, for each candidate outside a model, its F or why it adds
+/// nothing. Stops early if interrupted.
 void ReportExcluded(const TermDictionary& dictionary,
                     const DesignRows& rows,
                     const std::vector<Index>& chosen,

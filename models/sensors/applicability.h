@@ -14,7 +14,7 @@ namespace errmap::models {
 
 struct Holdout;
 
-/// How far thermal states (m x s) are from the trained ones.
+/// Distances of thermal states (m x s) from the trained ones.
 struct StateMeasures {
   Eigen::VectorXd distance;  // (m) to the nearest trained state, whitened
   Eigen::VectorXd leverage;  // (m) of a linear map in the scores
@@ -56,9 +56,9 @@ struct RowFlag {
   bool outside() const { return why != Outside::kNo; }
 };
 
-/// A flag per row of `inputs` (m x inputs of the map, their units) and
-/// `form_inputs` (m x inputs of the form, FittedModel::FormInputs). A map
-/// without an applicability is judged by its columns' ranges alone.
+/// Returns a flag per row of `inputs` (m x inputs of the map, in their units)
+/// and `form_inputs` (m x inputs of the form, FittedModel::FormInputs). Without
+/// an applicability, only the columns' ranges count.
 std::vector<RowFlag> FlagRows(const FittedModel& fitted,
                               const Eigen::MatrixXd& inputs,
                               const Eigen::MatrixXd& form_inputs);

@@ -9,20 +9,20 @@
 
 namespace errmap::models {
 
-/// How disturbed readings change the predictions of a map, on at most 5000 of
-/// the rows that it was fitted to. In the target's unit.
+/// Effect of disturbed readings on the predictions of a map, on at most 5000 of
+/// its training rows. In the target's unit.
 struct Sensitivity {
   /// RMS change if every sensor's reading has independent noise of this
-  /// standard deviation. Filters are assumed to average it out, and zeros to be
-  /// free of it.
+  /// standard deviation. Filters are assumed to average the noise out, and
+  /// zeros to be free of it.
   static constexpr double kNoise = 0.1;  // degC
   double per_noise = 0.0;
   /// Largest change if one sensor reads 0 from a session's second row on, and
   /// that sensor.
   double largest_jump = 0.0;
   std::string jump_of;
-  /// Largest change if the zero is taken again in a row; 0 for a map without a
-  /// zero.
+  /// Largest change if the zero is taken again at some row; 0 for a map without
+  /// a zero.
   double rezero_jump = 0.0;
 };
 

@@ -27,8 +27,8 @@ std::string_view ToString(SensorFault fault);
 struct SensorFaultFound {
   SensorFault fault = SensorFault::kOff;
   std::vector<data::ColumnInfo> columns;  // one; for kSwapped two
-  /// For kOff: how much it is too high; kDead, kFrozen and kSpike: its reading
-  /// (NaN: none). In the column's unit.
+  /// For kOff: reading minus expected reading; kDead, kFrozen and kSpike: its
+  /// reading (NaN: none). In the column's unit.
   double value = 0.0;
   Eigen::Index row = -1;        // for kSpike: the first row
   std::string looks_like = {};  // for kUnit: "K"
@@ -40,8 +40,8 @@ struct SensorFaultFound {
 ///
 /// For kOff and kSwapped, the likelihood of all readings is compared with and
 /// without the fault. If all sensors differ from training, the thermal state is
-/// new and no sensor is at fault. Rows with a spike are left out of this; they
-/// are reported if nothing else is wrong.
+/// new and no sensor is at fault. Rows with a spike are excluded; spikes are
+/// reported if nothing else is wrong.
 std::optional<SensorFaultFound> FindSensorFault(
     const FittedModel& fitted, const Eigen::MatrixXd& readings);
 

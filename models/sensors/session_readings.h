@@ -9,18 +9,18 @@
 
 namespace errmap::models {
 
-/// How likely the readings of a session are, as they are and with a sensor off
-/// or two swapped.
+/// Likelihood of a session's readings: as they are, with a sensor off, or with
+/// two swapped.
 ///
-/// There are two hypotheses. The session began as those of training did: its
-/// first readings are like theirs, where sensors differ little and always in
-/// the same way, and so are its changes since then, which no offset reaches.
-/// Or a log begins later, or a day begins otherwise: then its rows are like
-/// any rows of training. First readings, changes and rows, all scaled
-/// (Applicability), each have a Student t distribution with as many degrees of
-/// freedom as sessions. Rows of a session are not independent: they count as
-/// one draw, whose square is the mean of theirs. Columns of one unit share a
-/// variance, since halls differ.
+/// There are two hypotheses. Either the session began like the training
+/// sessions. Its first readings are then like theirs, where sensors differ
+/// little and always in the same way. So are its changes since then, which no
+/// offset affects. Or the log begins later, or the day begins unusually: then
+/// its rows are like any training rows. First readings, changes and rows, all
+/// scaled (Applicability), each have a Student t distribution with as many
+/// degrees of freedom as sessions. Rows of a session are not independent: they
+/// count as one draw, whose square is the mean of theirs. Columns of one unit
+/// share a variance, since halls differ.
 class SessionLikelihood {
  public:
   /// `fitted` has applicability->sessions. `states` (n x s) has at least one
@@ -29,17 +29,18 @@ class SessionLikelihood {
 
   /// Returns the log of the density, up to a constant.
   double LogDensity() const;
-  /// Likewise, where this column may have any offset; of a column that
-  /// scattered more than others, `scatter` times that proves as much.
+  /// Returns the same if this column may have any offset. A column with larger
+  /// scatter needs `scatter` times the offset for the same evidence.
   double LogDensityShifted(Eigen::Index column, double scatter = 1.0) const;
-  /// Likewise, after two columns are exchanged.
+  /// Returns the same after two columns are exchanged.
   double LogDensitySwapped(Eigen::Index i, Eigen::Index j) const;
 
-  /// Returns by how much a column is higher than the others tell, in its unit.
+  /// Returns by how much a column exceeds its estimate from the others, in its
+  /// unit.
   double Shift(Eigen::Index column) const;
 
  private:
-  /// Rows against one distribution.
+  /// Likelihood of rows under one distribution.
   class Draw {
    public:
     Draw(const Eigen::MatrixXd& rows,
@@ -49,7 +50,7 @@ class SessionLikelihood {
     double LogDensity() const { return LogDensityOf(square_); }
     double LogDensityShifted(Eigen::Index column, double scatter) const;
     double LogDensitySwapped(Eigen::Index i, Eigen::Index j) const;
-    /// That of rows whose square is what it is expected to be.
+    /// The likelihood of rows whose mean square equals its expectation.
     double LogDensityExpected() const;
     double Shift(Eigen::Index column) const;
 
@@ -64,7 +65,7 @@ class SessionLikelihood {
     double freedom_ = 1.0;
     double power_ = 1.0;  // of the density: degrees of freedom and columns
   };
-  /// A session that began as those of training.
+  /// A session that began like the training sessions.
   struct Begun {
     Draw first;
     Draw changes;
@@ -74,7 +75,7 @@ class SessionLikelihood {
                     const Eigen::MatrixXd& scaled,
                     const Eigen::MatrixXd& any_row,
                     const Eigen::MatrixXd& shared);
-  /// Of both hypotheses, by what each draw gives.
+  /// Combines both hypotheses from their densities.
   template <typename OfReadings, typename OfChanges>
   double Together(const OfReadings& of_readings,
                   const OfChanges& of_changes) const;

@@ -13,7 +13,7 @@
 
 namespace errmap::models {
 
-/// Type of a map's error on measured rows.
+/// Kind of a map's error on measured rows.
 enum class ErrorShape {
   kWithin,  // no larger than promised
   kOffset,  // larger, and an offset explains it
@@ -22,8 +22,8 @@ enum class ErrorShape {
 /// "within", "offset", "shape".
 std::string_view ToString(ErrorShape shape);
 
-/// A map on measured rows, compared with its promise and with no map. In the
-/// target's unit; NaN if the map has no promise.
+/// Errors of a map on measured rows, compared with its promise and with no map.
+/// In the target's unit; NaN if the map has no promise.
 struct KeptPromise {
   double promised = stats::kNaN;  // on unseen units
   double found = 0.0;             // RMSE here
@@ -44,8 +44,8 @@ struct KeptPromise {
   bool better_than_constant() const { return found < constant; }
 };
 
-/// Takes `targets` and `predicted` (m, at least 1). Each row's flag (FlagRows)
-/// selects its interval; without flags, all rows are inside.
+/// Compares `targets` with `predicted` (m, at least 1). Each row's flag
+/// (FlagRows) selects its interval; without flags, all rows count as inside.
 KeptPromise HoldToPromise(const FittedModel& fitted,
                           const VectorXd& targets,
                           const VectorXd& predicted,

@@ -19,13 +19,13 @@ namespace errmap::models {
 /// made for all of them.
 std::string MadeForText(const FittedModel& fitted, const data::CsvTable& table);
 
-/// Options for the measured rows with which a map is compared, among those that
-/// it is made for.
+/// Options for the measured rows with which a map is compared, out of its own
+/// rows.
 struct MapRowsOptions {
   data::MissingPolicy missing = data::MissingPolicy::kError;
   data::FaultPolicy faults = data::FaultPolicy::kKeep;
   MapDataArguments log = {};
-  /// False if the caller knows the rows between: no filters are run.
+  /// False if the caller has the rows in between: then no filters run.
   bool with_memory = true;
 };
 
@@ -35,8 +35,8 @@ struct MapRows {
   data::PreparedDataset prepared;
   /// The rows with the log through which the map's filters run.
   data::Dataset dataset;
-  /// What is missing before any measured row. The start of a session takes
-  /// precedence over readings.
+  /// What the log lacks before some measured row. A missing start of a session
+  /// takes precedence over missing readings.
   Missing missing = Missing::kNothing;
   std::vector<Missing> missing_before;  // (rows of the data set) likewise
   std::vector<std::string> warnings;    // of the map's memory, one line each
@@ -48,8 +48,7 @@ MapRows MakeMapRows(const FittedModel& fitted,
                     data::CsvTable table,
                     const MapRowsOptions& options);
 
-/// Session and time of rows of a table, as far as known; otherwise one session
-/// and time 0.
+/// Session and time of a table's rows; if unknown, one session and time 0.
 struct MomentsOfRows {
   std::vector<Moment> at;      // a row each
   std::string session_column;  // that names the sessions; "" where none does

@@ -17,8 +17,8 @@ struct ProbeCorrection {
 };
 
 /// Returns the options for the rows of the probes. Rows without a target are
-/// readings between probes. A memory also runs through the predicted rows,
-/// unless `log` has earlier rows.
+/// readings between probes. Filters also run through the predicted rows, unless
+/// `log` has earlier rows.
 MapRowsOptions ProbeRowsOptions(const FittedModel& fitted,
                                 const MapDataArguments& log);
 

@@ -14,11 +14,11 @@ namespace errmap::models {
 enum class MapColumns { kInputs, kInputsAndTarget };
 
 /// Reads files (data::ReadTables) in the names and units of the map
-/// (data::InMapUnits), with further knowledge of the map. If the map takes each
-/// file as a session, one file is one session. A clock without a unit has that
-/// of the map if its steps then agree. Rows in another order are sorted by
-/// time, like those of a fit. A remark names what the map's memory was not
-/// fitted to. Throws data::InputError as these functions do.
+/// (data::InMapUnits), with help from the map. If each training file was a
+/// session, each file here is one. A clock without a unit takes that of the map
+/// if its steps then agree. Rows in another order are sorted by time, like
+/// those of a fit. A remark names differences that affect the map's memory.
+/// Throws data::InputError as these functions do.
 data::TableForMap ReadForMap(const FittedModel& fitted,
                              const std::vector<std::string>& files,
                              MapColumns columns,

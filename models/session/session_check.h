@@ -13,7 +13,7 @@
 
 namespace errmap::models {
 
-/// Result of checking a map with a few probes of a session.
+/// Answer of a check with a few probes of a session.
 enum class SessionStatus {
   kHolds,
   kOff,
@@ -36,12 +36,12 @@ enum class Remedy {
 /// "none", "re-zero", "refit", "unknown", "gain", "sign".
 std::string_view ToString(Remedy remedy);
 
-/// A session is off if its RMSE is above this many times the promised one.
+/// A session is off if its RMSE exceeds the promised one by this factor.
 inline constexpr double kOffRatio = 1.5;
 
-/// True if an offset explains errors of this mean and RMS: it is at least three
-/// quarters of the excess of their mean square over the promised one.
-/// Re-zeroing then halves the error, or reduces it to the promised one.
+/// True if an offset explains errors of this mean and RMS: the squared mean is
+/// at least three quarters of the excess of their mean square over the promised
+/// one. Re-zeroing then halves the error, or reduces it to the promised one.
 bool OffsetExplains(double mean, double rms, double promised);
 
 /// The RMSE of a part of the session, estimated from probes.
@@ -52,8 +52,8 @@ struct RmseForecast {
 };
 
 struct SessionCheck {
-  /// Earlier rows that the map's memory lacks at a probe. The map would predict
-  /// something else in use, so nothing is judged.
+  /// Set if earlier rows are missing at a probe. In use, the map would then
+  /// predict something else, so nothing is judged.
   Missing missing = Missing::kNothing;
   std::optional<SensorFaultFound> sensor;
   SessionStatus status = SessionStatus::kUnknown;
@@ -69,15 +69,15 @@ struct SessionCheck {
   RmseForecast session;
   /// Median RMSE of the rest of the session after the remedy.
   double left = 0.0;
-  /// When to probe next, in s since the session began: later it is unknown
-  /// whether the map holds. Empty without times.
+  /// Time of the next probe, in s since the session began, after which it is
+  /// unknown whether the map holds. Empty without times.
   std::optional<double> next_probe;
 };
 
 /// Judges a session by the errors forecast from its probes (ForecastSession).
 /// The limit is kOffRatio times the promise. The map holds if the errors so far
 /// and later are within it with sufficient probability. It is off if the whole
-/// session's errors exceed it with that probability. A remedy must be as
+/// session's errors exceed it with that probability. A remedy must be equally
 /// unlikely to increase the error. Re-zeroing, a gain or a sign must also bring
 /// the session within the limit. A gain or a sign replaces kRefit if it alone
 /// brings the probes within the limit. If `missing` or `sensor` is set, nothing
@@ -88,19 +88,20 @@ SessionCheck CheckSession(const HeldOutErrors& errors,
                           Missing missing = Missing::kNothing,
                           std::optional<SensorFaultFound> sensor = {});
 
-/// How well one probe at a time and place shows a unit's RMSE.
+/// How well a single probe at a time and place shows the RMSE of a unit.
 struct ProbeSite {
   double from = 0.0;  // elapsed, s; all times if unknown
   double until = 0.0;
   double position_from = 0.0;  // NaN if positions are unknown
   double position_until = 0.0;
-  /// Half of such probes are within this factor of their unit's RMSE, in size.
+  /// The absolute error of half of such probes is within this factor of their
+  /// unit's RMSE.
   double factor = 0.0;
 };
 
 /// Returns sites of held-out probes, the most informative first: quarters of
 /// the units' length times thirds of the positions. Sites where half of the
-/// errors are 0 show nothing and are left out.
+/// errors are 0 are left out.
 std::vector<ProbeSite> RankProbeSites(const HeldOutErrors& errors);
 
 }  // namespace errmap::models

@@ -21,7 +21,7 @@ struct SessionProbes {
 /// without one disturbance. This is an offset, a gain of the predicted error, a
 /// growing offset, a shape over the position (if known), or a growing shape.
 /// Each is a Gaussian process. Held-out errors are a drifting offset
-/// (FitOffset) with noise, of the size usual at that time. Sizes of
+/// (FitOffset) with noise, of the usual size at that time. Sizes of
 /// disturbances are on a grid. Bayes' rule weights all of these by the probes,
 /// and predicts other times and places, in closed form (Rasmussen & Williams
 /// 2006, Eqs. 2.22 to 2.30).

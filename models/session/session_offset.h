@@ -43,17 +43,18 @@ class OffsetFilter {
   /// Variance of the offset, at least that of the mean of probes with this
   /// scatter. The model's variances are scaled by the ratio of squared to
   /// predicted probe errors (West & Harrison 1997, section 4.5). In this ratio
-  /// the held-out sessions count as four probes. A probe that starts a lasting
-  /// offset counts as three standard deviations.
+  /// the held-out sessions count as four probes, and a probe that starts a
+  /// lasting offset as three standard deviations.
   double variance() const;
-  /// True if no offset explains the probes: under an offset, only 5 % of such
-  /// sets differ more from their predictions. A probe that starts a lasting
-  /// offset does not count.
+  /// True if no offset explains the probes: under an offset, at most 5 % of
+  /// such sets would differ more from their predictions. Probes that start a
+  /// lasting offset do not count.
   bool contradicted() const;
-  /// The factor for an interval, with Student's t for so few probes. It is the
-  /// standard deviation of errors after the offset is removed, over that of the
-  /// model's errors. At least 1 for a single probe, whose scatter is unknown.
-  /// If the probes contradict the offset, it covers at least their own scatter.
+  /// The factor for an interval: the standard deviation of errors after the
+  /// offset is removed, over that of the model's errors, with Student's t for
+  /// few probes. At least 1 for a single probe, whose scatter is unknown. If
+  /// the probes contradict the offset, the interval covers at least their own
+  /// scatter.
   double Widening() const;
 
  private:

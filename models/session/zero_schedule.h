@@ -22,8 +22,8 @@ struct ZeroTrigger {
 };
 
 /// Errors in held-out sessions with a given trigger. A row at which a probe is
-/// due is judged by the old offset, then gives the new one. A session's first
-/// row is a probe. Unlike `compare --rezero`, it also judges rows after a gap
+/// due is scored with the old offset, then gives the new one. A session's first
+/// row is a probe. Unlike `compare --rezero`, it also scores rows after a gap
 /// longer than the interval, since in use they come before a probe.
 struct ZeroedErrors {
   ZeroTrigger trigger;
@@ -37,13 +37,13 @@ struct ZeroSchedule {
   std::size_t sessions = 0;
   ZeroedErrors none;                 // the map as it is, no probe taken
   std::vector<ZeroedErrors> clocks;  // by rising interval, the last infinite
-  /// The longest interval that meets the goal; nothing if no probe is needed.
+  /// The longest interval that meets the goal; empty if no probe is needed.
   std::optional<ZeroedErrors> clock;
   bool no_probe_serves = false;  // 90 % of the errors are within the goal as is
 
-  /// A trigger by time and temperature beside that clock. Each session is
-  /// judged by the trigger that the others chose, with no more probes on them
-  /// than the clock takes.
+  /// A trigger by time and temperature, compared with that clock. Each session
+  /// is scored with the trigger that the others chose, which takes no more
+  /// probes on them than the clock.
   struct Rule {
     ZeroTrigger trigger;      // by all sessions
     double rmse = 0.0;        // of sessions that had no part in it
@@ -53,18 +53,18 @@ struct ZeroSchedule {
   };
   std::optional<Rule> rule;  // nothing without a temperature or a clock
 
-  /// True if anything keeps 90 % of the errors within the goal.
+  /// True if some schedule keeps 90 % of the errors within the goal.
   bool serves() const { return no_probe_serves || clock.has_value(); }
-  /// Returns the trigger to use: the rule if it is established. Never due if
-  /// none is needed.
+  /// Returns the trigger to use: the rule if it is established, else the clock.
+  /// Never due if no probe is needed.
   ZeroTrigger advised() const;
 };
 
-/// True if the map's held-out errors are of whole sessions with times in s.
+/// True if the map's held-out errors come from whole sessions with times in s.
 bool KnowsAges(const FittedModel& fitted);
 
 /// Makes the schedule from such errors. `goal`: target's unit, above 0; NaN:
-/// the clocks alone. Throws std::invalid_argument where fewer than two sessions
+/// the clocks alone. Throws std::invalid_argument if fewer than two sessions
 /// have two rows.
 ZeroSchedule ScheduleZeros(const HeldOutErrors& errors, double goal);
 

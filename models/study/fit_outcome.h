@@ -34,10 +34,10 @@ struct StudyTask {
 class FitJournal {
  public:
   virtual ~FitJournal() = default;
-  /// Returns the outcome of this same fit in an earlier run, if any.
+  /// Returns the outcome of the same fit in an earlier run, if any.
   virtual std::optional<FitOutcome> Find(const StudyTask& task) = 0;
-  /// Keeps an outcome for later runs. Interrupted fits, and those that may
-  /// succeed next time, are not recorded.
+  /// Keeps an outcome for later runs, except of interrupted fits and of those
+  /// that may succeed next time.
   virtual void Record(const StudyTask& task, const FitOutcome& outcome) = 0;
 };
 

@@ -30,8 +30,8 @@ FoldOutcome JudgeFold(const data::Dataset& dataset,
                       std::size_t fold,
                       FitOutcome outcome);
 
-/// Comparisons use mean squares. Squares of larger errors overflow when summed
-/// over many rows.
+/// Largest error allowed: comparisons use mean squares, and squares of larger
+/// errors would overflow when summed over many rows.
 inline constexpr double kLargestRmse = 1e150;
 
 /// Pools the folds of one model under one hold-out. The result is failed if any

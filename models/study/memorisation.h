@@ -9,7 +9,7 @@
 
 namespace errmap::models {
 
-/// How much noise a fit can follow.
+/// How much noise a fit follows.
 enum class NoiseLearning { kUnknown, kLittle, kSome, kMuch };
 /// "unknown", "little", "some", "much".
 std::string_view ToString(NoiseLearning learning);
@@ -18,14 +18,14 @@ std::string_view ToString(NoiseLearning learning);
 struct Memorisation {
   /// R2 on the training rows, about their mean.
   double train_r2 = stats::kNaN;
-  /// R2 of the same fit to targets in a seeded random order. There is nothing
-  /// to learn, so it is the share of noise that the fit follows.
+  /// R2 of the same fit to targets in a seeded random order. Such targets
+  /// cannot be learnt, so this is the share of noise that the fit follows.
   double shuffled_r2 = stats::kNaN;
   double weights_per_row = stats::kNaN;
   /// net_effective_parameters.h, at the fitted weights; NaN for other models.
   double effective_parameters = stats::kNaN;
   double effective_per_row = stats::kNaN;
-  /// Why a value is missing that this model should have; "" if none is.
+  /// Reason if a value is missing that this model should have, else "".
   std::string why_not;
 
   /// Classifies the share of noise that a fit follows by the larger of

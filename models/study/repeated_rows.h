@@ -8,8 +8,9 @@
 
 namespace errmap::models {
 
-/// Returns a hash of each row of `inputs` and, unless null, its target. It uses
-/// single precision, since unit conversions change the last digits.
+/// Returns a hash of each row of `inputs` and, unless null, its target. Values
+/// are rounded to single precision, since unit conversions change the last
+/// digits.
 std::vector<std::uint64_t> RowHashes(const MatrixXd& inputs,
                                      const VectorXd* targets);
 
@@ -19,7 +20,7 @@ std::vector<std::uint64_t> RowHashes(const MatrixXd& inputs,
 double ShareAlike(const data::Dataset& training,
                   const std::vector<std::uint64_t>& hashes);
 
-/// True if `found` of `looked` rows exceed the number expected by chance.
+/// True if `found` of `looked` rows is more than expected by chance.
 bool AreMoreThanChance(double found, double looked, double share_by_chance);
 
 /// Returns how many rows of `judged` also occur in `training` (inputs and

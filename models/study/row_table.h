@@ -10,7 +10,7 @@
 
 namespace errmap::models {
 
-/// Returns the index into `dataset` of each data row that it holds.
+/// Returns the index in `dataset` of each of its data rows.
 std::unordered_map<Index, Index> IndexByRow(const data::Dataset& dataset);
 
 /// Reads users' tables with one line for each row of a data set. Each accessor
@@ -26,7 +26,7 @@ class RowTable {
   Index Whole(std::size_t line, const std::string& column) const;
   double Number(std::size_t line, const std::string& column) const;
   std::string Text(std::size_t line, const std::string& column) const;
-  /// Throws that `why` is wrong with a line.
+  /// Throws with the line and `why`.
   [[noreturn]] void Refuse(std::size_t line,
                            const std::string& column,
                            const std::string& why) const;

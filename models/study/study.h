@@ -26,12 +26,12 @@ struct Holdout {
   bool among_neighbours = false;
   bool forward = false;  // earlier rows predict later ones
   Index repeats = 1;     // different splits of the same rows, in order
-  /// Indices into the data set, and for testing into Source.
+  /// Training rows are indices into the data set, test rows into Source.
   std::vector<stats::Fold> folds;
   /// file:TEST.csv, or null.
   std::shared_ptr<const data::Dataset> test_data;
-  /// Number of those rows that the data set also contains. The model has learnt
-  /// from them, so their errors say nothing about another day; among_neighbours
+  /// Number of those rows that the data set also contains. The model was fitted
+  /// to them, so their errors say nothing about another day; among_neighbours
   /// is then set.
   Index rows_of_training = 0;
   /// The inner hold-out for choices inside the training rows of a fold.
@@ -44,7 +44,7 @@ struct Holdout {
 };
 
 /// True if whole sessions of `dataset`, and nothing coarser, are held out. It
-/// then counts as a hold-out of sessions, whatever its SPEC.
+/// then counts as a sessions hold-out, whatever its SPEC.
 bool IsOfSessions(const Holdout& holdout, const data::Dataset& dataset);
 
 /// Makes the folds of `spec` over `dataset`; `test_data` is for file:TEST.csv
@@ -103,7 +103,7 @@ struct FitProgress {
   int all = 0;
   StudyTask task;
   double seconds = 0.0;  // spent on it, in whichever run
-  /// RMSE of its model and hold-out after the last fold; until then NaN.
+  /// RMSE of its model and hold-out; NaN until the last fold.
   double holdout_rmse = stats::kNaN;
 };
 
@@ -126,7 +126,7 @@ struct StudyResult {
   int short_of_memory = 0;  // fits that may succeed next time
 };
 
-/// Frees the folds' maps after their last use: those of many components would
+/// Frees the folds' maps after their last use, since those of many components
 /// need much memory.
 void ForgetFoldMaps(StudyResult* study);
 
@@ -136,7 +136,7 @@ std::vector<StudyTask> StudyTasks(
     const std::vector<Holdout>& holdouts,
     const std::vector<std::unique_ptr<ModelRecipe>>& recipes);
 
-/// Returns what the fit of `task` may use besides its rows.
+/// Returns the context for the fit of `task`.
 FitContext ContextOfTask(const StudyTask& task,
                          const std::vector<Holdout>& holdouts,
                          const StudyOptions& options);

@@ -12,13 +12,13 @@ namespace errmap::models {
 
 /// Returns SPECs of the default hold-outs: rows, and each unit that can be held
 /// out whole. Groups equal to sessions (IsOfSessions) are held out as sessions.
-/// Fewer than four sessions cannot decide: blocks are added if there are no
-/// groups. From four sessions on, later ones are also predicted from earlier
+/// Fewer than four sessions cannot decide, so blocks are added if there are no
+/// groups. With four or more, later sessions are also predicted from earlier
 /// ones.
 std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset);
 
-/// Returns DefaultHoldouts if every one of the chosen `holdouts` uses a test
-/// file that contains training rows, and so is worthless; else returns nothing.
+/// Returns DefaultHoldouts if every chosen hold-out uses a test file that
+/// contains training rows, and so is worthless. Else returns nothing.
 std::vector<std::string> HoldoutsBeside(const std::vector<Holdout>& holdouts,
                                         const data::Dataset& dataset);
 

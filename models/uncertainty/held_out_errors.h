@@ -13,7 +13,7 @@ namespace errmap::models {
 
 /// Returns the errors of a model's predictions of `holdout`'s held-out rows;
 /// nothing if PromiseOf returns nothing. `inputs` are those that the map reads:
-/// only their temperatures can say in use when the next probe is due. The
+/// in use, only their temperatures can show when the next probe is due. The
 /// position of a probe is always known, so it may be a column that the map does
 /// not read.
 std::optional<HeldOutErrors> HeldOutErrorsOf(
@@ -22,7 +22,8 @@ std::optional<HeldOutErrors> HeldOutErrorsOf(
     const HoldoutResult& result,
     const std::vector<TrainedInput>& inputs);
 
-/// Time since the first row of its session, for each row; zeros without a log.
+/// Returns the time of each row since the first row of its session; zeros
+/// without a log.
 VectorXd ElapsedOf(const data::Dataset& dataset);
 
 }  // namespace errmap::models

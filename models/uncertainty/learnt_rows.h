@@ -9,12 +9,12 @@
 
 namespace errmap::models {
 
-/// Makes the record of a map fitted to these rows. Returns nothing if rows
-/// cannot be told apart by readings with their error, or by readings alone.
+/// Makes the record of a map fitted to these rows. Returns nothing if readings,
+/// with or without their error, do not distinguish the rows.
 std::optional<LearntRows> MakeLearntRows(const FittedModel& fitted,
                                          const data::Dataset& training);
 
-/// Returns how many of these rows the map learnt from, according to its file.
+/// Returns how many of these rows the map was fitted to, according to its file.
 /// `inputs` (m x inputs of the map) and `targets` (m; null: readings alone) are
 /// in its units. Returns 0 if chance and false hits of the filter (LearntRows)
 /// explain them, or for one or two readings alone. For a long training file it

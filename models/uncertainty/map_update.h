@@ -11,11 +11,11 @@
 namespace errmap::models {
 
 /// Joins the rows of two data sets with the same inputs and target. Their
-/// sessions stay apart, whatever their labels. Throws std::invalid_argument if
-/// columns differ, or if only one has sessions and times.
+/// sessions stay separate, whatever their labels. Throws std::invalid_argument
+/// if columns differ, or if only one has sessions and times.
 data::Dataset Joined(const data::Dataset& first, const data::Dataset& second);
 
-/// A map against its successor on new sessions that neither has seen.
+/// A map compared with its successor on new sessions that neither has seen.
 struct UpdateTrial {
   struct Session {
     std::string session;
@@ -37,15 +37,15 @@ struct UpdateTrial {
   /// would average both.
   bool is_negated() const;
   bool is_shifted() const;
-  /// True if neither is so, the RMSE is lower by more than `indifference`, and
-  /// so is its geometric mean over the sessions. Thus one long session alone
-  /// does not decide, and a slightly worse session does not outweigh one with
-  /// large errors.
+  /// True if neither is the case, and if both the RMSE and its geometric mean
+  /// over the sessions are lower by more than `indifference`. So one long
+  /// session does not decide alone, and a slightly worse session does not
+  /// outweigh one with large errors.
   bool better(double indifference) const;
 };
 
-/// Tries the successor: fits `recipe` to `known` rows and all but one of the
-/// new sessions, and judges it on that one, each in turn. The old map is judged
+/// Tests the successor: fits `recipe` to `known` rows and all but one of the
+/// new sessions, and tests it on that one, each in turn. The old map is tested
 /// on the same rows. `known` may be null: the successor then learns from new
 /// sessions alone. Throws std::invalid_argument if there are fewer than two new
 /// sessions.

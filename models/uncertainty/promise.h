@@ -12,15 +12,15 @@ namespace errmap::models {
 /// empty if MakeApplicability and MakeLearntRows return nothing.
 void AddExperience(const data::Dataset& dataset, FittedModel* fitted);
 
-/// Gives a map fitted to `dataset` its interval and the errors behind it, from
-/// the predictions of `holdout`'s held-out rows. They stay empty if PromiseOf
+/// Gives a map fitted to `dataset` its interval and held-out errors, from the
+/// predictions of `holdout`'s held-out rows. They stay empty if PromiseOf
 /// returns nothing.
 void AddPromise(const data::Dataset& dataset,
                 const Holdout& holdout,
                 const HoldoutResult& result,
                 FittedModel* fitted);
 
-/// Does the same for a map fitted alone: its recipe is run under
+/// Does the same for a map fitted outside a study: runs its recipe under
 /// StrictestDefaultHoldout(dataset). The interval stays empty if a fold fails
 /// or was interrupted. Throws std::invalid_argument if the data allow no such
 /// hold-out, std::bad_alloc if a fold lacks memory.

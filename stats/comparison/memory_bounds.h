@@ -23,7 +23,8 @@ double MemoryOf(const Eigen::Ref<const VectorXd>& series, double margin);
 /// sessions cannot show their memory, and with its upper bound ten sessions
 /// would never prove anything.
 inline constexpr double kSessionMemory = 0.5;
-/// The same for a PointOptimalTest: with 0.5 its level there would be just 5 %.
+/// The same for a PointOptimalTest: with 0.5, its error rate at that memory
+/// would be just 5 %.
 inline constexpr double kSessionMemoryInTurn = 0.55;
 
 /// ShownMemory returns MemoryOf with kLikelyMemory if the estimate is more than
@@ -37,20 +38,20 @@ inline constexpr double kSuspected = 0.6;
 double ShownMemory(const Eigen::Ref<const VectorXd>& series,
                    double above = kShows);
 
-/// Returns the number of independent units that would determine a mean as well:
-/// n (1 - memory) / (1 + memory), at least 2.
+/// Returns the number of independent units that would give an equally precise
+/// mean: n (1 - memory) / (1 + memory), at least 2.
 double EffectiveUnits(Index units, double memory);
 
-/// How the mean of n normal values, a first-order autoregression of coefficient
-/// `memory`, is distributed: over s / sqrt(n) it is Student's t times
-/// `inflation`. s^2 lacks what neighbours share, and varies like a chi-squared
-/// of fewer degrees of freedom (by its first two moments: Box 1954;
-/// Satterthwaite 1946).
+/// Distribution of the mean of n normal values that follow a first-order
+/// autoregression with coefficient `memory`. Divided by s / sqrt(n), the mean
+/// is Student's t times `inflation`. Correlation makes s^2 too small on
+/// average, and it varies like a chi-squared of fewer degrees of freedom (by
+/// its first two moments: Box 1954; Satterthwaite 1946).
 struct MeanWithMemory {
   double inflation = 1.0;
   double degrees_of_freedom = 0.0;
 };
-/// Returns that of at least 2 units, memory 0 to 0.98.
+/// Returns this distribution for at least 2 units and a memory of 0 to 0.98.
 MeanWithMemory OfMean(Index units, double memory);
 
 /// Test of a difference of pooled RMSE, for a given memory from unit to unit.
@@ -63,10 +64,10 @@ struct MemoryTest {
 
 /// Tests all pairs of models on the same units, which are in order.
 ///
-/// To first order the difference is the mean of the units' contributions, which
-/// OfMean judges. Their estimated memory alone would miss half of all memory in
-/// a dozen units; its upper bound does not. Simulated error rates are in
-/// tests/models/study/confidence_null_test.cc.
+/// To first order the difference is the mean of the units' contributions, with
+/// the distribution that OfMean gives. In a dozen units, the estimated memory
+/// would miss half of all memory; its upper bound does not. Simulated error
+/// rates are in tests/models/study/confidence_null_test.cc.
 class MemoryBounds {
  public:
   /// Throws std::invalid_argument if `losses` are invalid.
@@ -79,9 +80,9 @@ class MemoryBounds {
   /// difference; 0 below 4 units.
   double InDifference(Index a, Index b, double margin) const;
   double ShownInDifference(Index a, Index b) const;
-  /// Returns ShownMemory, by kSuspected, of the model's mean errors. If these
-  /// are unknown, or there are at least 20 units and its losses show more
-  /// memory, returns that of its losses. 0 below 4 units.
+  /// Returns ShownMemory, with kSuspected, of the model's mean errors. Uses its
+  /// losses instead if the mean errors are unknown, or if at least 20 units
+  /// show more memory in them. 0 below 4 units.
   double ShownInLosses(Index model) const;
 
  private:

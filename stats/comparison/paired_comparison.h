@@ -18,10 +18,11 @@ namespace errmap::stats {
 /// Level of every test, after Holm's correction if there is one.
 inline constexpr double kSignificance = 0.05;
 
-/// Number of runs of neighbouring units, as equal as can be, longer first.
+/// Number of runs of neighbouring units, of nearly equal length, longer ones
+/// first.
 inline constexpr Index kBlocksOfUnits = 5;
 
-/// Below this many effective units no RMSE has bounds.
+/// With fewer effective units, an RMSE has no bounds.
 inline constexpr double kFewestForBounds = 4.0;
 
 /// Mean held-out losses by fold, for the corrected resampled t.
@@ -38,21 +39,21 @@ struct ComparisonOptions {
   Margin margin = {};      // between tiers
   /// True if the units are known to be separate sessions. `p` then allows for
   /// memory between them only if it exceeds chance. The `memory` test uses
-  /// kSessionMemory instead of the upper bound of the memory, a pair tested in
-  /// turn the PointOptimalTest with kSessionMemoryInTurn.
+  /// kSessionMemory instead of the upper bound of the memory. Pairs tested in
+  /// turn use the PointOptimalTest with kSessionMemoryInTurn.
   bool separate_units = false;
   /// `first` is the model of interest, `yardsticks` the models that it must
   /// beat (columns of the losses), chosen before the losses are seen. These
-  /// pairs are tested in turn, the yardstick of lowest measured error first,
-  /// each at the full level and in that direction only, until one fails. All
-  /// other pairs follow, with Holm's correction.
+  /// pairs are tested in turn until one fails: the yardstick of lowest measured
+  /// error first, each one-sided at the full level. All other pairs follow,
+  /// with Holm's correction.
   ///
   /// The chance of any false rejection among all pairs is at most the level.
-  /// Of the yardsticks that are truly no worse, the first in turn shows the
-  /// smallest gain. Where that gain is significant, the gain over the one of
-  /// them whose errors scatter least is, too: one fixed test. (A sequence, then
-  /// a gate: Maurer, Hothorn & Lehmacher 1995.) If unset, all pairs are
-  /// adjusted together.
+  /// Among the yardsticks that are truly no worse, the first one tested shows
+  /// the smallest gain. If that gain is significant, so is the gain over the
+  /// one with the least scatter: one fixed test. (A sequence, then a gate:
+  /// Maurer, Hothorn & Lehmacher 1995.) If unset, all pairs are adjusted
+  /// together.
   std::optional<Index> first = {};
   std::vector<Index> yardsticks = {};
 
@@ -69,8 +70,9 @@ struct PairComparison {
   Index a = 0;
   Index b = 0;
   double difference = 0.0;  // pooled RMSE of a minus that of b
-  /// True if no unit's losses differ by more than rounding: the same map twice.
-  /// Nothing is tested, every p is NaN, and Holm's correction omits it.
+  /// True if no unit's losses differ by more than rounding: the two are the
+  /// same map. Such a pair is not tested, every p is NaN, and Holm's correction
+  /// omits it.
   bool tied = false;
   /// Bounds of `difference` by the bootstrap over units. If memory_shown is
   /// above 0: the wider of these and the bounds of a t test with that memory.
@@ -93,7 +95,7 @@ struct PairComparison {
   double p_memory_holm = 1.0;
   /// Corrected resampled t test of d on kBlocksOfUnits runs of neighbouring
   /// units, as if each run were held out in turn, whatever the hold-out was. It
-  /// sees memory that noise hides from the correlation of neighbours.
+  /// detects memory that noise hides in the correlation of neighbours.
   MeanDifferenceTest block_t;
   SignedRankTest wilcoxon;                            // of d
   std::optional<MeanDifferenceTest> corrected_t;      // if there are folds
@@ -110,15 +112,14 @@ struct PairComparison {
 struct Comparison {
   Index num_units = 0;
   VectorXd rmse;  // (models) pooled over rows
-  /// (models) NaN if neighbouring units resemble each other so much that they
-  /// count for fewer than kFewestForBounds: the units measured are then too
-  /// few.
+  /// (models) NaN if the units measured are too few: neighbours resemble each
+  /// other so much that they count for fewer than kFewestForBounds.
   std::vector<Bounds95> rmse_bounds;
   std::vector<PairComparison> pairs;      // (0,1), (0,2), ..., (1,2), ...
   std::vector<std::vector<Index>> tiers;  // see FormTiers
 
-  /// Number of pairs in Holm's correction, and that number if none were tied,
-  /// which does not depend on the results. 0 if only yardstick pairs remain.
+  /// Number of pairs in Holm's correction, and that number without ties, which
+  /// does not depend on the results. 0 if only yardstick pairs remain.
   Index num_tested = 0;
   Index num_asked = 0;
 

@@ -30,7 +30,7 @@ std::vector<SignFlipTest> TestBySignFlips(const MatrixXd& differences,
                                           Index draws,
                                           std::uint64_t seed);
 
-/// Above this the sums of all patterns take longer than 10 000 draws.
+/// With more differences, summing all patterns takes longer than 10 000 draws.
 inline constexpr Index kMostForExactFlips = 24;
 
 }  // namespace errmap::stats

@@ -19,9 +19,9 @@ struct Margin {
 
 /// Returns tiers of models that do not differ in practice: best tier first,
 /// each in order of RMSE. A tier holds the model with the lowest RMSE and all
-/// whose `excess_at_most(model, best)` is within the margin. That is the
-/// one-sided 95 % upper bound of (RMSE - best RMSE). The next tier is formed
-/// from the rest. A difference that is merely not significant does not suffice.
+/// models whose `excess_at_most(model, best)` is within the margin. This is the
+/// one-sided 95 % upper bound of (RMSE - best RMSE). The remaining models form
+/// the next tier. A difference that is merely not significant does not suffice.
 /// Without a bound (NaN), only a model of equal RMSE (to a relative 1e-12)
 /// shares the tier.
 ///

@@ -19,8 +19,8 @@ struct Bounds95 {
 
   bool exist() const { return lower <= upper; }
   bool ExcludeZero() const { return lower > 0.0 || upper < 0.0; }
-  /// Upper one-sided bounds of how far a (`is_first`) or b exceeds the other,
-  /// for a difference a - b.
+  /// Upper one-sided bound of a - b (`is_first`) or of b - a, for a difference
+  /// a - b.
   double ExcessAtMost(bool is_first) const {
     return is_first ? at_most : -at_least;
   }
@@ -33,8 +33,8 @@ struct Bounds95 {
 /// expanded percentile, the other Student's t times the delta-method standard
 /// error. For one RMSE, which is skewed and above 0, the latter applies to its
 /// logarithm. A percentile never exceeds the worst single unit: with 3 units a
-/// nominal 95 % covers 75 %. The t interval ignores skewness. The resulting
-/// coverage is in tests/stats/comparison/paired_comparison_null_test.cc.
+/// nominal 95 % covers 75 %. The t interval ignores skewness.
+/// tests/stats/comparison/paired_comparison_null_test.cc measures the coverage.
 class UnitBootstrap {
  public:
   /// Throws std::invalid_argument if resamples < 99 or `losses` are invalid.

@@ -36,9 +36,9 @@ struct UnitLosses {
 UnitLosses GatherByUnit(const MatrixXd& residuals,
                         const std::vector<Index>& unit_codes);
 
-/// Returns a code per row, 0, 0, ..., 1, 1, ..., for data without groups. The
-/// rows, in order, are cut into min(20, num_rows / 5) blocks (at least one) of
-/// equal length or one row longer, the longer ones first.
+/// Returns a block number per row, 0, 0, ..., 1, 1, ..., for data without
+/// groups. The rows, in order, form min(20, num_rows / 5) blocks (at least
+/// one). Lengths differ by at most one row, longer ones first.
 std::vector<Index> BlocksInOrder(Index num_rows);
 
 /// Returns the RMSE of each model (models), pooled over all rows: sqrt(sum(rows

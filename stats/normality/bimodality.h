@@ -15,7 +15,7 @@ double DipStatistic(const Eigen::Ref<const VectorXd>& ascending);
 /// unimodal distribution has larger dips than the uniform. For others, such as
 /// the normal, p is too large, so a small p is safe evidence of two modes. From
 /// simulated quantiles (simulated_quantiles.h): 0.001 means at most 0.001. 1 if
-/// n < 4, since any such sample is unimodal enough.
+/// n < 4, which is too few to show two modes.
 double DipProbability(double dip, Index n);
 
 }  // namespace errmap::stats

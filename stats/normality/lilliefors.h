@@ -18,8 +18,8 @@ TestResult Lilliefors(const OrderedSample& sample);
 /// Throws std::invalid_argument if n < 4.
 double LillieforsProbability(double d, Index n);
 
-/// Returns the same from a published formula, as R's nortest does: G. E. Dallal
-/// & L. Wilkinson, The American Statistician 40 (1986). For p <= 0.1, accurate
+/// Returns this probability by the formula of G. E. Dallal & L. Wilkinson, The
+/// American Statistician 40 (1986), as R's nortest does. For p <= 0.1, accurate
 /// to 0.005. Needs n >= 5.
 double DallalWilkinsonProbability(double d, Index n);
 

@@ -29,21 +29,21 @@ struct Normality {
   TestResult dip;          // p of the null hypothesis of one mode
   ShapeMoments shape;      // NaN if the values do not vary
   TukeyPpcc curve;         // empty if tukey_ppcc does not apply
-  /// Rounding step of the readings, in their unit, if not small beside their
-  /// scatter (FindStep); else 0. Ties make distances from a continuous
-  /// distribution too large. Each p is then that among kGridDraws normal
+  /// Rounding step of the readings, in their unit, if it matters compared with
+  /// their scatter (FindStep); else 0. Ties make distances from a continuous
+  /// distribution too large. So each p then comes from kGridDraws normal
   /// samples rounded in the same way; `ks` and `ks_exact` have no p.
   double step = 0.0;
 };
 
 inline constexpr Index kGridDraws = 999;
 
-/// Fewest values for a test of shape: with three, two equal ones reject at any
-/// level.
+/// Fewest values for a test of shape. Of three values, two equal ones would
+/// reject at any level.
 inline constexpr Index kFewestForShape = 4;
 
-/// p by simulating the null distribution for one size, mean and sd estimated:
-/// for tests whose own p is asymptotic or approximate.
+/// p from a simulated null distribution for one size, mean and sd estimated.
+/// For tests whose own p is asymptotic or approximate.
 struct MonteCarloP {
   Index draws = 0;  // 0: not simulated
   double lilliefors = 0.0;
@@ -91,9 +91,9 @@ class NormalityTests {
 /// Runs NormalityTests on one sample.
 Normality AssessNormality(const OrderedSample& sample);
 
-/// Returns the critical correlation of the normal probability plot, or of the
-/// best in Tukey's family. A `share` of normal samples of n >= 4 values lie
-/// below it. Simulated, see simulated_quantiles.h.
+/// Returns the critical correlation of the normal probability plot, or the
+/// critical maximum over Tukey's family. A `share` of normal samples of n >= 4
+/// values lies below it. Simulated, see simulated_quantiles.h.
 double CriticalNormalPpcc(double share, Index n);
 double CriticalTukeyPpcc(double share, Index n);
 

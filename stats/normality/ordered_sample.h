@@ -25,7 +25,7 @@ class OrderedSample {
   /// Returns "", or why nothing can be tested: no values, one value, values
   /// that are not finite, or all values equal.
   const std::string& why_not() const { return why_not_; }
-  /// Returns why_not(), or that fewer than `least` values are too few.
+  /// Returns why_not(), or a reason if there are fewer than `least` values.
   std::string WhyNotWith(Index least) const;
 
  private:
@@ -34,7 +34,7 @@ class OrderedSample {
   std::string why_not_;
 };
 
-/// Smallest rounding step that is looked for, in standard deviations over
+/// Smallest rounding step that FindStep reports, in standard deviations over
 /// sqrt(n). Finer steps move the shape tests by less than their own scatter.
 inline constexpr double kFinestStep = 0.1;
 

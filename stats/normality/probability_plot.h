@@ -44,8 +44,8 @@ class TukeyPlot {
   Index n_;
   Eigen::ArrayXd log_p_;      // (n/2) of the upper medians
   Eigen::ArrayXd log_not_p_;  // (n/2) log(1 - p) there
-  /// (n/2 x 81) quantiles at the grid's lambdas, divided by their norm, for
-  /// sizes at which many samples may follow; else empty.
+  /// (n/2 x 81) quantiles at the grid's lambdas, divided by their norm. Empty
+  /// for sizes at which few samples are expected.
   MatrixXd grid_;
 
   Eigen::ArrayXd Quantiles(double lambda) const;

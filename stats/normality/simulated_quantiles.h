@@ -22,9 +22,8 @@ inline constexpr double kSmallestSimulated = 0.001;
 /// kFewestSimulated values. It is from quantiles simulated for 25 sizes from 4
 /// to 5000 (60 000 to 500 000 samples each; kTukeyMaxPpcc 10 000 to 200 000),
 /// interpolated linearly in the normal score of the probability and in log n.
-/// It is clamped to kSmallestSimulated and kLargestSimulated, which then mean
-/// "at most" and "at least". The error of simulation and interpolation is up to
-/// 0.004.
+/// It is clamped to kSmallestSimulated ("at most") and kLargestSimulated ("at
+/// least"). The error of simulation and interpolation is up to 0.004.
 ///
 /// Above n = 5000, D and the dip keep their sqrt(n) scale, and the correlations
 /// follow the trend of the last sizes. Measured at n = 20000, a nominal 5 % is
@@ -35,8 +34,9 @@ double SimulatedProbability(SimulatedStatistic statistic,
                             double value,
                             Index n);
 
-/// Returns the value that is reached with this `probability`, clamped as above.
-/// Throws std::invalid_argument if n or the probability is outside the tables.
+/// Returns the value that the statistic reaches with this `probability`,
+/// clamped as above. Throws std::invalid_argument if n or the probability is
+/// outside the tables.
 double SimulatedCriticalValue(SimulatedStatistic statistic,
                               double probability,
                               Index n);

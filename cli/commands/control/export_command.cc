@@ -374,7 +374,7 @@ void AddExportCommand(CLI::App* app, Run* run) {
            "NAME.scl, the same for Siemens' TIA Portal");
   add_text("--plcopen",
            models::TextForm::kPlcOpen,
-           "NAME.xml, the same as PLCopen exchanges it");
+           "NAME.xml, the same as PLCopen XML");
   AddFlag(command,
           "--float",
           command->single,
@@ -409,8 +409,8 @@ void AddExportCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "--max-rate X",
             command->max_rate,
-            "Its largest change per second: 1um (default: 10um)\nor 10 urad "
-            "of angles");
+            "Largest change of the compensation per second: 1um (default: "
+            "10um, or 10 urad for angles)");
   AddEveryOption(command, &command->every);
   AddTableOptions(command, &command->tables);
   AddForceFlag(command, &command->force);

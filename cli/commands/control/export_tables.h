@@ -25,7 +25,7 @@ struct TableArguments {
 /// Returns the limits that the user set, in the unit of a target.
 using LimitsFor = std::function<models::LimitOptions(const data::Unit&)>;
 
-/// `--linuxcnc`: writes a COMP_FILE and says what it holds. If neither
+/// `--linuxcnc`: writes a COMP_FILE and describes its content. If neither
 /// direction is named, `model` is used for both.
 void ExportLinuxcnc(const std::string& model,
                     const TableArguments& arguments,

@@ -332,7 +332,7 @@ void AddCheckCommand(CLI::App* app, Run* run) {
       app,
       run,
       "check",
-      "Tell from a few probes whether a map holds in this session");
+      "Check with a few probes whether a map holds in this session");
   AddModelArgument(command, &command->model);
   AddOption(command,
             "PROBES PROBES.csv",

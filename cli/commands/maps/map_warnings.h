@@ -17,20 +17,19 @@ class App;
 
 namespace errmap::cli {
 
-/// Adds MODEL, a model file that a command must be given.
+/// Adds MODEL, a required model file.
 void AddModelArgument(CLI::App* command, std::string* model);
 
-/// The first members of the JSON of a map that is judged on measurements:
-/// schema, model, file, target and unit.
+/// Returns the first JSON members for a map tested on measurements: schema,
+/// model, file, target and unit.
 Json MapAnswerJson(const char* schema,
                    const models::FittedModel& fitted,
                    const std::vector<std::string>& files);
 
-/// Calls models::LoadModel and, unless quiet, says what users should know about
-/// the file.
+/// Calls models::LoadModel and, unless quiet, prints remarks on the file.
 models::FittedModel LoadMap(const std::string& file, bool quiet);
 
-/// Says how the rows of a file were read and what was converted.
+/// Prints how the rows of a file were read and converted.
 void SayRead(const data::TableForMap& read, bool quiet);
 
 /// Returns the measured rows of a table from ReadForMap, or of files. Remarks
@@ -48,10 +47,10 @@ models::MapRows ReadMapRows(const models::FittedModel& fitted,
 /// Throws data::InputError, naming the file, unless models::KnowsAges.
 void RequireAges(const models::FittedModel& fitted, const std::string& model);
 
-/// Returns the provenance that a model file states.
+/// Returns the provenance in a model file.
 models::Provenance ProvenanceOf(const std::string& model);
 
-/// How many of the rows on which a map is judged it has also learnt from.
+/// How many of a map's test rows are also among its training rows.
 struct RowsLearnt {
   bool file = false;  // the map names each of the files as its own
   Index rows = 0;     // rows recognised by their values
@@ -66,7 +65,7 @@ RowsLearnt FindRowsLearnt(const models::FittedModel& fitted,
                           const models::MapRows& rows);
 
 Json LearntJson(const RowsLearnt& learnt);
-/// Returns a line for people; "" if the map learnt from none of these rows.
+/// Returns a sentence; "" if none of these rows was used to fit the map.
 std::string LearntText(const RowsLearnt& learnt);
 
 struct RowsJudged {
@@ -74,13 +73,13 @@ struct RowsJudged {
   std::vector<models::RowFlag> flags;
 };
 
-/// Returns flags of rows that are unlike training and, unless quiet, names
-/// them.
+/// Returns flags of rows that are unlike training and, unless quiet, prints
+/// which.
 RowsJudged JudgeMapRows(const models::FittedModel& fitted,
                         const models::MapRows& rows,
                         bool quiet);
 
-/// Says on stderr, unless quiet, which inputs (m x p) leave their trained
+/// Unless quiet, prints on stderr which inputs (m x p) leave their trained
 /// range, and which rows are unlike training. `rows` (m) are the numbers of the
 /// data rows in the file.
 void SayOutside(const std::vector<models::TrainedInput>& trained,
@@ -89,9 +88,9 @@ void SayOutside(const std::vector<models::TrainedInput>& trained,
                 const std::vector<Index>& rows,
                 bool quiet);
 
-/// Says how many of `predicted` (m) are not finite, and where. `rows` (m) are
-/// the numbers of the data rows in `file`. Returns false and says nothing if
-/// all are finite.
+/// Prints how many of `predicted` (m) are not finite, and where. `rows` (m) are
+/// the numbers of the data rows in `file`. If all are finite, returns false and
+/// prints nothing.
 bool SayNotFinite(const VectorXd& predicted,
                   const std::vector<Index>& rows,
                   const std::string& file);

@@ -324,7 +324,7 @@ void AddUpdateCommand(CLI::App* app, Run* run) {
       R"(Fits the same type of model, with the same inputs, to old and new sessions.
 The old map, and one that has not seen it, predict each new session. The new
 map is written if its error is clearly lower, in RMSE and in the geometric mean
-over the sessions. Otherwise the old one is.
+over the sessions. Otherwise the old map is written.
 Example: errmap update map.json data/sets/turning_centre/later_days.csv --known data/sets/turning_centre/six_days.csv -o new.json)");
   command.Runs(RunUpdate);
 }

@@ -174,7 +174,7 @@ int RunWhen(const WhenArguments& arguments, const std::string& command_line) {
 
 void AddWhenCommand(CLI::App* app, Run* run) {
   const Command<WhenArguments> command(
-      app, run, "when", "Tell when a map needs its next probe");
+      app, run, "when", "Say when a map needs its next probe");
   AddModelArgument(command, &command->model);
   AddOption(command,
             "--goal X",

@@ -61,9 +61,9 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
       "--config study.toml",
       arguments->config,
       "Study file in place of DATA: errmap init writes it\nIt has components, "
-      "models and hold-outs. Data such as \"{machine}/{component}.csv\" stand "
-      "for all files that match. Each is studied by itself, and --out is their "
-      "store. The same command goes on after an interruption");
+      "models and hold-outs. A path such as \"{machine}/{component}.csv\" "
+      "stands for all files that match. Each is studied separately, and --out "
+      "is their store. Run the same command again after an interruption");
   AddOption(command,
             "--set KEY=VALUE",
             arguments->changes,
@@ -85,11 +85,12 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
           ". Default: every:3; groups:5 with groups, else blocks:5; "
           "sessions:5 with sessions; forward:3 from four sessions on")
       .OneAtATime();
-  AddOption(command,
-            "--models LIST",
-            arguments->model_list,
-            "Models, separated by commas (default: all that suit)\nThey are  " +
-                data::JoinWords(models::ModelTypes(), ", "));
+  AddOption(
+      command,
+      "--models LIST",
+      arguments->model_list,
+      "Models, separated by commas (default: all suitable ones)\nThey are  " +
+          data::JoinWords(models::ModelTypes(), ", "));
   AddOption(command,
             "--model SPEC",
             arguments->models,
@@ -100,8 +101,8 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
   AddOption(command,
             "--jobs N",
             arguments->jobs,
-            "Fits at the same time (default: one per core)\nIt changes "
-            "no figure")
+            "Fits at the same time (default: one per core)\nResults do not "
+            "depend on it")
       .Range(1, 1024);
   AddOption(command,
             "--out DIR",
@@ -134,7 +135,7 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
   AddFlag(command,
           "--resume",
           arguments->resume,
-          "Go on with the interrupted run in --out DIR\nFits finished there "
+          "Continue the interrupted run in --out DIR\nFits finished there "
           "are not repeated");
   AddCacheFlag(command, &arguments->cache);
   AddKeepPathsFlag(command);

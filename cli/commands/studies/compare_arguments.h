@@ -21,13 +21,13 @@ namespace errmap::cli {
 
 struct CompareArguments;
 
-/// A slice's way to run `errmap compare`. Options of the slice or the study
-/// file choose it. It lives as long as the command's arguments.
+/// A slice's mode of `errmap compare`, chosen by the slice's options or the
+/// study file. It lives as long as the command's arguments.
 class CompareMode {
  public:
   virtual ~CompareMode() = default;
 
-  /// Adds those of its options that follow the option `flag` in the help.
+  /// Adds the options that follow the option `flag` in the help.
   virtual void AddOptions(std::string_view flag, CLI::App* command) = 0;
 
   /// Reads its options. If the mode does the whole work, does it and returns
@@ -36,7 +36,7 @@ class CompareMode {
     return std::nullopt;
   }
 
-  /// Returns the plan, if this mode makes it.
+  /// Returns the plan if this mode makes one.
   virtual std::optional<desk::StudyPlan> Plan(
       const CompareArguments& /*arguments*/,
       const desk::MakeOwnRecipes& /*own*/) {
@@ -100,21 +100,21 @@ desk::StudyConfig ConfigOf(const CompareArguments& arguments);
 std::vector<std::string> GivenOfFewer(const CompareArguments& arguments,
                                       desk::Reach reach);
 
-/// Returns what to fit, according to a slice's mode, the study file or DATA.
-/// `own` (may be empty) adds recipes of the caller.
+/// Returns the plan from a slice's mode, the study file or DATA. `own` (may be
+/// empty) adds the caller's recipes.
 desk::StudyPlan PlanOf(const CompareArguments& arguments,
                        const desk::MakeOwnRecipes& own = {});
 
-/// Returns what a study would do, for a terminal: components, rows, groups,
-/// hold-outs, models, the number of fits, and a rough time on `jobs`
-/// processors. Then the files that would be written into `out` ("": none).
+/// Returns a description of a study for a terminal: components, rows, groups,
+/// hold-outs, models, number of fits, and rough time on `jobs` processors. Then
+/// lists the files to be written into `out` ("": none).
 std::string PlanText(const desk::StudyPlan& plan,
                      int jobs,
                      const std::string& out);
 
-/// Returns how long a study takes; nothing below half a minute. Unless its
-/// models were `chosen`, also names the faster ones, which together take at
-/// most a quarter of that time.
+/// Returns a sentence on the time that a study takes; "" below half a minute.
+/// Unless its models were `chosen`, also names the faster ones, which together
+/// take at most a quarter of that time.
 std::vector<std::string> LongRunLines(const desk::StudyPlan& plan,
                                       int jobs,
                                       bool chosen);

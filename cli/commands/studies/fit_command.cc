@@ -329,7 +329,7 @@ void AddFitCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "--jobs N",
             command->jobs,
-            "Threads (default: one per core)\nThey change no figure")
+            "Threads (default: one per core)\nResults do not depend on it")
       .Range(1, 1024);
   AddFlag(command,
           "--correlations",

@@ -9,16 +9,16 @@
 
 namespace errmap::desk {
 
-/// Names each part of a table of several files after the one file that its rows
-/// come from, without its extension. Such parts are directions of motion that
-/// were measured into files of their own. Returns nothing if the table comes
-/// from one file, a part comes from several, or two names would be equal.
+/// If each part of a table comes from one file, such as a direction of motion,
+/// names it after that file, without the extension. Returns nothing if the
+/// table comes from one file, a part comes from several, or two names would be
+/// equal.
 std::vector<std::string> NamesByFile(
     const data::CsvTable& table,
     const std::vector<data::DatasetSelection>& parts);
 
-/// Names components without a name after their file. Throws data::InputError if
-/// two have the same name, since output files are named after components.
+/// Names unnamed components after their file. Throws data::InputError if two
+/// have the same name, since output files are named after components.
 void NameComponents(StudyConfig* config);
 
 /// Returns at most 100 characters; those that are unsafe in a file's name

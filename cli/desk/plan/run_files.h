@@ -19,8 +19,8 @@ std::vector<std::string> RunFileNames(const StudyPlan& plan);
 /// Sets the file name of each map in `record`, as WriteRunFiles writes it.
 void NameMaps(const StudyRun& run, models::StudyRecord* record);
 
-/// Returns the text of a map's file: the map fitted to all rows, the rows that
-/// it is meant for, and its provenance. The model must have been fitted to all
+/// Returns the text of a map's file: the map fitted to all rows, the rows for
+/// which it is made, and its provenance. The model must have been fitted to all
 /// rows.
 std::string MapFileText(const StudyRun& run,
                         const models::ComponentStudy& component,

@@ -12,11 +12,11 @@
 
 namespace errmap::desk {
 
-/// Estimates how long a study will still take, and keeps the best map so far.
-/// RoughFitSeconds gives the work of each fit. The real time for that work is
-/// learnt from the model's own finished fits. Until the first of them, it is
-/// learnt from fits of similar work by models of the same kind. Fits kept from
-/// an earlier run count like those of this one. Safe to use from any thread.
+/// Estimates the remaining time of a study, and keeps the best map so far.
+/// RoughFitSeconds gives the work of each fit. The model's finished fits show
+/// the real time for that work. Before the first one, fits of similar work by
+/// models of the same kind do. Fits kept from an earlier run count, too. Safe
+/// to use from any thread.
 class StudyForecast {
  public:
   StudyForecast(const StudyPlan& plan, int jobs);

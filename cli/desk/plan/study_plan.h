@@ -12,10 +12,11 @@ namespace errmap::desk {
 
 using models::ComponentPlan;
 
-/// What a study will do: everything is read, nothing is fitted.
+/// The plan of a study: all data are read, nothing is fitted yet.
 struct StudyPlan {
   /// The configuration with its defaults filled in: names, targets, inputs,
-  /// groups, goals. Hold-outs and models only if all components have the same.
+  /// groups, goals. Contains hold-outs and models only if all components have
+  /// the same.
   StudyConfig config;
   std::vector<InputFile> inputs;  // every file read, in order
   std::vector<models::ComponentPlan> components;
@@ -25,9 +26,9 @@ struct StudyPlan {
   std::vector<std::string> InputPaths() const;
 };
 
-/// Returns the study as PlanStudy takes it: a component whose rows go both ways
-/// along the axis is two, named alike and after the ways. A component whose
-/// data cannot be read stays as it is.
+/// Returns the study as PlanStudy takes it. A component with both directions of
+/// motion becomes two, with the direction added to the name. A component whose
+/// data cannot be read stays unchanged.
 StudyConfig PartedByDirection(StudyConfig config);
 
 /// Receives remarks for the user, one line at a time.
@@ -38,10 +39,10 @@ using MakeOwnRecipes = std::function<models::OwnRecipes()>;
 
 /// Reads the data, makes the hold-outs, and chooses models if the user named
 /// none. `own` (may be empty) adds recipes. `remark` receives findings about
-/// the data, and what is left out and why. If it is empty, the data are not
-/// examined for remarks. Throws data::InputError if data cannot be used or two
-/// components have the same name, and std::invalid_argument for a SPEC that the
-/// catalogue does not know.
+/// the data, including what is left out and why. If it is empty, the data are
+/// not examined for remarks. Throws data::InputError if data cannot be used or
+/// two components have the same name, and std::invalid_argument for a SPEC that
+/// the catalogue does not know.
 StudyPlan PlanStudy(const StudyConfig& config,
                     const Remark& remark = {},
                     const MakeOwnRecipes& own = {});

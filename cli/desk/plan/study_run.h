@@ -20,7 +20,7 @@ class KeptFits;
 
 namespace errmap::desk {
 
-/// A whole run. Tables, JSON and files are written from it alone.
+/// A whole run, the only source of tables, JSON and files.
 struct StudyRun {
   std::uint64_t seed = 1;
   std::string command_line;
@@ -30,7 +30,7 @@ struct StudyRun {
   std::vector<models::ComponentStudy> components;
   bool interrupted = false;
 
-  /// True if file names and headings must tell components apart.
+  /// True if file names and headings must distinguish components.
   bool has_several() const { return config.components.size() > 1; }
 };
 
@@ -47,8 +47,8 @@ struct RunOptions {
 };
 
 /// Fits and judges the components one after another; the fits of each run in
-/// parallel. Once `stop` is set, no further component is started.
-/// `command_line`: the command that results name as their origin.
+/// parallel. Once `stop` is set, it starts no further component.
+/// `command_line`: the command shown as the origin of the results.
 StudyRun RunPlan(StudyPlan plan,
                  const std::string& command_line = "",
                  const RunOptions& options = {});

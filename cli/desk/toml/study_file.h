@@ -9,7 +9,7 @@
 
 namespace errmap::desk {
 
-/// What a [[component]] has besides its ComponentConfig.
+/// Keys of a [[component]] besides its ComponentConfig.
 struct ComponentInFile {
   std::string data;  // as written in the file
   std::string
@@ -26,7 +26,7 @@ struct StudyFile {
 /// Reads a study file (TOML). Paths in it are relative to its folder; the
 /// paths returned can be opened from the working folder.
 ///
-/// Each of `set` is KEY=VALUE and replaces what the file says. KEY is dotted
+/// Each of `set` is KEY=VALUE and replaces the value in the file. KEY is dotted
 /// (`seed`, `component.0.target`, `component."x, down".goal`,
 /// `model.2.degree`); components have a number from 0 or a name. VALUE is TOML;
 /// otherwise it is text (`component.0.target=error_mm`).
@@ -43,8 +43,8 @@ StudyFile ParseStudyFile(const std::string& text,
                          const std::string& path,
                          const std::vector<std::string>& set = {});
 
-/// Plans the study of a file. The file itself is the first of the plan's
-/// inputs. Throws as PlanStudy does.
+/// Plans the study of a file. The study file is the first of the plan's inputs.
+/// Throws as PlanStudy does.
 StudyPlan PlanStudy(const StudyFile& file,
                     const Remark& remark = {},
                     const MakeOwnRecipes& own = {});

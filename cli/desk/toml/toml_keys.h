@@ -11,9 +11,9 @@
 
 namespace errmap::desk {
 
-/// Prefix of the name of a source that is a change KEY=VALUE, not a file.
+/// Prefix of a source name for a change KEY=VALUE instead of a file.
 inline constexpr std::string_view kOverride = "KEY=VALUE ";
-/// Returns the name of such a change in messages.
+/// Returns the source name of such a change for messages.
 std::string NameOfOverride(std::string_view change);
 
 /// Returns "FILE:LINE:COLUMN: ", the beginning of a message.

@@ -7,12 +7,12 @@
 
 namespace errmap::cli {
 
-/// `compare` for a study of many components, each studied by itself. It expands
-/// patterns, runs a share of a study (--shard), or continues with one
+/// `compare` for a study of many components, each studied separately. It
+/// expands patterns, runs a share of a study (--shard), or continues with one
 /// component.
 std::unique_ptr<CompareMode> CompareFleet();
 
-/// Makes the folder a store, or checks that it already is one. Throws
+/// Turns the folder into a store, or checks that it already is one. Throws
 /// UsageError if it holds other files, unless `force`.
 void ClaimStore(const fleet::StorePaths& paths, bool force);
 

@@ -273,7 +273,7 @@ void AddDeployCommand(CLI::App* app, Run* run) {
       command,
       R"(The map goes into the store's maps/ with its promise, and errmap watch
 compares new measurements with it. It replaces the map that the component
-had. Several components are deployed all or none.
+had. Of several components, either all are deployed or none.
 Exit status: 0 done, 2 no such component, 3 no map or no usable store.
 Example: errmap deploy fleet "m01/x, down")");
   command.Runs(RunDeploy);

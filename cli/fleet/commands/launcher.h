@@ -7,7 +7,7 @@
 
 namespace errmap::cli {
 
-/// Gives the value of an environment variable, or null.
+/// Returns the value of an environment variable, or null.
 using Environment = std::function<const char*(const char*)>;
 
 /// Returns the share for "I/N", I from 0 to N - 1, or for "env". The latter is
@@ -15,7 +15,7 @@ using Environment = std::function<const char*(const char*)>;
 ///
 ///   OMPI_COMM_WORLD_RANK of OMPI_COMM_WORLD_SIZE
 ///   PMI_RANK of PMI_SIZE
-///   SLURM_PROCID of SLURM_NTASKS, if these are more than one
+///   SLURM_PROCID of SLURM_NTASKS, if more than one
 ///   SLURM_ARRAY_TASK_ID in a whole array of SLURM_ARRAY_TASK_COUNT tasks
 ///
 /// Throws UsageError if the text is neither, no variable is set, the values are

@@ -13,7 +13,7 @@ namespace errmap::fleet {
 /// Fields of a file's path and their values, in order.
 using PathFields = std::vector<std::pair<std::string, std::string>>;
 
-/// The keys of a [[component]] about its data, besides its ComponentConfig.
+/// The data keys of a [[component]], besides its ComponentConfig.
 struct ComponentSource {
   /// Path below the study file's folder, or a PathPattern. For a pattern, the
   /// component's `data` is the folder where it starts.
@@ -23,7 +23,7 @@ struct ComponentSource {
 };
 
 /// A study file whose components may come from files that match a pattern. Each
-/// component is a study by itself, and a failed one does not stop the others.
+/// component is a separate study, and a failed one does not stop the others.
 struct FleetStudy {
   desk::StudyConfig config;
   desk::InputFile file;
@@ -45,8 +45,8 @@ FleetStudy WithPatterns(desk::StudyFile study);
 /// several ways, earlier fields are as long as possible.
 class PathPattern {
  public:
-  /// Throws std::invalid_argument if braces do not pair, or a field has no
-  /// name, an invalid one, or one that occurs twice.
+  /// Throws std::invalid_argument if braces do not match, or if a field has no
+  /// name, an invalid name or a duplicate one.
   explicit PathPattern(std::string_view text);
 
   const std::vector<std::string>& fields() const { return fields_; }
@@ -77,9 +77,9 @@ class PathPattern {
 std::string FillIn(std::string_view text, const PathFields& fields);
 
 /// Returns the study with its patterns expanded and every component named. A
-/// pattern becomes one component for each file that it matches. A file that
-/// several patterns match for the same rows belongs to the first of them. If
-/// names do not tell the files apart, the other fields follow after a comma. A
+/// pattern becomes one component for each file that it matches. If several
+/// patterns match a file for the same rows, it belongs to the first of them. If
+/// names do not distinguish the files, the other fields follow after a comma. A
 /// pattern without matches stays one component without a file. Throws
 /// data::InputError if two components have one name.
 FleetStudy Expanded(const FleetStudy& study);

@@ -50,10 +50,10 @@ struct FleetRunResult {
 };
 
 /// Studies the share's components one by one and writes the files of each into
-/// the store. Files of other components are not touched. A component that
-/// cannot be read or fitted gets a summary that says so. Results of an earlier
-/// run with the same data and settings are kept. Throws std::system_error if
-/// nothing can be written.
+/// the store. Files of other components are not touched. If a component cannot
+/// be read or fitted, its summary says why. Results of an earlier run with the
+/// same data and settings are kept. Throws std::system_error if the store
+/// cannot be written.
 FleetRunResult RunFleet(const FleetStudy& study,
                         const StorePaths& store,
                         const FleetRunOptions& options);
@@ -71,14 +71,14 @@ struct FleetPlan {
 /// Estimates the cost of an expanded study.
 FleetPlan PlanFleet(const desk::StudyConfig& config);
 
-/// A commented study file whose components are patterns for the CSV files below
-/// a folder. Folder names that differ become fields, and so do file names.
+/// Returns a commented study file whose components are patterns for the CSV
+/// files below a folder. Differing folder names and file names become fields.
 /// "x_down", with a word for a direction at its end, is a component and a
-/// direction. Files of one name are taken to be alike. One usable file among
-/// the first three of each name is enough, so that a broken file fails later,
-/// in the study, which names it. `beside` is the folder as seen from the study
-/// file; `usage` is the command that runs such a study. Throws data::InputError
-/// if no file can be mapped.
+/// direction. Files of the same name are assumed to be alike. One usable file
+/// among the first three of each name is enough, so that a broken file fails
+/// later, in the study, which names it. `beside` is the folder as seen from the
+/// study file; `usage` is the command that runs such a study. Throws
+/// data::InputError if no file can be mapped.
 struct FleetProposal {
   std::string text;
   long long files = 0;             // that the patterns match

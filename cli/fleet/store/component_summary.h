@@ -100,13 +100,13 @@ struct ComponentSummary {
   std::string name;
   ByName<std::string> fields;  // of its path
   /// Hash of the settings, and hash of the settings with all files that were
-  /// read. If both are unchanged, nothing has to be fitted again.
+  /// read. If both are unchanged, the results are still valid.
   std::string asked;
   std::string key;
   ModelStatus status = ModelStatus::kFailed;
   LeftOut<std::string> why;  // it failed
-  /// Names of the components that it was studied as, a direction of motion
-  /// each; then all that follows is in theirs.
+  /// Names of the two components, one per direction of motion, as which it was
+  /// studied. The data below are then in their summaries.
   LeftOut<std::vector<std::string>> ways;
   std::string file;
   std::string sha256;

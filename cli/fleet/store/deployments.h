@@ -13,7 +13,7 @@ using data::Database;
 using data::SqliteError;
 using data::Statement;
 
-/// A map that is deployed on a machine.
+/// A map deployed on a machine.
 struct Deployment {
   std::int64_t id = 0;
   std::string component = {};
@@ -29,12 +29,12 @@ struct Deployment {
   double shown_scale = 1.0;
 };
 
-/// Returns the deployments in use by component, or only that of a named
+/// Returns the current deployments by component, or only that of a named
 /// component.
 std::vector<Deployment> DeploymentsInUse(Database* store,
                                          const std::string& component = "");
 
-/// Ends the deployment in use on the component and begins this one.
+/// Ends the component's current deployment and begins this one.
 void WriteDeployment(Database* store, const Deployment& deployment);
 
 /// A session since a map's deployment, with the result of its check.
@@ -46,8 +46,8 @@ struct Check {
   double p_map = 0.0;  // NaN: not judged
   models::WatchStatus status = models::WatchStatus::kNotJudged;
 
-  /// True if `part` is the beginning of this session, of which more has been
-  /// measured since.
+  /// True if `part` is the beginning of this session, which was measured
+  /// further.
   bool GoesOnFrom(const Check& part) const {
     return !begins_sha256.empty() && begins_sha256 == part.begins_sha256 &&
            session.rows > part.session.rows;
@@ -64,7 +64,7 @@ void WriteChecks(Database* store,
                  const std::vector<Check>& checks,
                  const std::string& at);
 
-/// This moment, UTC: "2026-03-31T08:15:00Z".
+/// Returns the current time, UTC: "2026-03-31T08:15:00Z".
 std::string NowText();
 
 }  // namespace errmap::fleet

@@ -10,7 +10,7 @@
 
 namespace errmap::fleet {
 
-/// The results that the shards of a study have left so far.
+/// The results that the shards of a study have written so far.
 struct FleetSummaries {
   FleetRecord fleet;  // with a component for each way, where there are two
   std::vector<ComponentSummary> summaries;  // in order of the fleet
@@ -22,10 +22,11 @@ struct FleetSummaries {
 /// not a store.
 FleetSummaries ReadSummaries(const StorePaths& paths);
 
-/// Says which components are missing and what to do; "" if none is.
+/// Returns a message on missing components and what to do; "" if none is
+/// missing.
 std::string MissingWords(const FleetSummaries& found);
 
-/// Counts over some of the components.
+/// Counts over a subset of the components.
 struct FleetTally {
   std::int64_t components = 0;
   std::int64_t met = 0;
@@ -60,9 +61,9 @@ void DrawFleetReport(const StorePaths& paths, const FleetSummaries& found);
 /// deploy and watch.
 FleetSummaries MergeStore(const StorePaths& paths);
 
-/// Returns what `compare --format` prints for a fleet. For a large fleet on a
-/// terminal, `columns` wide, it is a summary and the components that failed or
-/// err most.
+/// Returns the output of `compare --format` for a fleet. For a large fleet on a
+/// terminal, `columns` wide, it is a summary, with the components that failed
+/// or have the largest errors.
 std::string FormattedFleet(const std::vector<ComponentSummary>& summaries,
                            const std::string& format,
                            std::size_t columns);

@@ -23,9 +23,9 @@ inline constexpr std::int64_t kStoreVersion = 3;
 /// store. Lengths are in the data file's own unit, times in seconds.
 extern const char* const kStoreMigrations[];
 
-/// Holds the store's lock for its lifetime: merge, deploy and watch write one
-/// after another. Throws std::runtime_error if another process holds it for too
-/// long.
+/// Holds the store's lock for its lifetime, so that merge, deploy and watch
+/// never write at the same time. Throws std::runtime_error if another process
+/// holds it for too long.
 class StoreLock {
  public:
   explicit StoreLock(const StorePaths& paths);
@@ -45,8 +45,7 @@ void ChangeStore(const StorePaths& paths,
                  const StoreLock& lock,
                  const std::function<void(Database*)>& change);
 
-/// Opens the store for a command that writes later, and first upgrades an older
-/// version.
+/// Upgrades an older store, then opens it for a command that writes later.
 Database OpenStore(const StorePaths& paths, const StoreLock& lock);
 
 /// Replaces all summaries of a fleet. Components that the study no longer has

@@ -17,7 +17,7 @@ namespace errmap::fleet {
 ///       machine/component in components/MACHINE/COMPONENT/
 ///   components/COMPONENT/results.json.gz
 ///   components/COMPONENT/map.json.gz    the recommended map
-///   components/COMPONENT/relations.json.gz  how its sensors go together
+///   components/COMPONENT/relations.json.gz  relations between its sensors
 ///   components/COMPONENT/report.html    on demand
 ///   maps/SHA-256.json                   maps that were deployed
 ///   errmap.sqlite                       all summaries together
@@ -82,12 +82,12 @@ void WriteFleet(const StorePaths& paths, const FleetRecord& fleet);
 std::optional<ComponentSummary> FindSummary(const StorePaths& paths,
                                             const std::string& component);
 
-/// Returns a sentence on why a component that failed in the study has no map.
+/// Returns a sentence on why a failed component has no map.
 std::string WhyNoMap(const std::string& component, const std::string& why);
 
-/// Returns a component's results. In older stores they lack those lists of
-/// training rows that are simply all rows not held out. Throws data::InputError
-/// naming the path, or the reason why the component failed.
+/// Returns a component's results. Older stores omit lists of training rows that
+/// are simply all rows not held out. Throws data::InputError naming the path,
+/// or the reason why the component failed.
 models::StudyRecord ReadResultsOf(const StorePaths& paths,
                                   const std::string& component);
 

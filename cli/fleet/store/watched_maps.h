@@ -40,8 +40,8 @@ report::Table WatchTable(const std::vector<WatchedComponent>& components,
 /// would be called worse or changed".
 std::string WatchHeadline(const std::vector<WatchedComponent>& components);
 
-/// Returns watch.html: the number of components in each state, what to do for
-/// which, the sessions of those not as promised, and the table.
+/// Returns watch.html: the number of components in each state, what to do, the
+/// sessions of components that are not as promised, and the table.
 std::string WatchHtml(const std::string& store,
                       const std::vector<WatchedComponent>& components);
 
@@ -60,23 +60,23 @@ struct WatchedFiles {
 /// Finds the deployment to which each file of new measurements belongs. `paths`
 /// are CSV files, folders of such files, or COMPONENT=FILE. A file belongs to
 /// the component whose data file has the same name and shares most folders
-/// above it, whether or not a map is deployed on it. In a tie it belongs to
-/// none. It also belongs to none if it lies in a folder of the study without
-/// such a component. Throws data::InputError if a path does not exist.
+/// above it, whether or not a map is deployed on it. It belongs to none in a
+/// tie, or if it lies in a folder of the study without such a component. Throws
+/// data::InputError if a path does not exist.
 WatchedFiles FindWatchedFiles(const FleetRecord& study,
                               const std::vector<Deployment>& deployments,
                               const std::vector<std::string>& paths);
 
-/// What new measurements show about the deployed maps.
+/// Results of new measurements for the deployed maps.
 struct WatchedMaps {
   std::vector<WatchedComponent> components;  // of which there are files
   std::ptrdiff_t as_studied = 0;  // files that are those of the study still
 };
 
 /// Compares each file, in the order of FindWatchedFiles, with the map deployed
-/// on its component. The file's sessions are judged together with those that
-/// `store` has of it. If a file cannot be read or judged, its component says
-/// why. Writes nothing.
+/// on its component. The file's sessions are judged together with earlier ones
+/// in `store`. If a file cannot be read or judged, its component has the
+/// reason. Writes nothing.
 WatchedMaps WatchMaps(const StorePaths& paths,
                       Database* store,
                       const std::vector<WatchedFile>& files);

@@ -440,7 +440,7 @@ void AddIso230Command(CLI::App* app, Run* run) {
             "DATA FILE.csv",
             command->files,
             "CSV files with the error at each approach to a position: "
-            "of both directions, or one of each")
+            "one file for both directions, or one for each")
       .Required();
   AddOption(command,
             "--map MODEL.json",
@@ -461,7 +461,7 @@ void AddIso230Command(CLI::App* app, Run* run) {
             command->direction,
             "Column of the direction of approach: up or down, + or - "
             "(default: direction, else the order of the positions)");
-  AddOption(command, "--figure FILE.svg", command->figure, "Draw it");
+  AddOption(command, "--figure FILE.svg", command->figure, "Draw the test");
   AddTableFormatOption(command, "What to print", &command->format);
   AddQuietFlag(command, &command->quiet);
   SetFooter(

@@ -56,7 +56,7 @@ struct MachineMapRecord {
   std::string model;
 };
 
-/// The machine's results with one way of choosing its maps, or without any map.
+/// The machine's results for one choice of maps, or without a map.
 struct MachineChoiceRecord {
   std::string name;  // "uncompensated", "polynomial", "neural", "recommended"
   std::optional<std::string> why;  // why there are no figures
@@ -70,8 +70,8 @@ struct MachineChoiceRecord {
   std::array<double, 2> p95_ci95 = {kNotKnown, kNotKnown};
   ByDirectionRecord within_90 = kNoFigures;      // shares of errors
   ByDirectionRecord half_width_90 = kNoFigures;  // mean over the points
-  /// Sessions behind the half-widths, each held out in turn. Empty: they come
-  /// from the components alone, taken as independent.
+  /// Sessions used for the half-widths, each held out in turn. Empty: these
+  /// come from the components alone, assumed independent.
   std::vector<std::string> held_out;
   std::vector<MachineDayRecord> days;
   std::vector<PositioningRecord> positioning;  // of pairs of displacement maps

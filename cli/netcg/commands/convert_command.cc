@@ -43,7 +43,7 @@ void AddConvertCommand(CLI::App* app, Run* run) {
       app,
       run,
       "convert",
-      "Turn the report's pattern files, tables and CSV into each other");
+      "Convert between the report's pattern files, tables and CSV");
   AddOption(command, "IN FILE", command->in, "File to read").Required();
   AddOption(command,
             "OUT FILE",

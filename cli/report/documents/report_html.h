@@ -15,12 +15,12 @@ namespace errmap::report {
 std::string ReportHtml(const models::StudyRecord& record,
                        const FigureSet& figures);
 
-/// Returns a page with its style sheet, whose every contrast is at least 4.5 to
-/// 1; it runs no script and loads nothing. `title` is text, `body` HTML.
+/// Returns a page with its style sheet. Every contrast is at least 4.5 to 1.
+/// The page runs no script and loads nothing. `title` is text, `body` HTML.
 std::string PageHtml(const std::string& title, const std::string& body);
 
 /// Returns HTML links from a page's first screen to the section that explains
-/// its words.
+/// the terms.
 std::string GlossaryLinks();
 std::string Glossary();
 

@@ -13,8 +13,8 @@ struct StudyTableOptions {
   bool details = false;     // p values, gaps, times, every sentence
   std::string folder = {};  // for the maps; "" if none
   std::string page = {};    // if written alone; "" if none
-  /// Arguments with which fit opens the measurements; empty if it cannot get
-  /// the same rows.
+  /// Arguments with which `fit` reads the same measurements; empty if there are
+  /// none.
   std::vector<std::string> data = {};
   Terminal terminal = {};
   bool next_steps = true;  // the commands to continue with

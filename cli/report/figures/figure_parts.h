@@ -42,14 +42,14 @@ inline constexpr const char* kPurple = "#CC79A7";
 inline constexpr const char* kOrange = "#E69F00";
 inline constexpr const char* kBlack = "#000000";
 inline constexpr const char* kGrey = "#666666";
-/// For lines on white, in this order.
+/// Colours of lines on white, in this order.
 inline constexpr std::array kLineColours = {
     kBlue, kVermillion, kGreen, kPurple, kOrange, kBlack};
 
 /// True if error bars and lines from low to high need a logarithmic axis.
 bool SpansDecades(double low, double high);
 
-/// The data shared by the figures of one model's residuals.
+/// Data shared by the figures of one model's residuals.
 struct ResidualContext {
   const ReportView& view;
   const HeldOutRows& rows;
@@ -67,8 +67,8 @@ std::string SpreadWords(const ResidualContext& context);
 
 /// Formats with three digits.
 std::string Plain(double value);
-/// Formats an error in the shown unit, "0.123 µm", with the digits of all
-/// others.
+/// Formats an error in the shown unit, "0.123 µm", with the same number of
+/// decimals for all.
 std::string Amount(double error, const ReportView& view);
 
 double MeanOf(const std::vector<double>& values);
@@ -89,7 +89,7 @@ Axis ResidualAxis(const ReportView& view);
 /// or is logarithmic if they differ by decades.
 Axis HeldOutErrorAxis(const ReportView& view, double low, double high);
 
-/// Names the rows; `what` they are.
+/// Labels the rows; `what` is their kind.
 void NameRows(const std::vector<std::string>& names,
               const std::string& what,
               Plot* plot);
@@ -111,7 +111,7 @@ Figure HistogramFigure(const ResidualContext& context);
 /// Normal probability plot (Figure 7).
 Figure NormalPlotFigure(const ResidualContext& context);
 
-/// Error of every model under each hold-out: the figure that decides.
+/// Error of every model under each hold-out: the main figure.
 Figure GapFigure(const ReportView& view, const std::string& prefix);
 
 /// sqrt(2 E) against iteration for every net (the report's Figures 10-24), a
@@ -121,8 +121,8 @@ std::vector<Figure> TrainingFigures(const ReportView& view,
 
 /// The recommended map's effect on the machine's error, on held-out rows. Shows
 /// the error over position before and after, the remaining error over the time
-/// of day, and the error by day or cycle with what differs on the worst. Omits
-/// figures that the data do not allow.
+/// of day, and the error by day or cycle, with the difference of the worst one.
+/// Omits figures that the data do not allow.
 std::vector<Figure> CompensationFigures(const ReportView& view,
                                         const std::string& prefix);
 

@@ -27,12 +27,12 @@ struct Figure {
   std::string title;        // what is shown
   std::string note;         // how to read it, a sentence or two
   std::string description;  // what it shows, for blind readers
-  /// Why there is nothing to draw; "" if there is a plot.
+  /// Reason why there is no plot; "" if there is one.
   std::string missing;
   Plot plot;  // plot.name: "c1-gap", unique in the report
 };
 
-/// How many figures one component gets.
+/// Amount of figures for each component.
 enum class FigureDetail { kFull, kSome, kBrief };
 
 /// The figures of one component.
@@ -41,7 +41,7 @@ struct ComponentFigures {
   std::vector<Figure> figures;
 };
 
-/// A part of the report that shows what a slice added to the record, for all
+/// A part of the report that shows a slice's addition to the record, for all
 /// components together.
 struct RecordPart {
   std::string id;               // of its section of the page
@@ -52,11 +52,10 @@ struct RecordPart {
   std::vector<Figure> figures;  // below the first of these
 };
 
-/// Shows the data that a slice keeps under a key of
-/// models::StudyRecord::others.
+/// Shows a slice's data under a key of models::StudyRecord::others.
 struct RecordPartMaker {
   std::string_view key;
-  /// Throws data::InputError if the text holds something else.
+  /// Throws data::InputError if the text has other content.
   RecordPart (*make)(const std::string& json);
 };
 /// The parts of the slices that are built; written by CMake.
@@ -89,7 +88,7 @@ struct ReportFile {
   std::string text;
 };
 
-/// Returns every figure that there are data for as NAME.svg.
+/// Returns every figure with data as NAME.svg.
 std::vector<ReportFile> FigureFiles(const FigureSet& figures);
 
 }  // namespace errmap::report

@@ -12,8 +12,7 @@ namespace errmap::report {
 std::vector<Figure> LearningFigures(const models::LearningRecord& learnt,
                                     const std::string& prefix);
 
-/// Adds the figures to their component: the only one with the same data file
-/// and target.
+/// Adds the figures to the only component with the same data file and target.
 void AddLearning(const models::StudyRecord& record,
                  const std::vector<models::LearningRecord>& learnt,
                  FigureSet* figures);

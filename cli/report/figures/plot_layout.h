@@ -18,10 +18,11 @@ inline constexpr double kSwatch = 20.0;     // of a series in the legend
 inline constexpr double kColourBar = 14.0;  // width of the colour bar
 
 /// Estimates the width of a text in pixels, for any usual sans-serif font. It
-/// is rather too wide than too narrow, since the reader's font is unknown.
+/// overestimates rather than underestimates, since the reader's font is
+/// unknown.
 double TextWidth(std::string_view text);
 
-/// Shortens the text in its middle to at most `most` pixels.
+/// Shortens the text to at most `most` pixels by cutting its middle.
 std::string Fitting(const std::string& text, double most);
 
 struct LegendEntry {

@@ -8,7 +8,7 @@
 
 namespace errmap::report {
 
-/// A mark at an axis and its text.
+/// A tic mark of an axis and its text.
 struct Tic {
   double at = 0.0;
   std::string text;
@@ -37,7 +37,7 @@ class Scale {
     return from_ + (Place(value) - low_) / (high_ - low_) * (to_ - from_);
   }
 
-  /// Returns round numbers, as many as fit.
+  /// Returns as many round numbers as fit.
   std::vector<Tic> Tics(TicRoom room) const;
 
   bool StandApart(const std::vector<Tic>& tics, TicRoom room) const;

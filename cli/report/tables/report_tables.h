@@ -12,7 +12,7 @@ namespace errmap::report {
 /// Errors among neighbours compared with those on unseen groups.
 Table GapTable(const ReportView& view);
 
-/// The recommended model compared with each other one: differences and tests.
+/// The recommended model compared with every other one: differences and tests.
 Table ComparisonTable(const ReportView& view, const std::string& holdout);
 
 /// How often each model wins over repeated splits of the groups.
@@ -55,12 +55,12 @@ Table SummaryRows(const models::StudyRecord& record);
 inline constexpr std::size_t kIntervalColumn = 3;
 inline constexpr std::size_t kProvenColumn = 4;
 
-/// Says which models learnt from a part of the rows, and how to use all; "" if
-/// none did.
+/// Returns a sentence on the models fitted to only part of the rows, and how to
+/// use all; "" if there are none.
 std::string DrawnRowsWords(const ReportView& view);
 
-/// Says what poly:temperature reads if the data have no thermometer; "" if they
-/// have one.
+/// Returns a sentence on the input of poly:temperature if the data have no
+/// thermometer; else "".
 std::string StandInWords(const ReportView& view);
 
 /// One row for each model, with the hold-outs, the decisive one first: errors,
@@ -82,7 +82,7 @@ Table FoldTable(const ReportView& view);
 /// Every start of nets with several starts.
 Table StartTable(const ReportView& view);
 
-/// Nets fitted to shuffled targets: can they learn noise?
+/// Nets fitted to shuffled targets, to show whether they learn noise.
 Table MemorisationTable(const ReportView& view);
 
 /// Options and choices of every model.
@@ -100,7 +100,7 @@ Table ProvenanceTable(const models::StudyRecord& record);
 /// The steps of a selection; no rows if the terms were given.
 Table StepTable(const models::RegressionRecord& regression);
 
-/// The coefficients with their statistics, as far as there are any.
+/// The coefficients with available statistics.
 Table CoefficientTable(const models::RegressionRecord& regression);
 
 /// The analysis of variance; no rows for a penalised fit.
@@ -112,8 +112,8 @@ Table ExcludedTerms(const models::RegressionRecord& regression);
 /// The terms that others determine.
 Table AliasedTerms(const models::RegressionRecord& regression);
 
-/// s, R2, PRESS, largest residual, condition and rank, or what a penalised fit
-/// has instead. "" if nothing was kept.
+/// s, R2, PRESS, largest residual, condition and rank, or the corresponding
+/// figures of a penalised fit. "" if nothing was kept.
 std::string RegressionSummary(const models::RegressionRecord& regression,
                               const ErrorText& error);
 

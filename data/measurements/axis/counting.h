@@ -12,7 +12,7 @@
 
 namespace errmap::data {
 
-/// What a column of whole numbers counts.
+/// The quantity that a column of whole numbers counts.
 enum class Counted {
   kNothing,
   kRows,     // of a pass, or of all
@@ -32,12 +32,13 @@ struct Counter {
 
 /// Finds the columns that count, whatever their names. They are whole numbers
 /// without a unit that change only where a pass or a direction begins, mostly
-/// by the same step, or words in order of appearance. Words that come again
-/// (programs, fixtures) count no passes, nor do two alternating numbers. Blocks
-/// increase by one and never decrease. Numbers without a telling name begin at
-/// 1 (three of them or more at 0). Without passes, a block has at least 8 rows.
-/// Excludes positions, the target and columns that `selection` names. `motion`
-/// is that of `rows`, which are in the order of measurement.
+/// by the same step, or words in order of appearance. Recurring words
+/// (programs, fixtures) count no passes, nor do two alternating numbers. Block
+/// numbers increase by one and never decrease. If the name does not confirm it,
+/// numbers must begin at 1 (three of them or more at 0). Without passes, a
+/// block has at least 8 rows. Excludes positions, the target and columns that
+/// `selection` names. `motion` is that of `rows`, which are in the order of
+/// measurement.
 std::vector<Counter> FindCounters(const CsvTable& table,
                                   const DatasetSelection& selection,
                                   std::size_t target,

@@ -33,12 +33,12 @@ std::ptrdiff_t DirectionByValues(const CsvTable& table,
                                  const std::vector<Eigen::Index>& rows,
                                  const Motion& motion);
 
-/// Returns which of the two values of a column is upwards, according to words
-/// for positions ("up" and "down", "+" and "-"). Other words ("forward", "A")
-/// do not say; the order of the rows then decides. If the order contradicts the
-/// words, it may not be that of measurement: the file's words are used, as
-/// uncertain. `motion` is that of `rows`, without passes if there is none.
-/// `ordered`: the rows are in the order of measurement.
+/// Returns which of the two values of a column means upwards, by words for
+/// positions ("up" and "down", "+" and "-"). For other words ("forward", "A"),
+/// the order of the rows decides. If the order contradicts the words, it may
+/// not be that of measurement. The file's words then count, but as uncertain.
+/// `motion` is that of `rows`, without passes if there is none. `ordered`: the
+/// rows are in the order of measurement.
 Reading::Direction ReadDirection(const CsvTable& table,
                                  const CsvColumn& column,
                                  const std::vector<Eigen::Index>& rows,
@@ -46,12 +46,12 @@ Reading::Direction ReadDirection(const CsvTable& table,
                                  bool ordered);
 
 /// Returns the index of the requested direction: the one with that word in the
-/// file, else the one with that motion; nothing if there is none.
+/// file, else the one with that motion. Nothing if there is none.
 std::optional<std::size_t> PlaceOfWay(const Reading::Direction& found,
                                       const std::string& wanted);
 
 /// Returns filters for the rows of each of the two directions; none if there is
-/// one direction, or `selection` has chosen one.
+/// only one, or if `selection` has chosen one.
 std::vector<ColumnFilter> DirectionsOf(const Reading& reading,
                                        const DatasetSelection& selection);
 

@@ -7,7 +7,7 @@
 
 namespace errmap::data {
 
-/// The values to which a column returns, like commanded positions: exactly, or
+/// Values to which a column returns, like commanded positions: exactly, or
 /// within a tolerance far below their spacing.
 struct Levels {
   std::vector<double> centers;      // ascending
@@ -20,11 +20,11 @@ struct Levels {
 /// return, each is a level.
 Levels LevelsOf(std::span<const double> values);
 
-/// Equal parts of the range in place of levels, for a position read on the way.
-/// A reading that hovers between two parts stays in one.
+/// Divides the range into equal parts in place of levels, for a position read
+/// during motion. A reading that hovers between two parts stays in one.
 Levels PartsOfRange(std::span<const double> values);
 
-/// The path of successive rows through levels.
+/// Path of successive rows through the levels.
 struct Motion {
   /// (rows) 1: towards higher positions, -1: lower, 0: unknown.
   std::vector<int> directions;

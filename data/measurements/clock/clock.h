@@ -29,17 +29,17 @@ struct Clock {
   std::vector<std::string> remarks;  // on its unit, the order of dates, ...
 
   bool is_found() const { return column >= 0; }
-  /// True if each row has a later date than the row before, so that no two are
-  /// the same reading.
+  /// True if each row has a later date than the previous one, so that no
+  /// reading occurs twice.
   bool DatesRise() const;
 };
 
 /// Finds the column of times: the one that `selection` names, else one whose
 /// name and values are times. These are dates and times of day as text (one
-/// column or two), or numbers. Numbers have the unit of the name if steps and
-/// span then suit a measurement (0.01 s to a day; under ten years), else the
-/// unit in which they do. Throws InputError if a named column is unusable,
-/// OpenQuestion if no unit suits, or several.
+/// column or two), or numbers. Numbers have the unit in the name if steps and
+/// span are then plausible (0.01 s to a day; under ten years). Otherwise they
+/// have the unit that makes them plausible. Throws InputError if a named column
+/// is unusable, OpenQuestion if no unit is plausible, or several are.
 Clock FindClock(const CsvTable& table,
                 const DatasetSelection& selection,
                 const std::vector<Eigen::Index>& rows);

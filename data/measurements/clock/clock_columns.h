@@ -10,8 +10,8 @@
 
 namespace errmap::data {
 
-/// Returns columns that might tell when these rows were measured, by their
-/// names and values: groups of indices into the table, the most likely first.
+/// Returns columns that may hold the times of these rows, judged by names and
+/// values: groups of indices into the table, the most likely first.
 std::vector<std::vector<std::size_t>> ColumnsOfTime(
     const CsvTable& table,
     const DatasetSelection& selection,

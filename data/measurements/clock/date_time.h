@@ -8,8 +8,8 @@ namespace errmap::data {
 inline constexpr double kSecondsOfDay = 86400.0;
 
 /// Which number comes first in "03/04/2024". A year of four digits, or points,
-/// leave no doubt. kYearFirst: "24/03/04" is in March. kNoDate: "08.05.12" is a
-/// time of day.
+/// make it unambiguous. kYearFirst: "24/03/04" is in March. kNoDate: "08.05.12"
+/// is a time of day.
 enum class DateOrder { kDayFirst, kMonthFirst, kYearFirst, kNoDate };
 
 struct DateTime {

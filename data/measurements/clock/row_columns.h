@@ -28,7 +28,7 @@ class RowColumns {
     return static_cast<std::size_t>(rows_[i]);
   }
 
-  /// The numbers of the rows, in place of times.
+  /// Row numbers, used in place of times.
   Eigen::VectorXd RowNumbers() const {
     Eigen::VectorXd numbers(std::ssize(rows_));
     std::ranges::copy(rows_, numbers.begin());
@@ -38,29 +38,30 @@ class RowColumns {
   /// Returns a column in these rows.
   std::vector<double> ValuesOf(const CsvColumn& column) const;
 
-  /// Measured columns give no time: filters would see the error itself.
+  /// True for the target and the weight: as times, they would let filters see
+  /// the error.
   bool IsMeasured(std::size_t column) const;
   /// Throws InputError if the column does not exist or is measured.
   std::size_t NamedColumn(const std::string& name,
                           const std::string& argument) const;
 
-  /// Passes over an unusable column. Throws the reason with the remedy if the
-  /// user named the column; otherwise adds a remark.
+  /// Skips an unusable column. Throws the reason with the remedy if the user
+  /// named the column; otherwise adds a remark.
   static void PassOver(bool named,
                        const std::string& why,
                        const std::string& remedy,
                        std::vector<std::string>* remarks);
 
-  /// True if a cell of a column may be missing in this row of the table, which
-  /// drops the row. Otherwise makes a remark, or throws InputError for a named
-  /// column.
+  /// True if a missing cell of a column is allowed in this row of the table,
+  /// which drops the row. Otherwise makes a remark, or throws InputError for a
+  /// named column.
   bool MayBeMissing(std::size_t column,
                     std::size_t row,
                     bool named,
                     std::vector<std::string>* remarks) const;
 
-  /// Gives unknown rows the value before them (the first rows that after them),
-  /// so that the steps are those of the other rows. Returns false if none is
+  /// Gives unknown rows the value before them, or at the start the value after
+  /// them, so that the other rows determine the steps. Returns false if none is
   /// known.
   template <typename Values>
   static bool HoldLast(const std::vector<bool>& known, Values* values) {

@@ -8,10 +8,10 @@
 
 namespace errmap::data {
 
-/// The times in the texts of a column.
+/// Times in the texts of a column.
 struct TextTimes {
-  /// The time of each of the column's texts, from 1970 or from midnight;
-  /// nothing if it is not a time.
+  /// Time of each text of the column, from 1970 or from midnight; nothing if it
+  /// is not a time.
   std::vector<std::optional<double>> seconds;
   bool all = true;         // each that is not missing is a date or a time
   bool any = false;        // one of them is
@@ -24,20 +24,20 @@ struct TextTimes {
   std::string order;
 };
 
-/// Reads texts by ParseDateTime. "03/04/2024" may be in March or in April. The
-/// order is chosen by these rules in turn: all texts are dates; time goes back
-/// less often down the rows; the file spans less time; the month first with AM
-/// and PM, else the day. "27:35" is 27 min and 35 s if the name says mm:ss, or
-/// some values are 24 or more.
+/// Reads texts by ParseDateTime. "03/04/2024" may be in March or in April.
+/// These rules choose the order, in turn: all texts are dates; time goes back
+/// less often from row to row; the file spans less time; the month comes first
+/// with AM and PM, else the day. "27:35" is 27 min and 35 s if the name says
+/// mm:ss, or some values are 24 or more.
 TextTimes ReadTimes(const CsvColumn& column);
 
-/// Throws InputError, with the place and a form that works, if a column named
-/// as a time or a date has times in most cells, but one that ParseDateTime
-/// cannot read.
+/// Throws InputError if a column named as a time or a date has times in most
+/// cells, but a cell that ParseDateTime cannot read. The message has the place
+/// and a valid form.
 void RefuseUnreadTimes(const CsvTable& table);
 
-/// True if a column holds only times or dates in words and figures, and missing
-/// cells. The second function: dates without hours.
+/// True if a column holds only times or dates as text, and missing cells. The
+/// second function: only dates without hours.
 bool HoldsTimes(const CsvColumn& column);
 bool HoldsDates(const CsvColumn& column);
 

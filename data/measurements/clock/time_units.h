@@ -20,8 +20,7 @@ inline constexpr double kLeapSteps = 20.0;
 /// Returns the median of the steps above 0 (the lower of two), infinite if
 /// there is none.
 double MedianStep(std::vector<double> steps);
-/// Returns the same for the steps of `time`, and the number of times that go
-/// back.
+/// Returns the same for the steps of `time`, and how often it goes back.
 double MedianStepOf(const Eigen::VectorXd& time);
 Eigen::Index TimesBack(const Eigen::VectorXd& time);
 
@@ -42,11 +41,11 @@ struct Pace {
   double most = 0.0;
   double step = 0.0;  // median of those above 0
 
-  /// True for those of a measurement: steps of 0.01 s to a day, under ten
-  /// years.
+  /// True if these are plausible for a measurement: steps of 0.01 s to a day,
+  /// under ten years.
   bool MayBeIn(const TimeUnit& unit) const;
 };
-/// NaN apart.
+/// NaN is ignored.
 Pace PaceOf(std::vector<double> values);
 
 /// The zero from which numbers count, and their unit.
@@ -56,16 +55,17 @@ struct Epoch {
 
   bool counts_days() const { return unit->seconds == kSecondsOfDay; }
 };
-/// What a column's name says that it holds.
+/// Content of a column according to its name.
 enum class Named { kNothing, kTime, kDate };
 /// Recognises numbers that count from 1970, whatever the unit in their name. In
-/// each unit the years 1990 to 2060 give different numbers, also from Windows'
-/// 100 ns since 1601. Day numbers of Excel (and MATLAB) look like other
-/// numbers. For a date any count; for a time, those with parts of days.
+/// each unit, the years 1990 to 2060 give other numbers, and others again in
+/// Windows' 100 ns since 1601. Day numbers of Excel (and MATLAB) look like
+/// other numbers. In a column of dates all of them count; in one of times, only
+/// those with fractions of days.
 std::optional<Epoch> EpochOf(const Pace& pace, Named called);
-/// Days from a column's epoch to 1970, if its name tells the epoch: "JD",
+/// Days from a column's epoch to 1970, if its name states the epoch: "JD",
 /// "BJD", "HJD" (from noon, 4713 BC), "MJD", "days since 1970". Its values must
-/// be of our time.
+/// be recent dates.
 std::optional<double> NamedDays(std::string_view column);
 std::optional<Epoch> NamedEpoch(std::string_view column, const Pace& pace);
 
@@ -74,7 +74,7 @@ struct Steps {
   std::size_t on = 0;
   std::size_t back = 0;
 
-  /// True if most of this many rows go forwards, and few go back.
+  /// True if time advances in most of these rows and goes back in few.
   bool GoForward(std::size_t rows) const {
     constexpr std::size_t kSeldom = 10;
     return 2 * on > rows && kSeldom * back < rows;
@@ -92,10 +92,11 @@ Steps StepsOf(const Values& values) {
 
 /// Excel counts days from 30 December 1899.
 inline constexpr double kExcelDaysTo1970 = 25569.0;
-/// True if all are Excel's day numbers, 1990 to 2060, or missing (NaN).
+/// True if all values are Excel's day numbers, 1990 to 2060, or missing (NaN).
 bool AreWholeDays(const std::vector<double>& values);
 
-/// Seconds of 20260302080000; NaN if the number is not one of these.
+/// Returns the seconds of a number such as 20260302080000; NaN for any other
+/// number.
 double SecondsOfDigits(double number);
 
 }  // namespace errmap::data

@@ -9,16 +9,17 @@
 
 namespace errmap::data {
 
-/// Temperatures expected in a shop; a thermometer beyond them is examined.
+/// Temperatures expected in a shop; thermometers outside this range are
+/// examined.
 inline constexpr double kColdest = -50.0;  // degC
 inline constexpr double kHottest = 200.0;  // degC
 
-/// True if it really was that cold or hot. A column of temperatures, some or
-/// all of which (`wrong`, rows from 0, not empty) are outside the limits of a
-/// shop, is believed if it changes slowly without a gap between these and the
-/// others. No other unit may bring it closer to its neighbours, or to a shop if
-/// it has none. A column whose neighbours are all within the limits must also
-/// change: an open input is noise about one value.
+/// True if temperatures outside the limits of a shop (`wrong`, rows from 0, not
+/// empty) are plausible. The column must change slowly, without a gap between
+/// these and its other values. No other unit may bring it closer to its
+/// neighbours, or to a shop if it has none. If all its neighbours are within
+/// the limits, it must also change, since an open input is noise about one
+/// value.
 bool AreBelieved(const MeasuredColumns& measured,
                  Eigen::Index input,
                  const std::vector<Eigen::Index>& wrong);

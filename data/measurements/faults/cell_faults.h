@@ -9,13 +9,13 @@ namespace errmap::data {
 
 struct CellFaults {
   std::vector<ColumnFault> faults;  // rows from 0
-  /// Temperature inputs that other columns can be compared with, without their
+  /// Temperature inputs for comparison with other columns, without their
   /// faults.
   std::vector<Thermometer> thermometers;
 };
 
-/// Finds values that stand out by themselves (kImpossible, kOutlying). Then,
-/// for thermometers, those that stand out from their neighbours (kJump).
+/// Finds single values that stand out (kImpossible, kOutlying). Then, for
+/// thermometers, finds values that differ from their neighbours (kJump).
 CellFaults FindCellFaults(const MeasuredColumns& measured);
 
 }  // namespace errmap::data

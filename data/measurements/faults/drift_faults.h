@@ -9,15 +9,15 @@
 namespace errmap::data {
 
 /// Finds thermometers that depart further from the others in each session
-/// (kDrifting), the worst first. Those that `known` distrusts as a whole are
-/// left out.
+/// (kDrifting), the worst first. Skips columns that are faulty as a whole
+/// according to `known`.
 std::vector<ColumnFault> FindDrift(const MeasuredColumns& measured,
                                    const std::vector<Thermometer>& thermometers,
                                    const std::vector<ColumnFault>& known);
 
 /// Finds the thermometer that departs further from the mean of the others at
-/// the start (rows from 0) of each session. It reports those too different for
-/// FindDrift, from four sessions on.
+/// the start (rows from 0) of each session. It finds those too different for
+/// FindDrift, and needs four sessions or more.
 std::optional<ColumnFault> FindColdDrift(
     const MeasuredColumns& measured,
     const std::vector<Eigen::Index>& session_starts,

@@ -11,24 +11,25 @@ namespace errmap::data {
 /// Finds rows that pass (one flag per row of the table) but are totals or
 /// remarks, not measurements. They have text where nearly all other rows have a
 /// number or a time. In columns that number the rows (`numbering`, one flag per
-/// column) any word counts, elsewhere words such as "Mean". With kDropRows
-/// their flags are cleared; otherwise throws InputError if there is one.
+/// column), any word counts; elsewhere, only words such as "Mean". With
+/// kDropRows their flags are cleared; otherwise throws InputError if there is
+/// one.
 std::vector<Eigen::Index> LeaveOutRowsOfWords(
     const CsvTable& table,
     const std::vector<bool>& numbering,
     MissingPolicy missing_policy,
     std::vector<bool>* passing);
 
-/// Returns, ascending, the rows that pass and repeat an earlier row in all
-/// named columns, together with a neighbour that repeats that row's neighbour.
-/// Returns none if the target has so few distinct values that rows may be equal
-/// by chance.
+/// Returns, in ascending order, the rows that pass and repeat an earlier row in
+/// all named columns, if a neighbour also repeats that row's neighbour. Returns
+/// none if the target has so few distinct values that rows may be equal by
+/// chance.
 std::vector<Eigen::Index> RepeatedRows(const CsvTable& table,
                                        std::size_t target,
                                        const std::vector<bool>& passes);
 
-/// Finds targets that look like measurements but are not. These are zeros where
-/// all other rows show an error (kZero, a lost beam), and runs of rows in
+/// Finds targets that look like measurements but are not. These are zeros while
+/// all other rows have an error (kZero, a lost beam), and runs of rows in
 /// another unit (kOtherUnit, one fault each). Rows count from 0.
 std::vector<ColumnFault> FindTargetFaults(const MeasuredColumns& measured);
 

@@ -11,16 +11,16 @@ namespace errmap::data {
 
 // What the searches for faults of columns share.
 
-/// Smallest number of rows that tells anything about a column.
+/// Fewest rows needed to examine a column.
 inline constexpr Eigen::Index kFewestRows = 12;
 
 /// Thresholds of jumps and steps, in multiples of the column's noise.
 inline constexpr double kJumpNoise = 20.0;
 
-/// Number of other thermometers with which one is compared.
+/// Number of other thermometers used in a comparison.
 inline constexpr std::size_t kFewestOthers = 3;
 
-/// A temperature column without the cells found to be wrong.
+/// A temperature column without its faulty cells.
 struct Thermometer {
   Eigen::Index input = -1;
   double degree = 1.0;              // one degC in the column's unit
@@ -36,8 +36,8 @@ struct Bounds {
 /// A difference of 1 degC in another unit.
 double DegreeIn(const Unit& unit);
 
-/// Makes a fault of `rows` (from 0). It is a fault of single cells if its kind
-/// allows that and there are few.
+/// Makes a fault of `rows` (from 0). If they are few, and its kind allows it,
+/// it is a fault of single cells.
 ColumnFault MakeFault(const MeasuredColumns& measured,
                       FaultKind kind,
                       Eigen::Index input,
@@ -45,10 +45,10 @@ ColumnFault MakeFault(const MeasuredColumns& measured,
                       double value,
                       Bounds held);
 
-/// Largest number of wrong cells that count as single ones.
+/// Largest number of faulty cells that count as single ones.
 Eigen::Index MostCells(Eigen::Index num_rows);
 
-/// Rows (from 0) in which no cell of these thermometers is wrong.
+/// Rows (from 0) without a faulty cell of these thermometers.
 std::vector<Eigen::Index> SoundRows(const MeasuredColumns& measured,
                                     std::span<const Thermometer> thermometers);
 

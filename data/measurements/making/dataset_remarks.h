@@ -8,7 +8,7 @@
 
 namespace errmap::data {
 
-/// What is said of a data set while it is made, and the inputs left out of it
+/// Remarks on a data set under construction, and the inputs left out of it
 /// (PreparedDataset has the same members).
 class DatasetRemarks {
  public:
@@ -23,13 +23,13 @@ class DatasetRemarks {
   /// True if the user asked for this input.
   bool IsNamed(const std::string& input) const;
   void Add(std::vector<std::string> more);
-  /// Leaves an input out, with a remark that ends with `behind`. It is a doubt,
-  /// too, if somebody asked for the input. Inputs left out one after another
-  /// for one reason share a remark.
+  /// Leaves an input out, with a remark that ends with `behind`. If the user
+  /// asked for the input, the remark is also a doubt. Inputs left out in
+  /// succession for the same reason share a remark.
   void LeaveOut(const std::string& input,
                 const std::string& why,
                 const std::string& behind);
-  /// Leaves out an input that nobody named, but may.
+  /// Leaves out an input that the user has not named but may name.
   void LeaveOutUnlessNamed(const std::string& input, const std::string& why);
   /// Remarks on an idle input, and leaves a dead one out unless `keep_dead`.
   void ReportIdle(const std::string& input, const IdleInput& idle);

@@ -10,14 +10,14 @@
 
 namespace errmap::data {
 
-/// What is wrong with an input that has one value in many rows.
+/// Kind of an input that has one value in many rows.
 struct IdleInput {
   std::string how;    // "0 in all 40 rows", "0 in 38 of 40 rows"; "": nothing
   bool dead = false;  // one value in all rows
 };
 
 /// Examines an input (m, not empty) with one value in at least 90 % of the
-/// rows: dead if in all of them, else sparse, as a flag is.
+/// rows: dead if in all of them, else sparse, like a flag.
 IdleInput HowIdle(const Eigen::Ref<const Eigen::VectorXd>& values);
 
 /// True if the values (m) of each session lie above all those of the sessions
@@ -25,8 +25,8 @@ IdleInput HowIdle(const Eigen::Ref<const Eigen::VectorXd>& values);
 bool CountsOn(const Eigen::Ref<const Eigen::VectorXd>& values,
               const std::vector<Eigen::Index>& sessions);
 
-/// True if values (m) of more than a few rows rise in at least a quarter of
-/// these and never fall.
+/// True if values (m) of more than a few rows never fall, and rise in at least
+/// a quarter of the rows.
 bool NeverFalls(const Eigen::Ref<const Eigen::VectorXd>& values);
 
 /// True if values (m) are whole numbers, one for each of `sessions` (at least
@@ -34,11 +34,11 @@ bool NeverFalls(const Eigen::Ref<const Eigen::VectorXd>& values);
 bool NumberEach(const Eigen::Ref<const Eigen::VectorXd>& values,
                 Eigen::Index sessions);
 
-/// True if the values (except NaN) are of two kinds, as those of a switch.
+/// True if there are two distinct values (except NaN), as for a switch.
 bool HasTwoValues(const Eigen::Ref<const Eigen::VectorXd>& values);
 
-/// Finds inputs that repeat another one exactly. Columns are compared by their
-/// sums first, so that many stay cheap.
+/// Finds inputs that repeat another one exactly. Compares sums first, so that
+/// many columns take little time.
 class RepeatedInputs {
  public:
   struct Found {

@@ -11,19 +11,19 @@
 
 namespace errmap::data {
 
-/// Returns the inputs of ChooseInputs, less those that the reading knows to
-/// measure nothing: readings and numbers of the position, axes that stand,
-/// counters, parts of dates. What is left out, and every remark, goes to `said`
-/// instead. Throws as ChooseInputs.
+/// Returns the inputs of ChooseInputs, without those that measure nothing
+/// according to the reading: measured positions and their numbers, axes at
+/// rest, counters, parts of dates. Those left out, and every remark, go to
+/// `said`. Throws as ChooseInputs.
 ChosenInputs ChooseInputsAsRead(const CsvTable& table,
                                 const DatasetSelection& selection,
                                 const ReadTable& read,
                                 DatasetRemarks* said);
 
-/// Leaves out inputs (columns of the table) that nobody named, whose empty
-/// cells would cost rows and give nothing in return: with a number in less than
-/// a tenth of the rows that pass, or one number throughout. Only if rows with
-/// missing cells are dropped.
+/// Leaves out inputs (columns of the table) whose empty cells would cost more
+/// rows than they are worth: those with a number in less than a tenth of the
+/// rows that pass, or with one number throughout. Only for inputs that the user
+/// has not named, and if rows with missing cells are dropped.
 void LeaveOutInputsThatCostRows(const CsvTable& table,
                                 const DatasetSelection& selection,
                                 const std::vector<bool>& passes,
@@ -33,8 +33,8 @@ void LeaveOutInputsThatCostRows(const CsvTable& table,
 /// Sets the role of each input that the axis has not set, by name and values.
 void SetRoles(Dataset::Parts* parts);
 
-/// Adds to a reading what the values added: the inputs by role, and what was
-/// left out, `records` (columns of the table) among it.
+/// Adds to a reading the inputs by role, and the columns left out, including
+/// `records` (columns of the table).
 void DescribeInputs(const CsvTable& table,
                     const Dataset::Parts& parts,
                     const std::vector<std::size_t>& records,

@@ -9,7 +9,8 @@
 
 namespace errmap::data {
 
-/// Inputs that together give the target, to within the rounding of all of them.
+/// Inputs that together determine the target, within the rounding of all of
+/// them.
 struct Leak {
   std::vector<Eigen::Index> inputs;    // indices, one to three
   std::vector<Eigen::Index> left_out;  // of these, those that hold the error
@@ -22,10 +23,10 @@ struct Leak {
 /// (m), by least squares on the rows. Examples are the measured position beside
 /// the nominal one, a copy in another unit or in ppm of the position, two
 /// halves, the size of the error, or whether it exceeds a limit. Encoder counts
-/// are recognised by the axis. Temperatures, times, and positions by themselves
-/// are states of a machine, never parts of its error: a target that is a plain
-/// function of them has a good map. If such a set contains a position or a few
-/// settings, these are kept.
+/// are recognised by the axis. Temperatures, times, and positions alone are
+/// states of a machine, never parts of its error: a target that is a plain
+/// function of them has a good map. Positions or a few settings in such a set
+/// are kept.
 std::vector<Leak> FindLeaks(const ColumnInfo& target,
                             const Eigen::VectorXd& target_values,
                             const std::vector<ColumnInfo>& inputs,

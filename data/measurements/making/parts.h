@@ -13,7 +13,7 @@ namespace errmap::data {
 void KeepRows(const std::vector<Eigen::Index>& kept, Dataset::Parts* parts);
 
 /// Leaves out the marked inputs (p). Returns the new index of each input, -1
-/// for one left out.
+/// for those left out.
 std::vector<Eigen::Index> LeaveOutInputs(const std::vector<bool>& left_out,
                                          Dataset::Parts* parts);
 

@@ -11,7 +11,7 @@
 
 namespace errmap::data {
 
-/// An input of a data set without which a map is better.
+/// An input that would harm a map.
 struct UselessInput {
   Eigen::Index input;
   std::string why;          // "is dead (stuck at 85 from data row 12 on)"
@@ -19,13 +19,14 @@ struct UselessInput {
   bool even_named = false;  // left out though somebody asked for it
 };
 
-/// Finds inputs that together give the target: no control knows it beforehand.
+/// Finds inputs that together determine the target, which no control knows
+/// beforehand.
 std::vector<UselessInput> LeakingInputs(const Dataset::Parts& parts);
 
 /// Finds inputs that number the cycles through all sessions (a code for each
 /// row, of `num_sessions`), or that never fall from the first row to the last
-/// (hours, kilometres, energy). These are not thermal states. What begins anew
-/// with each session, such as hours since the start, may be one.
+/// (hours, kilometres, energy). These are not thermal states. A count that
+/// restarts with each session, such as hours since the start, may be one.
 std::vector<UselessInput> CountingInputs(
     const Dataset::Parts& parts,
     const std::vector<Eigen::Index>& sessions,

@@ -18,10 +18,10 @@ struct PartingRemark {
 };
 
 /// Tests whether columns of words (indices into the table) divide the rows into
-/// things with different errors, such as machines, tools and directions. It
+/// parts with different errors, such as machines, tools and directions. It
 /// compares linear maps of all rows with those of each value. The columns have
 /// 2 to 12 values that change within one of `sessions` (a code for each row;
-/// empty: one). Those that pass PartsComponents are always mentioned.
+/// empty: one). Columns that pass PartsComponents always get a remark.
 std::vector<PartingRemark> FindParts(const CsvTable& table,
                                      const std::vector<std::size_t>& words,
                                      const Dataset::Parts& parts,

@@ -18,8 +18,8 @@ CsvTable Borrowed(const CsvTable& table);
 /// A target that is derived from columns of the table. "-correction_um": its
 /// values with the other sign. "actual_mm-nominal_mm": a difference in the unit
 /// of the subtracted column. "Error [um]": a column "Error" without a unit.
-/// Each may end in a unit in brackets. There is none if the table has that very
-/// name or lacks the columns needed.
+/// Each may end in a unit in brackets. There is none if the table has a column
+/// of that name, or lacks the columns needed.
 struct DerivedTarget {
   CsvColumn column;
   std::optional<std::size_t> of;  // index of the only column it is made of
@@ -27,16 +27,15 @@ struct DerivedTarget {
 std::optional<DerivedTarget> FindDerivedTarget(const CsvTable& table,
                                                const std::string& name);
 
-/// Adds the columns that `filters` and `session` name and a table lacks, if
-/// they follow from its positions or labels. For files on which a map is used.
+/// Adds columns that `filters` and `session` name and a table lacks, if they
+/// follow from its positions or labels. For files to which a map is applied.
 void AddDerivedColumns(const std::vector<ColumnFilter>& filters,
                        const std::string& position,
                        const std::string& session,
                        CsvTable* table);
 
-/// A pair of columns of which one was measured and the other commanded. They
-/// agree except for a small part of their range, and the values of the second
-/// recur.
+/// A measured and a commanded column. They agree except for a small part of
+/// their range, and the values of the commanded one recur.
 struct ReadBeside {
   std::size_t read;
   std::size_t commanded;

@@ -13,7 +13,7 @@ namespace errmap::data {
 /// A night lasts longer than this, s.
 inline constexpr double kShortestNight = 3.5 * 3600.0;
 
-/// Nights divide the rows: pauses of more than `gap`.
+/// Nights, which divide the rows: pauses of more than `gap`.
 struct Nights {
   double gap = 0.0;  // s; infinite: one session
   bool sure = true;
@@ -21,10 +21,10 @@ struct Nights {
 };
 
 /// Finds pauses much longer than those between the passes of `motion`, or
-/// between rows if it has none. The gap is the lowest in the sorted pauses
-/// above which all last 3.5 h or more. A pause of at least ten median steps
-/// that breaks a pass is a night, too. `time` (n) is in order. `dated`: passes
-/// hours apart may be on different days.
+/// between rows if it has none. The gap is the smallest one in the sorted
+/// pauses above which all pauses last 3.5 h or more. A pause of at least ten
+/// median steps that breaks a pass is a night, too. `time` (n) is in order.
+/// `dated`: passes hours apart may be on different days.
 Nights FindNights(const Eigen::VectorXd& time,
                   const Motion& motion,
                   bool dated);

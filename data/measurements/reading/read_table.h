@@ -13,12 +13,12 @@
 
 namespace errmap::data {
 
-/// A table with what was found in it: rows in order of time, and columns
-/// derived from its values (direction, cycle, an error from a correction).
+/// A table as understood: rows in order of time, and columns derived from its
+/// values (direction, cycle, an error from a correction).
 struct ReadTable {
   CsvTable table;  // may use the numbers of the one given: do not outlive it
   ColumnRoles roles;
-  /// Rows of the given table, if they were put in order of time.
+  /// Rows of the given table, if they were sorted by time.
   std::vector<Eigen::Index> order;
   std::vector<ColumnFilter> where;          // of the selection, direction too
   std::vector<bool> passes;                 // (rows of the table)
@@ -32,12 +32,12 @@ struct ReadTable {
   Reading reading;
 };
 
-/// Finds what each column, row and pause of a table means: see reading.h.
+/// Finds the meaning of each column, row and pause of a table: see reading.h.
 /// Throws InputError as MakeDataset does, OpenQuestion if no reading is
 /// cautious enough.
 ReadTable ReadRoles(const CsvTable& table, const DatasetSelection& selection);
 
-/// Reads rows for a map in use, which knows the columns: their order, axis,
+/// Reads rows for a map in use, whose columns are known. Finds order, axis,
 /// clock, cycles and sessions. The selection may name target, position (else
 /// there is none), time and session. Throws InputError if a named column is
 /// unusable.

@@ -10,15 +10,15 @@
 
 namespace errmap::data {
 
-/// How the role of a column was found.
+/// Evidence for the role of a column.
 enum class Evidence { kNone, kUser, kName, kValues, kNameAndValues };
 /// "none", "user", "name", "values", "name+values".
 std::string_view ToString(Evidence evidence);
 
-/// How a table was understood: every role with the column or rule that has it,
-/// the evidence, whether it is sure, and the next best alternative. Plain data,
-/// stored unchanged in results.json and map files. Columns are those of the
-/// table. A role without a column was found from others ("by").
+/// Interpretation of a table: for every role the column or rule, the evidence,
+/// whether it is certain, and the next best alternative. Plain data, stored
+/// unchanged in results.json and map files. Columns are those of the table. A
+/// role without a column was derived from others ("by").
 struct Reading {
   struct Target {
     std::optional<std::string> column;
@@ -108,8 +108,8 @@ struct Reading {
   std::vector<Question> questions;
 };
 
-/// Thrown if no reading is cautious enough (a sign, a unit): the run ends with
-/// the question.
+/// Thrown if no choice is cautious (a sign, a unit): the run ends with the
+/// question.
 class OpenQuestion : public InputError {
  public:
   OpenQuestion(const std::string& file, Reading::Question question);
@@ -120,8 +120,8 @@ class OpenQuestion : public InputError {
 };
 
 /// "Read: 1020 rows in 6 days (by nights in DateTime) of 10 cycles; axis
-/// x_pos_mm, upward; 5 thermometers; every 5 s.", and a line for each thing
-/// that is not sure, with the option that settles it.
+/// x_pos_mm, upward; 5 thermometers; every 5 s.", and a line for each uncertain
+/// point, with the option that settles it.
 std::vector<std::string> ReadingLines(const Reading& reading);
 
 }  // namespace errmap::data

@@ -10,9 +10,9 @@ enum class RowsFor {
   kAnswering,  // each row, by a map whose axis the selection names
 };
 
-/// Finds clock and axis of the base rows. Rows that are not in order of time
-/// are sorted by the clock. If rows were sorted or shuffled and no clock tells
-/// their order, they have none.
+/// Finds clock and axis of the base rows. If the clock shows that rows are not
+/// in order of time, they are sorted by it. Rows that were rearranged and have
+/// no clock get no order.
 void PutInOrder(TableInReading* in, RowsFor use);
 
 }  // namespace errmap::data

@@ -16,7 +16,7 @@
 
 namespace errmap::data {
 
-/// A table while it is read; the steps of ReadRoles pass it on.
+/// A table during reading, as passed on by the steps of ReadRoles.
 struct TableInReading {
   const CsvTable& given;
   const DatasetSelection& selection;
@@ -33,7 +33,7 @@ struct TableInReading {
 
   /// (rows of the table)
   std::vector<bool> IsBaseRow() const;
-  /// How the base rows move through the positions; nothing without an axis.
+  /// Motion of the base rows through the positions; empty without an axis.
   const Motion& Passes() const;
   /// Returns the first column of that name, or the first that counts these; -1:
   /// none.

@@ -24,10 +24,11 @@ inline const char* PastLineEnd(const char* p, const char* end) {
 }
 
 /// Reads the text of a CSV file cell by cell: a cursor, its line, and the
-/// characters that end a cell. It knows quotes, but not the meaning of a cell.
+/// characters that end a cell. It handles quotes, but not the meaning of a
+/// cell.
 class CsvCells {
  public:
-  /// Since no cell can hold a NUL (the parser refuses them), this ends none.
+  /// The parser refuses NUL, so this delimiter never occurs.
   static constexpr char kNoDelimiter = '\0';
 
   /// `text` must outlive it; `place` begins a message about a line.
@@ -58,10 +59,10 @@ class CsvCells {
 
   // ---- What parts cells.
 
-  /// A blank represents any number of blanks.
+  /// As delimiter, a blank stands for any number of blanks.
   char delimiter = kNoDelimiter;
-  /// Number of cells of a row, or 0 if unknown. A quoted cell that contains a
-  /// line with this many cells lacks its closing quote.
+  /// Number of cells of a row, or 0 if unknown. If a quoted cell contains a
+  /// line with this many cells, its closing quote is missing.
   std::size_t width = 0;
 
   // ---- Lines.
@@ -70,8 +71,7 @@ class CsvCells {
   void SkipLine();
   /// Skips a byte order mark.
   void SkipBytes(std::size_t count) { cursor_ += count; }
-  /// Removes rows at the end that hold only delimiters, as spreadsheets leave
-  /// them.
+  /// Removes final rows of delimiters only, which spreadsheets leave.
   void LeaveEmptyEnd();
 
   // ---- Cells.
@@ -84,7 +84,8 @@ class CsvCells {
   std::string_view Next();
 
   /// Returns the text of a plain number, as Next would, or an empty text (the
-  /// cursor stays). Most cells are plain numbers, whose end from_chars finds.
+  /// cursor stays). A fast path: most cells are plain numbers, and from_chars
+  /// finds their end.
   std::string_view NextNumber(double* value) {
     const char* const start = SkipBlanks(cursor_);
     const auto [stop, error] = std::from_chars(start, end_, *value);

@@ -6,14 +6,15 @@
 
 namespace errmap::data {
 
-/// A last line that was cut off in mid number, by a copy or a full disk.
+/// A last line that ends inside a number, because of an incomplete copy or a
+/// full disk.
 struct CutLine {
   const char* start;   // where the line begins
   std::string number;  // what is left of its last cell
 };
 
 /// Looks for a cut line at the end of a table's rows: it has no line end, and
-/// its last number has fewer decimals than each of the many before it.
+/// its last number has fewer decimals than all the numbers above it.
 std::optional<CutLine> FindCutLine(std::string_view rows, char delimiter);
 
 }  // namespace errmap::data

@@ -11,15 +11,15 @@
 
 namespace errmap::data {
 
-/// Why programs do not read a cell as a number; the rarest reason counts.
+/// Reason why a cell is not a plain number; the rarest one counts.
 enum class Loose { kNone, kDash, kMarks, kRemark, kMinusBehind, kExponent };
 
-/// Reads a number as people write it, which programs do not read. It may have
-/// thousands separated by blanks, apostrophes or the other decimal mark ("25
-/// 000.5", "25'000", "1.234.567,8"), a minus that is a dash or comes last, a
-/// remark ("1.5 # door"), or Fortran's exponent ("1.5D-03"). `other_mark`: one
-/// group of thousands is enough ("25,000" with decimal points). If a mark could
-/// be decimal, returns kNone and no value.
+/// Reads a number in a form that people write but programs do not read. It may
+/// have thousands separated by blanks, apostrophes or the other decimal mark
+/// ("25 000.5", "25'000", "1.234.567,8"), a minus that is a dash or comes last,
+/// a remark ("1.5 # door"), or Fortran's exponent ("1.5D-03"). `other_mark`:
+/// one group of thousands is enough ("25,000" with decimal points). If a
+/// separator could be a decimal mark, returns kNone and no value.
 Loose ReadLooseNumber(std::string_view cell,
                       bool decimal_comma,
                       bool other_mark,
@@ -39,7 +39,7 @@ struct CellLabel {
 /// Removes that text from the cell and returns it.
 CellLabel TakeLabel(std::string_view* cell);
 
-/// Such numbers in a file, counted for its remarks.
+/// Counts of such numbers in a file, for its remarks.
 class LooseNumbers {
  public:
   void Add(Loose kind, std::size_t line);

@@ -4,12 +4,11 @@
 
 namespace errmap::data {
 
-/// True for "", NA, NaN, N/A, #N/A and NULL in any case: the cell holds
-/// nothing.
+/// True for "", NA, NaN, N/A, #N/A and NULL in any case: the cell is empty.
 bool IsMissingText(std::string_view text);
 
-/// True also for other entries in place of a missing number: "-", "?", "none",
-/// "#DIV/0!", and what loggers write for no reading: OPEN, OL, OVER, ERR,
+/// True also for other entries in place of a number: "-", "?", "none",
+/// "#DIV/0!", and loggers' words for a missing reading: OPEN, OL, OVER, ERR,
 /// FAULT, NC, "---".
 bool IsMissingNumber(std::string_view text);
 

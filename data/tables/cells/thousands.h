@@ -10,8 +10,7 @@
 
 namespace errmap::data {
 
-/// Features of a column of numbers from which a thousands separator is
-/// recognised.
+/// Features of a column of numbers that reveal thousands separators.
 struct ColumnShape {
   bool all_threes = true;  // each point or comma has three digits behind it
   bool any_parted = false;
@@ -26,7 +25,8 @@ struct ColumnShape {
 bool MayPartThousands(std::string_view number, std::size_t point);
 
 /// Finds the columns of numbers in which points or commas separate thousands,
-/// with a remark. Returns true if there is one: the rows must be read again.
+/// with a remark. Returns true if there is one; the rows must then be read
+/// again.
 bool PartThousands(std::vector<ColumnShape>* shapes, CsvTable* table);
 
 }  // namespace errmap::data

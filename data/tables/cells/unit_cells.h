@@ -7,8 +7,8 @@
 
 namespace errmap::data {
 
-/// Reads a cell below a name that is a unit or nothing: "mm", "[um]", "-". The
-/// unit is returned without its brackets, nothing as "".
+/// Reads a cell below a name that has a unit or means no unit: "mm", "[um]",
+/// "-". The unit is returned without its brackets, nothing as "".
 bool ReadUnitCell(std::string* cell);
 
 /// True if all cells are units or nothing, and at least one is a unit.

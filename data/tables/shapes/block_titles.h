@@ -17,7 +17,7 @@ struct TitleLine {
 /// True if a line of words contains a date.
 bool HoldsDate(const std::string& text);
 
-/// True if a line says which day, session, run or cycle follows.
+/// True if a line names the day, session, run or cycle that follows.
 bool NamesSession(const std::string& text);
 
 /// Makes a column from lines that divide a table's rows into blocks: "date" if
@@ -25,7 +25,7 @@ bool NamesSession(const std::string& text);
 /// words. Every block has such a line, including the first. The lines name
 /// days, sessions, runs or cycles and differ only in their numbers, or the
 /// names of the columns are repeated below each. For "day 1 run 1", "day 1 run
-/// 2", "day 2 run 1" it is the day. Remarks on this, also if lines that name
+/// 2", "day 2 run 1" it is the day. Adds a remark, also if lines that name
 /// sessions give no column. `names_again`: how often the names are repeated
 /// between the rows.
 void PartByTitles(const std::vector<TitleLine>& lines,
@@ -39,10 +39,10 @@ struct BlankLines {
   std::size_t count = 0;
 };
 
-/// Numbers the rows between blank lines in a column "block". If some places
-/// have more blank lines, only those divide, as between gnuplot's data sets.
-/// Makes none if a column has that name, only one place is blank, or a block
-/// has fewer than four rows.
+/// Adds a column "block" that numbers the runs of rows between blank lines. If
+/// some places have more blank lines than others, only these divide, as between
+/// gnuplot's data sets. Makes none if a column has that name, only one place is
+/// blank, or a block has fewer than four rows.
 void PartByBlankLines(const std::vector<BlankLines>& blanks, CsvTable* table);
 
 }  // namespace errmap::data

@@ -12,12 +12,12 @@ namespace errmap::data {
 /// (or in their unit) and the values (error_um); the others are repeated. Does
 /// the same for a column for each run, such as "Run 3 up [um]", or for each
 /// direction, such as "Error up [um]": block by block where the positions start
-/// again. Columns calculated from these (means, ranges) are left out. Other
+/// again. Leaves out columns calculated from these (means, ranges). Other
 /// tables are unchanged.
 void FoldPositions(CsvTable* table);
 
-/// True if bare numbers in names are positions (mm): three or more that rise or
-/// fall steadily, and not by ones, as numbers of runs do.
+/// True if bare numbers in names are positions (mm): three or more that always
+/// rise or always fall, but not in steps of one, like numbers of runs.
 bool AreSpacedPositions(const std::vector<double>& numbers);
 
 }  // namespace errmap::data

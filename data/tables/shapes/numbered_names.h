@@ -23,7 +23,7 @@ bool IsNumericDate(std::string_view text);
 
 /// The parts of the name of a column of one run, such as "Run 3 up [um]", "Lauf
 /// 1 rückwärts", "x2↓ (µm)", "Day 2 Run 1", "2026-03-02". Missing parts are 0
-/// or "", as the run of "Error up [um]".
+/// or "", such as the run of "Error up [um]".
 struct RunName {
   std::string quantity = {};  // "error [um]"
   int session = 0;

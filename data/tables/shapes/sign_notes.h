@@ -7,8 +7,8 @@
 namespace errmap::data {
 
 /// Returns the line above or below a table that states the sign of an error,
-/// unless it is plainly the actual value minus the nominal one ("Abweichung =
-/// Soll - Ist", "positive error: the axis stops short"); null without one.
+/// unless it clearly means actual minus nominal ("Abweichung = Soll - Ist",
+/// "positive error: the axis stops short"); null without one.
 const std::string* NoteOfOtherSign(const CsvTable& table);
 
 }  // namespace errmap::data

@@ -13,14 +13,14 @@ bool IsGzip(std::string_view bytes);
 /// same bytes.
 std::string Gzip(std::string_view text);
 
-/// Inverse of the above, also for several files of gzip one behind the other
-/// (RFC 1952: members). Throws InputError if the bytes are not gzip, are cut
-/// off, or hold more than `most` bytes.
+/// Unpacks gzip data, also if it has several members one after another (RFC
+/// 1952). Throws InputError if the bytes are not gzip, are cut off, or hold
+/// more than `most` bytes.
 std::string Gunzip(std::string_view compressed, std::size_t most);
 
 /// Returns the largest content accepted for this many packed bytes of a table:
 /// a hundred times as many plus 64 MiB. Measurements pack to about a tenth; a
-/// file that holds more was made to fill the memory.
+/// larger content is an attempt to exhaust memory.
 std::size_t MostUnpacked(std::size_t packed);
 
 }  // namespace errmap::data

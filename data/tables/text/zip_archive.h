@@ -10,7 +10,7 @@ namespace errmap::data {
 /// True if the bytes begin like a zip archive.
 bool IsZip(std::string_view bytes);
 
-/// The files of a zip archive in memory, read by minizip.
+/// Reads the files of a zip archive in memory, by minizip.
 class ZipArchive {
  public:
   /// `bytes` must outlive it. Throws InputError if they are not an archive or

@@ -13,8 +13,7 @@
 
 namespace errmap::models {
 
-/// Status bits of a step, reported with its error; the exported maps return
-/// the same bits.
+/// Status bits of a step. The exported maps return the same bits.
 enum MapStatus : int {
   kMapOutside = 1,       // a reading left its trained range
   kMapFar = 2,           // a sensor reads what this machine cannot reach
@@ -41,13 +40,13 @@ enum MapStatus : int {
 /// the last good readings are used with the current position.
 inline constexpr int kMapNotTaken = kMapFar | kMapInvalid | kMapDead |
                                     kMapFrozen | kMapContradicts | kMapJumped;
-/// Each of these sets kMapUnhealthy. So does kMapRelation together with one of
-/// kMapBesideRelation: a wrong sensor is then more likely than a new state.
+/// Each of these sets kMapUnhealthy. So does kMapRelation together with a bit
+/// of kMapBesideRelation: a faulty sensor is then more likely than a new state.
 inline constexpr int kMapAlarms =
     kMapNotTaken | kMapFaded | kMapSettling | kMapGap | kMapParameter;
 inline constexpr int kMapBesideRelation = kMapOutside | kMapClipped;
 
-/// A status bit with its name and explanation for exported code.
+/// A status bit with the name and explanation used in exported code.
 struct StatusBit {
   int bit;
   const char* name;  // "OUTSIDE"
@@ -82,8 +81,8 @@ inline constexpr Cell kOfSession[] = {
 constexpr bool IsOfSession(Cell cell) {
   return std::ranges::find(kOfSession, cell) != std::end(kOfSession);
 }
-/// Up to this many sensors are written out one by one; for so few a loop takes
-/// longer.
+/// Up to this number, the code for sensors is written out, which is faster than
+/// a loop.
 inline constexpr int kFewSensors = 4;
 /// A limit set at run time may be up to this multiple of the map's own limit.
 inline constexpr double kMostTimesOwn = 10.0;
@@ -102,15 +101,15 @@ Routine ReadRoutine(const MapProgram& program);
 Routine MoveRoutine(const ControllerLimits& limits);
 
 /// Largest effect of a failed sensor on the output error, once every filter has
-/// settled; target's unit. Before it, positions and sensors are at the ends or
-/// in the middle of their trained range: what MeasureSensitivity
-/// (models/sensors/sensitivity.h) finds over the rows of training.
+/// settled; target's unit. The search starts from positions and sensors at the
+/// ends and in the middle of their trained range. MeasureSensitivity
+/// (models/sensors/sensitivity.h) uses the training rows instead.
 struct FailingSensor {
   std::string name;
   double zero = 0.0;     // it reads 0, without any checks
   double without = 0.0;  // it reads anything, without any checks
-  /// It reads anything, with checks and limits. It includes the loss of the
-  /// compensation if the reading is not trusted.
+  /// The sensor may read any value, with checks and limits in effect. Includes
+  /// the loss of the compensation if the reading is not trusted.
   double with = 0.0;
 };
 

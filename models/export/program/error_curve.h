@@ -15,8 +15,9 @@ namespace errmap::models {
 /// A reading held at a value, in the unit of the map's input.
 using HeldReading = std::pair<std::string, double>;
 
-/// A map's error as a function of position (and of one other input), all else
-/// held. The thermal state is given, steady, or that after a session.
+/// A map's error as a function of position (and of one other input), with all
+/// other readings fixed. The thermal state is steady at given values, or that
+/// after a session.
 class ErrorCurve {
  public:
   /// A steady state at the trained means and the values `held`; the zero is
@@ -35,7 +36,7 @@ class ErrorCurve {
   /// settled. The zero is unchanged.
   double operator()(double position, int input, double value) const;
 
-  /// True if this error of the map is the largest that it may give.
+  /// True if this error equals the map's limit.
   bool IsAtLimit(double error) const;
 
   const MapProgram& program() const { return *program_; }
@@ -79,8 +80,8 @@ struct Knots {
 };
 
 /// Chooses from 2 to `most` positions in `low` .. `high`, shared by the curves,
-/// so that the largest interpolation error is nearly minimal. Uses no more of
-/// them than make it `enough`.
+/// so that the largest interpolation error is nearly minimal. Uses only as many
+/// as reduce the error to `enough`.
 Knots ChooseKnots(const std::vector<Curve>& curves,
                   double low,
                   double high,

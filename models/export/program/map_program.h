@@ -12,8 +12,8 @@
 
 namespace errmap::models {
 
-/// Larger than any reading or error. It is finite in single precision too, in
-/// which some compilers of structured text fold their constants.
+/// Larger than any reading or error. It is finite in single precision, too,
+/// since some compilers of structured text use that for constants.
 inline constexpr double kHuge = 1e30;
 
 /// The operations of an instruction; `a`, `b`, `to` are operands, `c`, `d`
@@ -63,26 +63,26 @@ struct ProgramReading {
   /// A position comes from the control, not from a sensor that can fail. Beyond
   /// its trained range the end of the range is used, as in tables.
   bool is_position = false;
-  /// Beyond these limits, a failed sensor is more likely than a state of the
-  /// machine; a position is refused.
+  /// Beyond these limits, a sensor has probably failed; a position is refused.
   double far_low = 0.0;
   double far_high = 0.0;
   /// The readings of a disconnected sensor, unless they are beyond far_low,
   /// far_high.
   std::vector<double> dead = {};
-  /// Its weight in the common movement (per its unit). 0: it is not watched for
+  /// Its weight in the common movement (per its unit). 0: it is not checked for
   /// standing still.
   double weight = 0.0;
-  /// How far (in shares of their ranges) the others may move while it stands
+  /// Allowed movement of the others (in shares of their ranges) while it stands
   /// still.
   double others_move = 0.0;
   /// The same if its noise was absent for longer than `quiet` (s).
   double finest = 0.0;
   double quiet = 0.0;
-  /// Largest sudden change (its unit), and how much more in each second.
+  /// Largest sudden change (its unit), and the further change allowed per
+  /// second.
   double jump = kHuge;
   double fastest = 0.0;
-  /// The kDoubt above which it contradicts the others.
+  /// It contradicts the others if its kDoubt is above this.
   double believed = 0.0;
   /// For a position: the largest change of the error along it (target's unit
   /// per its unit).
@@ -115,8 +115,8 @@ struct ControllerLimits {
   /// Longest time (s) that all sensors may hold their values; 0: no
   /// limit.
   double silence = 0.0;
-  /// For two maps: how far the position reverses before the other one acts, and
-  /// how far the error may change then.
+  /// For two maps: the reversal of the position at which the other one takes
+  /// over, and the largest change of the error then.
   double band = 0.0;      // position's unit
   double reversal = 0.0;  // target's unit
 };
@@ -150,8 +150,8 @@ struct MapForm {
 };
 
 /// A map as the arithmetic of a controller: every exported language prints it,
-/// and `errmap cost` counts it. The code is straight-line, so that a language
-/// has no choice in what is computed.
+/// and `errmap cost` counts it. The code is straight-line, so every language
+/// computes the same.
 struct MapProgram {
   std::string model;  // the SPEC
   /// Identifies an export, in all its files; 0: none.
@@ -175,10 +175,10 @@ struct MapProgram {
   /// One map, or those of increasing and decreasing positions, in this order.
   std::vector<MapForm> forms = std::vector<MapForm>(1);
   ControllerLimits limits;
-  /// Runs when readings arrive: decides whether to trust them, and so sets the
-  /// wanted error.
+  /// Runs when readings arrive: decides whether to trust them, and sets the
+  /// target of the output error.
   Routine read;
-  /// Runs in every period: moves the output error towards the wanted one.
+  /// Runs in every period: moves the output error towards its target.
   Routine move;
   std::array<int, kNumSpaces> sizes = {};  // number of values in each space
 

@@ -30,8 +30,8 @@ enum class Space {
 inline constexpr std::size_t kNumSpaces = 13;
 
 /// Time, gains, states and values derived from them stay double even in a
-/// single-precision program: in single precision a slow filter stops moving.
-/// The checks stay double too, since they must not depend on the precision.
+/// single-precision program, where a slow filter would stop moving. The checks
+/// stay double, too, since they must not depend on the precision.
 constexpr bool IsAlwaysDouble(Space space) {
   return space == Space::kTime || space == Space::kState ||
          space == Space::kGain || space == Space::kDerived ||
@@ -168,8 +168,7 @@ bool Uses(const Routine& routine, Cell cell);
 
 // ---- To write routines with ----
 
-/// These operators are not found for enumerations unless one side is an
-/// Expression.
+/// These operators apply only if at least one side is an Expression.
 inline Expression Read(Cell cell) { return {cell}; }
 inline Expression Any(int mask) {
   Expression any(Expression::Kind::kAny, {});

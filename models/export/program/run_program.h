@@ -19,8 +19,8 @@ class ProgramRun {
   /// `program` must outlive the run.
   ProgramRun(const MapProgram& program, Precision precision, int form = 0);
 
-  /// Starts a session. Returns kMapInvalid, and starts nothing, if a reading is
-  /// not finite.
+  /// Starts a session. If a reading is not finite, returns kMapInvalid and does
+  /// not start.
   int Begin(const VectorXd& readings);
   /// Advances by `dt` seconds (at least 0; ignored if the map has no memory).
   /// Leaves `error` unchanged if the returned status is kMapInvalid; the other
@@ -47,8 +47,8 @@ class ProgramRun {
   bool clipped_ = false;
 };
 
-/// Runs the routines of a program. An export is so checked, and its expected
-/// results computed, before anything is written.
+/// Runs the routines of a program. This checks an export, and computes its
+/// expected results, before a file is written.
 class ControllerRun {
  public:
   /// `program` must outlive the run.
@@ -88,12 +88,12 @@ class ControllerRun {
   int status_ = 0;
 };
 
-/// Returns a number that identifies the program of a map; a saved state belongs
-/// to one of them. It is small enough to be exact in single precision.
+/// Returns a number that identifies the program of a map, also in saved states.
+/// It is small enough to be exact in single precision.
 double Fingerprint(const MapProgram& program);
 
-/// The same for an export: all that its files contain, its `name`, the version
-/// that wrote it and their `precision`.
+/// The same for an export: depends on the content of its files, its `name`, the
+/// version of errmap and the `precision`.
 double ExportId(const MapProgram& program,
                 std::string_view name,
                 Precision precision);

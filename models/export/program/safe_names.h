@@ -7,8 +7,8 @@
 
 namespace errmap::models {
 
-/// Replaces other characters so that only letters, digits and single
-/// underscores remain, with a letter first and no `_` last. The result is an
+/// Replaces all characters but letters, digits and single underscores. The
+/// result starts with a letter and does not end with `_`. The result is an
 /// identifier in C, Python and IEC 61131-3 (which allows neither `__` nor a
 /// trailing `_`). It is never empty and has at most `longest` characters (at
 /// least 8).
@@ -19,9 +19,9 @@ std::string SafeIdentifier(std::string_view text, std::size_t longest);
 std::vector<std::string> SafeIdentifiers(const std::vector<std::string>& texts,
                                          std::size_t longest);
 
-/// Makes text that neither begins nor ends a comment in C, Python or IEC
-/// 61131-3. It is printable ASCII without * \ ? and double quotes, cut at 80
-/// characters.
+/// Returns the text in a form that neither begins nor ends a comment in C,
+/// Python or IEC 61131-3: printable ASCII without * \ ? and double quotes, cut
+/// at 80 characters.
 std::string CommentText(std::string_view text);
 
 /// Returns the number with a decimal point, in the fewest digits that read back

@@ -22,16 +22,16 @@ struct SelfTestRow {
 std::vector<SelfTestRow> SelfTestRows(const FittedModel& fitted,
                                       const MapProgram& program);
 
-/// A session whose readings fit together as in training, then fail in several
+/// A session whose readings first agree as in training, then fail in several
 /// ways and recover, with the controller's expected result for each row.
 /// Exported files test themselves with it. `program` has its controller;
-/// `first`, its first map, tells how sensors relate.
+/// `first`, its first map, has the relations between sensors.
 std::vector<SelfTestRow> ControllerSession(const FittedModel& first,
                                            const MapProgram& program,
                                            Precision precision);
 
 /// Returns the range, max - min, of a map's errors: in training if its guards
-/// know it, else over the rows within the trained range. For a constant map, it
+/// have it, else over the rows within the trained range. For a constant map, it
 /// is the size of the constant. At least the smallest normal number.
 double ErrorRange(const FittedModel& fitted,
                   const std::vector<SelfTestRow>& rows);

@@ -13,8 +13,8 @@ namespace errmap::models {
 /// running program. Another build may compute other bits.
 const std::string& ProgramIdentity();
 
-/// Keys of the fits of one component's study: the SHA-256 of everything that an
-/// outcome depends on. Fits with the same key have the same outcome in any
+/// Keys of the fits of one component's study: the SHA-256 of everything that
+/// affects an outcome. Fits with the same key have the same outcome in any
 /// study. `holdouts` must outlive them. Each row is hashed once.
 class FitLabels {
  public:

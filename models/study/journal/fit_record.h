@@ -7,8 +7,8 @@
 
 namespace errmap::models {
 
-/// Returns the bytes of an outcome's members, as this build stores them, after
-/// the SHA-256 of them and `key`.
+/// Returns the bytes of an outcome's members in this build's layout, preceded
+/// by the SHA-256 of these bytes and `key`.
 std::string FitToBytes(std::string_view key, const FitOutcome& outcome);
 
 /// Reads the bytes of FitToBytes; the model predicts the same bits. Throws

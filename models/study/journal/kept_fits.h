@@ -39,10 +39,10 @@ class KeptFits {
   /// kept, and Remarks says so.
   KeptFits(const std::string& folder, Opening opening);
 
-  /// Opens the fits of all studies of a user, shared with other processes. The
-  /// least recently used are removed beyond `most_bytes`; one process adds at
-  /// most a quarter of that. Null if `folder` is "" or cannot be written: fits
-  /// are then repeated, without a message.
+  /// Opens the fits of all studies of a user, shared with other processes.
+  /// Beyond `most_bytes`, the least recently used are removed; one process adds
+  /// at most a quarter of that. Null if `folder` is "" or cannot be written:
+  /// fits are then repeated, without a message.
   static std::unique_ptr<KeptFits> OpenCache(
       const std::string& folder,
       std::int64_t most_bytes = std::int64_t{512} << 20U);
@@ -57,11 +57,11 @@ class KeptFits {
   /// Adds a fit. If it cannot be written (disk full), it is skipped and
   /// counted: a later run repeats it, and the results are unaffected.
   void Record(const std::string& key, const FitOutcome& outcome);
-  /// Counts an outcome that has the right key but belongs to another fit, for
-  /// the remarks; the fit is repeated.
+  /// Call if an outcome has the right key but belongs to another fit: counts it
+  /// for the remarks. The fit is repeated.
   void CountUnfit() { ++unfit_; }
 
-  /// Returns one line for each thing that could not be kept or used.
+  /// Returns one line for each kind of failure to keep or use fits.
   std::vector<std::string> Remarks() const;
 
  private:
@@ -105,8 +105,8 @@ class ComponentJournal final : public FitJournal {
     std::erase(files_, nullptr);
   }
 
-  /// The map found must give the stored predictions, bit for bit, on the rows
-  /// that judge it: checksums stop damage but not forgery.
+  /// The map found must reproduce the stored predictions on its test rows, bit
+  /// for bit: checksums detect damage but not forgery.
   std::optional<FitOutcome> Find(const StudyTask& task) override;
   void Record(const StudyTask& task, const FitOutcome& outcome) override {
     for (KeptFits* file : files_) file->Record(labels_.KeyOf(task), outcome);
@@ -121,7 +121,7 @@ class ComponentJournal final : public FitJournal {
   const std::vector<Holdout>& holdouts_;
 };
 
-/// Says how many fits of a study are already done, and how many remain.
+/// Returns how many fits of a study are already done, and how many remain.
 std::string DescribeResume(KeptFits* fits, const FitLabels& labels);
 
 }  // namespace errmap::models

@@ -14,12 +14,12 @@ struct BlendOrSimpler {
   const HoldoutComparison* vetoed_by = nullptr;  // null: no veto
 };
 
-/// An average of maps with different input views is safer than one choice
-/// among near-equals. It is used unless separate days establish that a
-/// single map is better. It is not used if a baseline beats it, in later
-/// sessions too if these were predicted. Folds lack sessions, so a map of
-/// many columns looks worse there than it is: a veto needs more than twice
-/// the error.
+/// An average of maps with different input views is safer than one choice among
+/// near-equals. It is used unless separate days establish that a single map is
+/// better, or a baseline beats it (in later sessions, too, if these were
+/// predicted). Folds lack sessions, so a map of many columns looks worse there
+/// than it is. So a simple map can veto it only if it errs less than half as
+/// much.
 ///
 /// `decides` chooses among the models that `is_map` accepts. `strictest` and
 /// `forward` (which may be null) can veto.

@@ -9,7 +9,8 @@
 
 namespace errmap::models {
 
-/// What a hold-out favours. kGiven: predictions without a map.
+/// The class of model that a hold-out favours. kGiven: predictions without a
+/// map.
 enum class Choice {
   kPolynomial,
   kNeural,
@@ -29,7 +30,7 @@ Choice ChoiceOf(const ModelResult& model);
 /// True for an accepted model: index into StudyResult::models.
 using Wanted = std::function<bool(std::size_t)>;
 
-/// Returns the RMSE of a judged model; target's unit.
+/// Returns the RMSE of a model with results; target's unit.
 double RmseOf(const HoldoutComparison& comparison, std::size_t model);
 
 /// Returns the model of lowest RMSE among those that `wanted` accepts, if any.
@@ -41,12 +42,13 @@ std::optional<std::size_t> BestOf(const HoldoutComparison& comparison,
                                   const StudyResult& study,
                                   Choice choice);
 
-/// The difference that does not matter, from the lowest error; target's unit.
+/// Returns the difference from the lowest error that does not matter; target's
+/// unit.
 double MarginOf(const HoldoutComparison& comparison, double indifference);
 
-/// Tells whether no model is better than `baseline` by more than the margin.
-/// Even a baseline of lowest error may owe that to chance, so the bound is
-/// checked too. Without another model nothing can be established.
+/// Returns true if no model is better than `baseline` by more than the margin.
+/// Even the lowest error may be due to chance, so the bound is checked, too.
+/// Returns false without another model.
 Confidence ThatNothingIsBetter(const HoldoutComparison& comparison,
                                const StudyResult& study,
                                std::size_t baseline,

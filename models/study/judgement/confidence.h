@@ -8,8 +8,8 @@
 namespace errmap::models {
 
 /// Result of the significance checks on two models: established, or the first
-/// check that failed. This is the only place that decides it: tables, sentences
-/// and JSON show the result found here.
+/// check that failed. Decided only here: tables, sentences and JSON show this
+/// result.
 enum class Confidence {
   kEstablished,
   kOutOfReach,         // see Obstacle
@@ -26,12 +26,12 @@ std::string_view ToString(Confidence confidence);
 /// Fewer units establish nothing: with 5, the two most extreme of the 2^5 sign
 /// patterns already have p = 0.0625.
 inline constexpr Index kFewestUnits = 6;
-/// The same for units that are not known to be separate sessions: fewer do not
-/// show whether neighbours resemble each other.
+/// The same for units that may not be separate sessions: fewer do not show
+/// whether neighbours resemble each other.
 inline constexpr Index kFewestUnitsOfOneSession = 12;
 
-/// Why not even the clearest difference could be established among the pairs
-/// that Holm's adjustment counts.
+/// Reason why not even the clearest difference could be established among the
+/// pairs in Holm's adjustment.
 struct Obstacle {
   enum class Kind {
     kNone,
@@ -52,23 +52,25 @@ struct Obstacle {
 /// "too few sign patterns".
 std::string_view ToString(Obstacle::Kind kind);
 
-/// `separate_sessions`: each unit is known to be a session of its own (a day, a
+/// `separate_sessions`: each unit is known to be a separate session (a day, a
 /// shift), so that neighbours resemble each other only by chance.
 Obstacle FindObstacle(const stats::Comparison& tests, bool separate_sessions);
 
-/// Tells whether the models of `pair`, one of tests.pairs, differ. In its turn
-/// (stats::ComparisonOptions::first) p is at most 5 %, also for the t with the
-/// memory that cannot be excluded (memory_bounds.h). The interval of the RMSE
-/// difference excludes 0, or its bound does, if one direction was tested.
-/// Neighbours show no resemblance, and units suffice. If they may be of one
-/// session, the corrected resampled t on runs of neighbouring units must agree.
+/// Checks whether the models of `pair`, one of tests.pairs, differ. Established
+/// requires all of these. p is at most 5 % when its turn comes
+/// (stats::ComparisonOptions::first), also for the t test with the memory that
+/// cannot be excluded (memory_bounds.h). The interval of the RMSE difference,
+/// or its one-sided bound, excludes 0. Neighbours do not resemble each other,
+/// and there are enough units. If they may be of one session, the corrected
+/// resampled t on runs of neighbouring units must agree.
 Confidence ThatTheyDiffer(const stats::Comparison& tests,
                           const stats::PairComparison& pair,
                           bool separate_sessions);
 
-/// Tells whether the RMSE of `model` exceeds that of `than` by at most
+/// Checks whether the RMSE of `model` exceeds that of `than` by at most
 /// `margin`. Both one-sided 95 % upper bounds, resampled and with memory, must
-/// be within it. Neighbours must show no resemblance, and units must suffice.
+/// be within it. Neighbours must not resemble each other, and there must be
+/// enough units.
 Confidence ThatItLosesAtMost(double margin,
                              const stats::Comparison& tests,
                              Index model,

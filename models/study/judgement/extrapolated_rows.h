@@ -11,8 +11,8 @@ namespace errmap::models {
 using RowFlags = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
 /// The range of an input in a fold's training rows, and its values in the
-/// held-out ones. Noise at a bound, up to kRangeTolerance of the range, is
-/// within.
+/// held-out ones. Values beyond a bound by up to kRangeTolerance of the range
+/// count as inside, since readings are noisy.
 struct FoldValues {
   double low;
   double high;
@@ -29,8 +29,8 @@ FoldValues ValuesOfFold(const data::Dataset& dataset,
                         const stats::Fold& fold,
                         Index input);
 
-/// Tells for each fold's held-out rows, in their order, if an input of the map
-/// lies outside the fold's training range: the fold extrapolates there.
+/// Returns for each fold's held-out rows, in their order, whether an input of
+/// the map lies outside the fold's training range: the fold extrapolates there.
 std::vector<RowFlags> ExtrapolatedRows(const data::Dataset& dataset,
                                        const Holdout& holdout,
                                        const FittedModel& map);

@@ -30,15 +30,15 @@ struct GoalJudgement {
   double offset = stats::kNaN;  // mean of target - predicted
 };
 
-/// Fewest held-out rows to judge a goal: on fewer, a poor map may meet it by
+/// Fewest held-out rows to judge a goal: with fewer, a poor map may meet it by
 /// chance.
 inline constexpr Index kFewestRowsForGoal = 24;
 
 /// Compares `test`, a model's held-out errors, with `goal` (target's unit; NaN:
 /// none). `complete`: every fold was fitted and the study ran to its end. An
-/// interrupted study is not judged, since its folds may be the easy ones;
-/// neither are fewer than kFewestRowsForGoal rows. `rezeroed`: the errors are
-/// those after re-zeroing.
+/// interrupted study is not judged, since its folds may be the easy ones. Nor
+/// are fewer than kFewestRowsForGoal rows. `rezeroed`: the errors are those
+/// after re-zeroing.
 GoalJudgement JudgeGoal(double goal,
                         const stats::ErrorMetrics& test,
                         bool complete,

@@ -20,7 +20,7 @@ struct WinShare {
   double share = stats::kNaN;
 };
 
-/// All judged models of one hold-out, compared with each other.
+/// All models with results in one hold-out, compared with each other.
 struct HoldoutComparison {
   std::string holdout;
   UnitsOfAnalysis units;
@@ -31,15 +31,15 @@ struct HoldoutComparison {
   std::vector<Confidence> differ;   // (pairs) as tests.pairs: if they differ
   std::vector<WinShare> wins;       // falling; empty without repeats
 
-  /// Index of a study's model in `models`, or nothing if it failed.
+  /// Returns the index of a study's model in `models`, or nothing if it failed.
   std::optional<Index> PlaceOf(std::size_t model) const;
-  /// 1-based tier of a study's model, 0 if it failed.
+  /// Returns the 1-based tier of a study's model, 0 if it failed.
   int TierOf(std::size_t model) const;
-  /// Tells whether one model of the study has a lower error than another. Both
-  /// must have been judged.
+  /// Checks whether one model of the study has a lower error than another. Both
+  /// must have results.
   Confidence ThatItIsBetter(std::size_t model, std::size_t than) const;
-  /// Tells whether the RMSE of one model exceeds that of another by at most
-  /// `margin`. Both must have been judged.
+  /// Checks whether the RMSE of one model exceeds that of another by at most
+  /// `margin`. Both must have results.
   Confidence ThatItLosesAtMost(double margin,
                                std::size_t model,
                                std::size_t than) const;

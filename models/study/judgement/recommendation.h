@@ -26,11 +26,12 @@ struct Recommendation {
   std::size_t best_baseline = 0;  // by RMSE, under that hold-out
   bool has_baseline = false;
   /// Whether the map is better than the best baseline. For a baseline: whether
-  /// it loses at most the margin to the best of all others.
+  /// it is at most the margin worse than the best other model.
   Confidence against_baseline = Confidence::kOutOfReach;
   /// If a blend is recommended: the single map of lowest error.
   std::optional<std::size_t> single;
-  /// For a single map: the blend that it beats, established by separate days.
+  /// For a single map: the blend that it beats, as established by separate
+  /// days.
   std::optional<std::size_t> proven_better_than;
   /// For a simple map: the hold-out in which the blend errs more than twice as
   /// much; "" if there is none.
@@ -51,7 +52,7 @@ enum class Choose {
 
 std::string_view ToString(Choose choose);  // "auto", "best", "blend"
 
-/// What counts besides the lowest error.
+/// Criteria besides the lowest error.
 enum class Prefer {
   kLeastError,
   kSmall,  // the cheapest map that loses at most the margin to the one chosen
@@ -77,18 +78,18 @@ inline constexpr Index kFewestRowsToRecommend = 12;
 ///
 /// Errors come from the first hold-out of at least two whole sessions, else of
 /// whole unseen groups, else of another file, else of blocks, else the first.
-/// The same one chooses the map; fewer than kFewestSessionsToDecide sessions
-/// choose only if there is nothing else. By default a blend is recommended if
-/// there is one, with three exceptions. One is a baseline with lower RMSE (and
-/// lower typical error in later sessions, if forward:K predicted these).
-/// Another is a single map that separate sessions establish to be better. The
-/// third is a simple map (a baseline, a plane) that typically errs less than
-/// half as much, in the first hold-out or in later sessions. Without a blend it
-/// is the simplest map of the first tier: fewest sensors
+/// The same hold-out chooses the map. With fewer than kFewestSessionsToDecide
+/// sessions, it does so only if there is no other. By default a blend is
+/// recommended if there is one, with three exceptions. One is a baseline with
+/// lower RMSE (and lower typical error in later sessions, if forward:K
+/// predicted these). Another is a single map that separate sessions establish
+/// to be better. The third is a simple map (a baseline, a plane) that typically
+/// errs less than half as much, in the first hold-out or in later sessions.
+/// Without a blend it is the simplest map of the first tier: fewest sensors
 /// (data::IsReadBySensor), then fewest parameters, then lowest RMSE. A baseline
-/// in that tier comes first, since nothing better is known. The choice must be
-/// worth its sensors (BetterWithoutSensors), or the best baseline without
-/// sensors is recommended.
+/// in that tier comes first, since nothing is known to be better. The choice
+/// must be worth its sensors (BetterWithoutSensors), or the best baseline
+/// without sensors is recommended.
 std::optional<Recommendation> Recommend(
     const data::Dataset& dataset,
     const std::vector<Holdout>& holdouts,

@@ -33,8 +33,7 @@ struct NamedBias {
   stats::BiasByLevel bias;
 };
 
-/// All statistics of one set of residuals; text and JSON are written from this
-/// alone.
+/// All statistics of one set of residuals, the only source of text and JSON.
 struct ResidualReport {
   std::string order;
   stats::Normality normality;

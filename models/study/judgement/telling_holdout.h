@@ -8,9 +8,9 @@
 
 namespace errmap::models {
 
-/// Returns the hold-out for predicted errors, as an index into `holdouts`. Two
-/// sessions tell more about a third than any number of groups of the same days.
-/// Nothing if all failed.
+/// Returns the hold-out for predicted errors, as an index into `holdouts`. Even
+/// two sessions show more about a third one than any number of groups within
+/// them. Nothing if all failed.
 std::optional<std::size_t> StrictestHoldout(
     const std::vector<Holdout>& holdouts,
     const std::vector<HoldoutComparison>& comparisons);
@@ -22,7 +22,7 @@ std::optional<std::size_t> DecisiveHoldout(
     const std::vector<Holdout>& holdouts,
     const std::vector<HoldoutComparison>& comparisons);
 
-/// Returns null if no later sessions were predicted.
+/// Returns the hold-out that predicts later sessions; null if there is none.
 const HoldoutComparison* ForwardOverSessions(
     const std::vector<Holdout>& holdouts,
     const std::vector<HoldoutComparison>& comparisons);

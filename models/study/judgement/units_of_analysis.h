@@ -12,7 +12,7 @@ namespace errmap::models {
 /// Name of the unit if there are no groups.
 inline constexpr const char* kBlockOfRows = "block of rows";
 
-/// The units that occur as a whole: one observation each in every test.
+/// Units that count as one observation each in every test.
 struct UnitsOfAnalysis {
   std::string name;           // "cycle", "day", ...; "session"; kBlockOfRows
   bool are_sessions = false;  // whole sessions are held out
@@ -31,8 +31,8 @@ HeldOutRows GatherHeldOut(const data::Dataset& dataset, const Holdout& holdout);
 /// Returns target minus prediction (n) of those rows.
 VectorXd ResidualsOf(const HeldOutRows& held, const HoldoutResult& result);
 
-/// Returns the unit of each of those rows (n), an index into `units->labels`;
-/// fills `units`. Groups and sessions that are never held out are not units.
+/// Fills `units` and returns the unit of each of those rows (n), an index into
+/// `units->labels`. Groups and sessions that are never held out are not units.
 std::vector<Index> AssignUnits(const Holdout& holdout,
                                const HeldOutRows& held,
                                UnitsOfAnalysis* units);

@@ -21,9 +21,9 @@ struct Verdict {
   std::optional<std::size_t> rival;
   std::optional<std::size_t> best_baseline;  // by RMSE
   /// kPolynomial, kNeural, kGiven: if the best is better than its rival and
-  /// than the best baseline. kBaseline: if the best baseline loses at most the
-  /// margin to the best of all others. kNoPracticalDifference: if the best
-  /// polynomial and the best net lose at most the margin to each other.
+  /// than the best baseline. kBaseline: if the best baseline is at most the
+  /// margin worse than the best other model. kNoPracticalDifference: if the
+  /// best polynomial and the best net differ by at most the margin.
   Confidence confidence = Confidence::kOutOfReach;
 
   bool established() const { return confidence == Confidence::kEstablished; }
@@ -45,7 +45,7 @@ struct InterpolationGap {
   std::vector<Row> models;  // judged in both
 };
 
-/// Judges one hold-out in which at least one model could be judged.
+/// Judges one hold-out in which at least one model has results.
 Verdict JudgeHoldout(const HoldoutComparison& comparison,
                      const StudyResult& study,
                      double indifference);

@@ -14,20 +14,21 @@
 
 namespace errmap::models {
 
-/// One component's study with everything its outputs need.
+/// One component's study with all data for its outputs.
 struct ComponentStudy {
   std::string name;                    // of the component
   std::vector<InputFileRecord> files;  // of the measurements, in order
   double goal = 0.0;                   // target's unit; NaN: none
   double indifference = 0.0;           // target's unit
-  /// The rule by which maps are re-zeroed when judged; empty: they are not.
+  /// The rule for re-zeroing maps when they are judged; empty: none.
   std::optional<RezeroRule> rezero = {};
   Choose choose = Choose::kAuto;
   Prefer prefer = Prefer::kLeastError;
   data::PreparedDataset data;
   std::vector<Holdout> holdouts;
   StudyResult study;
-  /// Baselines that were added to the models asked for: `num_added` from here.
+  /// Index of the first of `num_added` baselines that were added to the
+  /// requested models.
   std::size_t first_added = 0;
   std::size_t num_added = 0;
   Judgement judgement;

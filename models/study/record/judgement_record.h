@@ -26,7 +26,8 @@ struct MeanTestRecord {
   double p = kNotKnown;
 };
 
-/// Allows for the memory between units that is not excluded (memory_bounds.h).
+/// Allows for memory between units that the data do not exclude
+/// (memory_bounds.h).
 struct MemoryTestRecord {
   double statistic = kNotKnown;
   double df = kNotKnown;

@@ -5,10 +5,9 @@
 
 namespace errmap::models {
 
-/// Makes the record of a component's study, with its held-out residuals
-/// assessed and its judgement copied. Only the sentences are left to the
-/// caller. Assesses `jobs` models at a time; the record is the same for any
-/// `jobs`.
+/// Makes the record of a component's study: assesses its held-out residuals and
+/// copies its judgement. The caller adds the sentences. Assesses `jobs` models
+/// at a time; the record is the same for any `jobs`.
 ComponentRecord MakeComponentRecord(const ComponentStudy& study, int jobs = 1);
 
 std::vector<FaultRecord> MakeFaultRecords(const data::PreparedDataset& data);

@@ -63,8 +63,8 @@ struct PpccRecord {
   LeftOut<std::string> why;
 };
 
-/// p-values are limited to 0.001 and 0.999 if they come from simulated tables.
-/// With a `step` they are shares of normal samples with the same rounding.
+/// p-values from simulated tables are limited to 0.001 and 0.999. With a `step`
+/// they are shares of normal samples with the same rounding.
 struct NormalityRecord {
   KsRecord ks;
   DTestRecord lilliefors;

@@ -31,12 +31,12 @@ struct ComponentConfigurationRecord {
   bool keep_dead = false;
   LeftOut<double> goal;
   LeftOut<double> indifference;
-  /// The options with which another command reads the same measurements.
-  /// Defaults are left out; a flag has an empty value.
+  /// Options with which another command reads the same measurements, without
+  /// defaults; a flag has an empty value.
   LeftOut<ByName<std::string>> options;
 };
 
-/// The configuration used, in the words of a study file.
+/// The configuration used, with the keys of a study file.
 struct ConfigurationRecord {
   std::uint64_t seed = 0;
   LeftOut<double> goal;

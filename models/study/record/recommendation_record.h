@@ -64,8 +64,7 @@ struct SessionWorth {
   double ratio_of_one_more = kNotKnown;
 };
 
-/// The error of a map without some of its sensors, on rows that it was not
-/// fitted to.
+/// The error of a map without some of its sensors, on held-out rows.
 struct SensorImportance {
   struct Without {
     std::vector<std::string> sensors;  // removed
@@ -81,8 +80,8 @@ struct SensorImportance {
   std::vector<Without> together;
 };
 
-/// The range of an input in all data, in its unit, if held-out rows leave that
-/// of their fold; NaN: none do on this side.
+/// Ends of an input's range in all data, in its unit, if held-out rows leave
+/// the range of their fold on this side; else NaN.
 struct BeyondRecord {
   std::string column;
   double below = kNotKnown;
@@ -106,8 +105,8 @@ struct RecommendationRecord {
   GoalStanding goal_standing = GoalStanding::kNotJudged;
   double extrapolated_share = kNotKnown;
   /// Share of the uncompensated error that the map removes: 1 - its RMSE / RMSE
-  /// without a map. For a target that is not an error: of the deviation from
-  /// the mean. Below 0: the map adds error.
+  /// without a map. For a target that is not an error: share of the deviation
+  /// from the mean. Below 0: the map adds error.
   double removed_share = kNotKnown;
   PredictionCost cost;
   std::optional<MemoryRecord> memory;
@@ -125,9 +124,9 @@ struct RecommendationRecord {
   LeftOut<std::string> fails_in;
   /// Predictions without a map that are better.
   LeftOut<std::string> better_without_map;
-  /// Its inputs that hardly ever return to earlier values.
+  /// Inputs that hardly ever return to earlier values.
   LeftOut<std::vector<std::string>> only_grow;
-  /// The inputs that many held-out rows leave, most rows first.
+  /// Inputs whose trained range many held-out rows leave, most rows first.
   LeftOut<std::vector<BeyondRecord>> beyond;
   std::string sentence;
   std::string why;  // the sentence and the reasons

@@ -54,10 +54,10 @@ struct ComponentRecord {
 };
 
 inline constexpr std::string_view kResultsSchema = "errmap-results-2";
-/// The schema in older stores, with less on the recommended map.
+/// The schema of older stores, with less on the recommended map.
 inline constexpr std::string_view kStoredResultsSchema = "errmap-results-1";
 
-/// Why a file may not hold the results of a run.
+/// Reason to doubt that a file holds the unchanged results of a run.
 enum class Doubt {
   kNoHash,   // written by an older program, or the hash was removed
   kChanged,  // its content does not match its hash
@@ -87,14 +87,14 @@ const PairRecord* FindPair(const ComponentRecord& component,
 /// with "seconds" or ending in _ns). It is the same for the same study,
 /// whatever the indentation.
 std::string ToJsonText(const StudyRecord& record);
-/// Returns the record in one line, unchanged: with its doubt, without a new
+/// Returns the record in one line, unchanged: with its `doubt`, without a new
 /// hash.
 std::string ToJsonLine(const StudyRecord& record);
 
 /// Reads the text of ToJsonText: Same(FromJsonText(ToJsonText(r)), r). Missing
 /// keys, as in older, incomplete or failed results, keep the values of a new
-/// record. `doubt` tells if the hash matches. Throws data::InputError if the
-/// text is not JSON, has another schema, or a value of another type.
+/// record. `doubt` shows whether the hash matches. Throws data::InputError if
+/// the text is not JSON, has another schema, or a value of another type.
 StudyRecord FromJsonText(std::string_view text);
 /// Reads the results of a store, also of kStoredResultsSchema.
 StudyRecord FromStoredJsonText(std::string_view text);

@@ -8,14 +8,14 @@
 
 namespace errmap::models {
 
-/// When the offset of a machine is reset.
+/// Occasions on which the offset of a machine is reset.
 enum class RezeroKind {
   kEvery,    // after this time since the last one
   kSession,  // at the start of a session
   kProbe,    // at each group of rows, or each row without groups
 };
 
-/// How maps are re-zeroed when they are judged.
+/// Rule for re-zeroing maps when they are judged.
 struct RezeroRule {
   RezeroKind kind = RezeroKind::kSession;
   /// For kEvery, in the data's time unit (s), above 0; else infinite.

@@ -9,8 +9,8 @@
 
 namespace errmap::models {
 
-/// The held-out rows that are probes, and the probe of each row's offset: the
-/// last one before it in its fold and session.
+/// The held-out rows that serve as probes, and the probe that sets each row's
+/// offset: the last one before it in its fold and session.
 struct ZeroPlan {
   /// (rows) Index of the probe; -1: not scored. Not scored are a session's
   /// first row and, with an interval, every row whose last probe is longer ago.
@@ -20,10 +20,10 @@ struct ZeroPlan {
   std::vector<Index> scored;  // indices of rows, ascending
 };
 
-/// Takes probes from the held-out rows only, in time order. A row at which the
-/// offset is due is judged by the old one, then gives the new one. `seed` draws
-/// the probes' errors (normal, sd rule.noise): the same for every model. Throws
-/// as RequireTimes.
+/// Takes probes only from the held-out rows, in time order. A row that is due
+/// as a probe is scored with the old offset, then gives the new one. `seed`
+/// draws the probes' errors (normal, sd rule.noise): the same for every model.
+/// Throws as RequireTimes.
 ZeroPlan PlanZeros(const HeldOutRows& held,
                    const RezeroRule& rule,
                    std::uint64_t seed);

@@ -66,12 +66,12 @@ struct ComponentNumbers {
   std::string RmseWithUnit(const std::string& model) const {
     return error.WithUnit(Rmse(model, Advice().holdout));
   }
-  /// Why the data give no test between models; "" if they do.
+  /// Returns why the data allow no test between models; "" if they do.
   std::optional<models::Obstacle> ObstacleOfAdvice() const;
-  /// The evidence that the recommended map differs from another one.
+  /// Returns the evidence that the recommended map differs from another one.
   std::string Certainty(const std::string& other) const;
-  /// Number of days or cycles in the data that could be held out whole; at
-  /// least the number that the hold-out does.
+  /// Returns the number of days or cycles in the data that could be held out
+  /// whole, at least the number held out.
   std::int64_t UnitsOfData(const models::HoldoutRecord& holdout) const;
   /// "6 days"; "4 held-out days" if the data have more of them.
   std::string CountOfHeldOut(std::int64_t count,

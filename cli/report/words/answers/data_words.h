@@ -16,8 +16,8 @@ std::string UnitsWords(const data::Dataset& dataset);
 std::string TargetWords(const models::DataRecord& data);
 std::string TargetWords(const data::Dataset& dataset);
 
-/// Says why a results.json may not be what a run wrote; "" if there is no
-/// doubt.
+/// Returns the reason to doubt that a results.json is unchanged since the run;
+/// else "".
 std::string DoubtText(const models::StudyRecord& record);
 
 }  // namespace errmap::report

@@ -34,8 +34,8 @@ struct ShownAnswer {
 };
 
 /// Returns the answer for a terminal of `width` columns, labels in a column.
-/// With the lines `above` it, it has at most 12 lines and 110 words. It has
-/// more only if the required lines (error, given goal, caveats) need more.
+/// With the lines `above` it, it has at most 12 lines and 110 words. It exceeds
+/// that only if the required lines (error, given goal, caveats) need more.
 /// Other lines that do not fit are left out.
 ShownAnswer AnswerLines(const FirstAnswer& answer,
                         std::size_t width,

@@ -12,7 +12,7 @@ namespace errmap::report {
 /// within 2 um", and how long this holds, if known.
 std::string IntervalText(const models::PromiseRecord& promise,
                          const ErrorText& error);
-/// ... and where from: " (groups:5: 35 cycles held out whole)".
+/// Returns the source of the interval: " (groups:5: 35 cycles held out whole)".
 std::string IntervalLine(const models::PromiseRecord& promise,
                          const ErrorText& error);
 /// Returns the 90 % half-widths inside and outside the trained range; "" if

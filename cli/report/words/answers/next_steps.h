@@ -30,8 +30,8 @@ std::vector<NextStep> NextSteps(const models::StudyRecord& record,
                                 const Words& data,
                                 const std::string& folder);
 
-/// Names the inputs of the recommended map, the most needed sensor first if
-/// known, and the command that tells which sensors are enough. `page`: the
+/// Names the inputs of the recommended map, the most important sensor first if
+/// known, and the command that finds which sensors are enough. `page`: the
 /// report to look at, or the one in `folder`.
 std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
                                    std::size_t component,

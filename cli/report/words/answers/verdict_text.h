@@ -19,12 +19,12 @@ extern const char* const kIntervalCoverage;
 /// not.
 void AddSentences(models::ComponentRecord* record);
 
-/// Returns a copy of the record with units as pages print them: "0.5 µm" for a
+/// Returns a copy of the record with the unit symbols of pages: "0.5 µm" for a
 /// terminal's "0.5 um".
 models::StudyRecord WithPageUnits(models::StudyRecord record);
 
-/// Says which measurements would make the answer more certain: "cycles with t1
-/// below 20 or above 27"; "" if none is known.
+/// Returns which measurements would make the answer more certain: "cycles with
+/// t1 below 20 or above 27"; "" if none is known.
 std::string MeasureNext(const models::ComponentRecord& record);
 
 /// Returns, for --details, the verdict of each hold-out and the remarks that

@@ -16,7 +16,7 @@ namespace errmap::report {
 // What is said of a map on rows that it has not seen, and of readings that go
 // wrong; `unit` is its target's.
 
-/// Compares a map's error with what was promised;
+/// Compares a map's error with the promised one;
 std::string FoundText(const models::KeptPromise& kept, const data::Unit& unit);
 
 /// Makes the same comparison on this many rows, and with no map and an offset
@@ -31,13 +31,13 @@ std::string TrialText(const models::UpdateTrial& trial,
                       const data::Unit& unit,
                       bool all_unseen);
 
-/// Says how far probes shift the predictions, and how certain that is; one line
-/// without a line feed.
+/// Returns how far probes shift the predictions, and how certain that is; one
+/// line without a line feed.
 std::string OffsetLine(const models::ProbeCorrection& correction,
                        const data::Unit& unit);
 
-/// Says how noise, a failing thermometer and a new zero change the predictions;
-/// one line without a line feed. "" if no input is a temperature.
+/// Returns how noise, a failing thermometer and a new zero change the
+/// predictions; one line without a line feed. "" if no input is a temperature.
 std::string SensitivityLine(const models::Sensitivity& sensitivity,
                             const ErrorText& error);
 

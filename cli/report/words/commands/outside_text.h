@@ -10,16 +10,16 @@
 
 namespace errmap::report {
 
-/// Says which inputs leave their trained range, in how many rows and by how
-/// much, one line each. `values` (m x p) are in the map's units. Returns
-/// nothing if none does.
+/// Returns one line for each input that leaves its trained range: in how many
+/// rows and by how much. `values` (m x p) are in the map's units. Empty if none
+/// does.
 std::vector<std::string> OutsideLines(
     const std::vector<models::TrainedInput>& inputs,
     const Eigen::MatrixXd& values);
 
-/// Says how many rows are unlike training although each input may lie within
-/// its range, and names the worst. `rows` (m) are the numbers of the data rows
-/// in the file.
+/// Returns how many rows are unlike training, even if each input is within its
+/// range, and names the worst. `rows` (m) are the numbers of the data rows in
+/// the file.
 std::vector<std::string> UnlikeLines(const std::vector<models::RowFlag>& flags,
                                      const std::vector<Eigen::Index>& rows);
 

@@ -15,8 +15,8 @@ std::string SampleText(const stats::ErrorMetrics& metrics,
                        const stats::ShapeMoments& shape,
                        const data::Unit& unit);
 
-/// The tests of shape as a table. Each line says what its p assumes. `unit` is
-/// the unit of the values.
+/// The tests of shape as a table. Each line states the assumptions of its p.
+/// `unit` is the unit of the values.
 std::string NormalityText(const models::ResidualReport& report,
                           Eigen::Index n,
                           const data::Unit& unit);

@@ -7,14 +7,14 @@
 
 namespace errmap::report {
 
-/// Says what the errors of a map (with held_out) on unseen sessions mean for
-/// the time between probes: a table, and the advice below it. `goal`: target's
-/// unit; NaN: no advice.
+/// Returns a table of a map's errors (with held_out) on unseen sessions by the
+/// time between probes, and advice below it. `goal`: target's unit; NaN: no
+/// advice.
 std::string WhenText(const models::ZeroSchedule& schedule,
                      const models::FittedModel& fitted,
                      double goal);
 
-/// The advice alone.
+/// Returns only the advice.
 std::string ZeroAdvice(const models::ZeroSchedule& schedule,
                        const models::FittedModel& fitted,
                        double goal);

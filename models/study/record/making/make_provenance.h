@@ -14,8 +14,8 @@ namespace errmap::models {
 ProvenanceRecord MakeProvenance(std::string command_line,
                                 std::vector<InputFileRecord> inputs);
 
-/// Adds one of the program's own libraries to them; call it before anything
-/// else.
+/// Adds one of the program's own libraries to these; call it before any other
+/// function.
 void NameLibrary(const std::string& name, const std::string& version);
 
 }  // namespace errmap::models

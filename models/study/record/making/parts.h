@@ -55,8 +55,8 @@ RandomnessRecord MakeRecord(const ResidualReport& report);
 // ---- held_out_residuals.cc ----
 
 /// Returns the prediction of each of the `num_rows` rows of the data set, or of
-/// the hold-out's test data: the first of a row that is held out more than once
-/// (groups:K:repeats=R), NaN of one that never is.
+/// the hold-out's test data. If a row is held out more than once
+/// (groups:K:repeats=R), the first counts; if never, it is NaN.
 VectorXd HeldOutPredictions(const Holdout& holdout,
                             const HoldoutResult& result,
                             Index num_rows);
@@ -70,7 +70,7 @@ ResidualInputs HeldOutResiduals(const ComponentStudy& comparison,
 
 // ---- make_figure_record.cc ----
 
-/// Makes the rows behind the figures. Each table has the target, the inputs of
+/// Makes the rows used in the figures. Each table has the target, the inputs of
 /// a fitted map (at most 45, the position first) and every model's held-out
 /// predictions. Tables of more than 5000 rows are thinned evenly. A row held
 /// out more than once has its first prediction. Models that failed under a
