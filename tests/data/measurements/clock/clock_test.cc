@@ -424,6 +424,25 @@ TEST(Clock, KnowsTicksFromTheYearOneHoursInCompoundsAndPackedHours) {
 }
 
 TEST(Clock, AddsTwelveHoursBehindNoonWhereTheHoursHaveHalves) {
+TEST(Clock, KnowsHoursAndMinutesWithoutAMarkBetween) {
+  // 803, 804, ... 859, 900
+  for (const std::string name : {"hhmm", "time", "Uhrzeit"}) {
+    const Reading reading = MadeOf(Days(name, [](int i, double) {
+                              return CsvNumber(803 + i + 40 * ((i + 3) / 60));
+                            })).reading;
+    EXPECT_EQ(reading.time.unit, "date") << name;
+    EXPECT_EQ(reading.time.step_s, 60.0) << name;
+    EXPECT_TRUE(reading.time.sure) << name;
+  }
+  // Seconds have what no clock shows, or too few of its minutes.
+  for (const int step : {1, 5, 50}) {
+    const Reading reading = MadeOf(Days("time", [=](int i, double) {
+                              return CsvNumber(800 + step * i);
+                            })).reading;
+    EXPECT_EQ(reading.time.unit, "s") << step;
+  }
+}
+
   const PreparedDataset prepared = MadeOf(Days("time", [](int i, double) {
     const int minutes = 10 * 60 + 30 + 2 * i;
     const int hour = (minutes / 60 - 1) % 12 + 1;
