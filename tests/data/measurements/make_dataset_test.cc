@@ -97,6 +97,22 @@ TEST(MakeDataset, RemarksOnErrorsThatNoMachineHas) {
   EXPECT_THAT(remarks("error_arcsec", 1e5), IsEmpty());
 }
 
+TEST(MakeDataset, RemarksOnThermometersWithoutAUnitThatReadAsInDegF) {
+  const auto remarks = [](const std::string& name, double first) {
+    return Make(name + ",error_um\n" + std::to_string(first) + ",1\n" +
+                std::to_string(first + 15.0) + ",2\n")
+        .remarks;
+  };
+  EXPECT_THAT(remarks("T1", 68.0),
+              ElementsAre("'T1' read as in degF, but name no unit; if they "
+                          "are, write it: 'T1 [degF]'"));
+  EXPECT_THAT(remarks("Spindle temp", 70.0), ElementsAre(HasSubstr("in degF")));
+  EXPECT_THAT(remarks("T1", 20.0), IsEmpty());
+  EXPECT_THAT(remarks("T1", 140.0), IsEmpty());
+  EXPECT_THAT(remarks("T1 [degC]", 68.0), IsEmpty());
+  EXPECT_THAT(remarks("load", 68.0), IsEmpty());
+}
+
 TEST(MakeDataset, LeavesOutProbesThatAreCalledAsAxesAre) {
   // By `scale` larger than the error.
   const auto inputs = [](double scale) {
