@@ -331,7 +331,8 @@ TEST(Clock, ThatBeginsAnewInEachPassIsPassedOver) {
 TEST(Clock, IsNoThermometer) {
   for (const char* name : {"temp data", "tempo", "heating time temp", "cas"}) {
     const PreparedDataset prepared =
-        MadeOf(Days(name, [](int, double warm) { return CsvNumber(warm); }));
+        MadeOf(Days(name, [](int, double warm) { return CsvNumber(warm); }),
+               {.session = "none"});  // else by temperatures, of some
     EXPECT_EQ(prepared.reading.time.column, std::nullopt) << name;
     EXPECT_THAT(prepared.reading.sensors, ElementsAre(name));
     EXPECT_EQ(prepared.reading.sessions.count, 1);
@@ -423,7 +424,6 @@ TEST(Clock, KnowsTicksFromTheYearOneHoursInCompoundsAndPackedHours) {
   EXPECT_EQ(packed.time.step_s, 60.0);
 }
 
-TEST(Clock, AddsTwelveHoursBehindNoonWhereTheHoursHaveHalves) {
 TEST(Clock, KnowsHoursAndMinutesWithoutAMarkBetween) {
   // 803, 804, ... 859, 900
   for (const std::string name : {"hhmm", "time", "Uhrzeit"}) {
@@ -443,6 +443,7 @@ TEST(Clock, KnowsHoursAndMinutesWithoutAMarkBetween) {
   }
 }
 
+TEST(Clock, AddsTwelveHoursBehindNoonWhereTheHoursHaveHalves) {
   const PreparedDataset prepared = MadeOf(Days("time", [](int i, double) {
     const int minutes = 10 * 60 + 30 + 2 * i;
     const int hour = (minutes / 60 - 1) % 12 + 1;
