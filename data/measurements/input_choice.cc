@@ -1,6 +1,7 @@
 #include "data/measurements/input_choice.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <unordered_set>
@@ -8,6 +9,7 @@
 
 #include "data/argument_name.h"
 #include "data/column_header.h"
+#include "data/column_values.h"
 #include "data/column_words.h"
 #include "data/measurements/clock/text_times.h"
 #include "data/measurements/clock/time_units.h"
@@ -47,15 +49,29 @@ bool DifferInAxis(std::string_view a, std::string_view b) {
   return differing == 1;
 }
 
+// Of those that are no NaN.
+double RangeOf(const ColumnValues& values) {
+  double least = INFINITY;
+  double most = -INFINITY;
+  for (const double value : values) {
+    least = std::fmin(least, value);
+    most = std::fmax(most, value);
+  }
+  return most - least;
+}
+
 // Errors measured beside a target: not at hand when its map is used, and
 // telling it all too well.
 class MeasuredBeside {
  public:
-  explicit MeasuredBeside(std::string_view target)
-      : stem_(StemOfColumn(target)), header_(ReadHeader(target)) {}
+  explicit MeasuredBeside(const CsvColumn& target)
+      : stem_(StemOfColumn(target.name)),
+        header_(ReadHeader(target.name)),
+        range_(RangeOf(target.values)) {}
 
   // Why a column is no default input; "" where it may be one.
-  std::string_view Why(std::string_view name) const {
+  std::string_view Why(const CsvColumn& column) const {
+    const std::string& name = column.name;
     // "column_3" says nothing: the table has no line of names.
     if (NamesPosition(name) || stem_ == "column") return "";
     const std::string stem = StemOfColumn(name);
@@ -69,14 +85,27 @@ class MeasuredBeside {
                        header.unit_text.empty() == header_.unit_text.empty() &&
                        DifferInAxis(stem, stem_);
     return alike || is_called || BeginsAsError(name) ||
-                   IsInUnitOfErrors(name) || header.unit.symbol == "um/m"
+                   IsInUnitOfErrors(name) || header.unit.symbol == "um/m" ||
+                   (IsAxisLetter(name) && MovesAsLittle(column))
                ? "measures an error, as the target does"
                : "";
   }
 
  private:
+  // A probe's "X_um" moves as little as the error does, a stage's far more.
+  bool MovesAsLittle(const CsvColumn& column) const {
+    constexpr double kFarther = 10.0;
+    constexpr std::size_t kFewestRows = 12;
+    const Unit unit = UnitOfColumn(column.name);
+    return column.values.size() >= kFewestRows && IsUnitOfErrors(unit) &&
+           AreConvertible(unit, header_.unit) &&
+           Converted(RangeOf(column.values), unit, header_.unit) <
+               kFarther * range_;
+  }
+
   std::string stem_;
   Header header_;
+  double range_;  // of the target
 };
 
 bool Is(std::ptrdiff_t role, std::size_t index) {
@@ -222,7 +251,7 @@ class InputChooser {
       chosen_.words.push_back(i);
       return "tells which one, and measures nothing";
     }
-    const std::string_view why = measured.Why(column.name);
+    const std::string_view why = measured.Why(column);
     if (!why.empty()) beside_.push_back(column.name);
     return why;
   }
@@ -247,7 +276,7 @@ class InputChooser {
 
   void ChooseDefaultInputs() {
     const std::unordered_set<std::string> excluded = ExcludedNames();
-    const MeasuredBeside measured(Name(roles_.target));
+    const MeasuredBeside measured(table_.At(roles_.target));
     has_spreads_ = std::ranges::any_of(table_.columns, [](const auto& column) {
       return SaysPhrase(column.name, Word::kSpread);
     });

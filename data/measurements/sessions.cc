@@ -18,6 +18,7 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/cycle_restarts.h"
 #include "data/measurements/joined_tables.h"
+#include "data/measurements/reading/cold_starts.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -407,7 +408,26 @@ class SessionFinder : private RowColumns {
     if (blocks_ >= 0 &&
         TakeSessions(static_cast<std::size_t>(blocks_), false)) {
       found_.evidence = Evidence::kValues;
+      return;
     }
+    if (selection_.session.empty()) CutAtColdStarts();
+  }
+
+  void CutAtColdStarts() {
+    const ColdStarts starts = FindColdStarts(table_, rows_, passes_);
+    if (starts.rows.empty()) return;
+    if (!starts.at_rest) {
+      found_.alternative = std::to_string(starts.rows.size() + 1) +
+                           ", as the temperatures fall at data row " +
+                           std::to_string(DataRow(
+                               static_cast<std::size_t>(starts.rows.front())));
+      return;
+    }
+    CutWhere([&](std::size_t i) {
+      return std::ranges::binary_search(starts.rows, static_cast<Index>(i));
+    });
+    found_.by = "rest";
+    found_.alternative = "one";
   }
 
   bool CutWhereCyclesCountAnew() {

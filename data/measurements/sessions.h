@@ -37,6 +37,7 @@ struct FoundSessions {
   std::string counter = {};         // column that restarts with each session
   double gap = 0.0;                 // s, of a night; 0: not looked for
   Evidence evidence = Evidence::kNone;
+  std::string alternative = {};  // where temperatures alone tell; else ""
   /// Description of the sessions and times, one line each; empty for one run
   /// without times.
   std::vector<std::string> remarks;

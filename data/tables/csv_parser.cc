@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "data/formula_text.h"
+#include "data/tables/cells/angle_cells.h"
 #include "data/tables/cells/csv_cells.h"
 #include "data/tables/cells/cut_line.h"
 #include "data/tables/cells/loose_numbers.h"
@@ -71,6 +72,7 @@ class Parser {
     for (const std::string& line : loose_.Remarks()) table_.Remark(line);
     LeaveEmptyColumns();
     TakeUnitsOfCells(dialect_.decimal_comma, &table_);
+    TakeAngleCells(dialect_.decimal_comma, &table_);
     TakeTitles();
     return std::move(table_);
   }

@@ -27,6 +27,7 @@ TEST(Converted, KnowsEveryPairOfAQuantity) {
   EXPECT_NEAR(ConvertedBy(68.0, "degF", "degC"), 20.0, 1e-12);
   EXPECT_NEAR(ConvertedBy(-40.0, "degC", "degF"), -40.0, 1e-12);
   EXPECT_NEAR(ConvertedBy(1.0, "arcsec", "urad"), 4.84813681109536, 1e-14);
+  EXPECT_DOUBLE_EQ(ConvertedBy(5.0, "mdeg", "arcsec"), 18.0);
   EXPECT_DOUBLE_EQ(ConvertedBy(180.0, "deg", "rad"), 3.14159265358979323846);
   EXPECT_EQ(ConvertedBy(3.0, "um/m", "ppm"), 3.0);
   EXPECT_EQ(ConvertedBy(2.0, "min", "s"), 120.0);

@@ -214,7 +214,25 @@ bool IsCalledTimeOfDay(const CsvColumn& column, bool has_date) {
   constexpr std::size_t kEnoughRows = 24;
   const bool may_be = has_date || column.values.size() >= kEnoughRows;
   return (may_be && IsCalled(column.name, Word::kTime)) ||
-         std::ranges::count(WordsOf(column.name), "hhmmss") > 0;
+         HasWordOf(column.name, "hhmmss hhmm");
+}
+
+// "803" as a clock of hours and minutes.
+std::string ClockOfMinutes(double digits) {
+  return ClockOfDigits(100.0 * digits);
+}
+
+// As below, and of a clock's minutes many differ.
+bool AreClocksOfMinutes(const CsvColumn& column) {
+  constexpr std::size_t kEnough = 12;
+  std::set<double> minutes;
+  return All(column,
+             [&](double value) {
+               minutes.insert(std::fmod(value, 100.0));
+               return value == std::floor(value) &&
+                      !ClockOfMinutes(value).empty();
+             }) &&
+         minutes.size() >= kEnough;
 }
 
 // 60 to 99 never stand in the last digits of a clock, 0 to 59 all do.
@@ -256,6 +274,8 @@ std::vector<std::size_t> WriteDates(CsvTable* table) {
     if (column.is_text() || !IsCalledTimeOfDay(column, has_date)) continue;
     if (AreClocksOfDigits(column)) {
       WriteAs(ClockOfDigits, &column);
+    } else if (AreClocksOfMinutes(column)) {
+      WriteAs(ClockOfMinutes, &column);
     } else if (has_date && AreClocksOfPoints(column)) {
       WriteAs(ClockOfPoints, &column);
     }

@@ -272,6 +272,9 @@ class DatasetBuilder {
     }
     if (used == 0 && !inputs_.empty()) ThrowNoInputs(table_, said_.dropped);
     parts_.input_values.conservativeResize(Eigen::NoChange, used);
+    if (auto remark = LikelyFahrenheit(parts_.inputs, parts_.input_values)) {
+      said_.remarks.push_back(std::move(*remark));
+    }
   }
 
   // Whether the last input says once more what another says, and is left out:

@@ -34,6 +34,33 @@ std::optional<std::string> UnlikelySize(const ColumnInfo& target,
          "into its name: error_um, 'error [mm]'";
 }
 
+std::optional<std::string> LikelyFahrenheit(
+    const std::vector<ColumnInfo>& inputs, const Eigen::MatrixXd& values) {
+  constexpr double kColdShop = 59.0;  // degF, 15 degC
+  constexpr double kWarmShop = 95.0;
+  constexpr double kHotMachine = 150.0;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const std::string& name = inputs[i].name;
+    if (ReadHeader(name).source == UnitSource::kStated ||
+        !(inputs[i].unit.quantity == Quantity::kTemperature ||
+          StatesTemperature(name))) {
+      continue;
+    }
+    const auto column = values.col(static_cast<Eigen::Index>(i));
+    const double coldest = column.minCoeff();
+    if (coldest < kColdShop || coldest > kWarmShop ||
+        column.maxCoeff() > kHotMachine) {
+      continue;
+    }
+    names.push_back(name);
+  }
+  if (names.empty()) return std::nullopt;
+  return ListOfNames(names) +
+         " read as in degF, but name no unit; if they are, write it: " +
+         QuotedText(names.front() + " [degF]");
+}
+
 void AskForUnit(const CsvTable& table,
                 const std::string& target,
                 const Eigen::VectorXd& values,

@@ -16,6 +16,11 @@ namespace errmap::data {
 std::optional<std::string> UnlikelySize(const ColumnInfo& target,
                                         const Eigen::VectorXd& values);
 
+/// Returns a remark on thermometers that nobody gave a unit, if they read as a
+/// shop and a warm machine do in degF.
+std::optional<std::string> LikelyFahrenheit(
+    const std::vector<ColumnInfo>& inputs, const Eigen::MatrixXd& values);
+
 /// Throws OpenQuestion if the target's unit is not stated, and the values (RMS
 /// above 1), or columns in inches and degF, contradict the assumed mm. Also if
 /// no unit can be assumed ("Abweichung") and the target was not `named`.

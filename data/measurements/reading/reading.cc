@@ -25,6 +25,8 @@ std::string SessionsText(const Reading& reading) {
             ")";
   } else if (sessions.by == "counter") {
     text += " (" + NameInRemark(sessions.counter) + " restarts)";
+  } else if (sessions.by == "rest") {
+    text += " (by temperatures back at rest)";
   } else if (sessions.by == "file") {
     text += sessions.count == std::ssize(reading.files)
                 ? " (one a file)"
@@ -33,6 +35,15 @@ std::string SessionsText(const Reading& reading) {
     text += " (by " + NameInRemark(*sessions.column) + ")";
   }
   return text;
+}
+
+// Without a clock no gap does.
+std::string WhatPartsThem(const Reading& reading) {
+  const bool has_gap = reading.time.column && !reading.sessions.column;
+  if (reading.sessions.by == "rest") {
+    return ArgumentName("session", "none") + " takes it.";
+  }
+  return ArgumentName(has_gap ? "gap" : "session") + " parts them.";
 }
 
 std::string CyclesText(const Reading& reading) {
@@ -126,8 +137,7 @@ std::vector<std::string> ReadingLines(const Reading& reading) {
   if (!reading.sessions.sure) {
     lines.push_back("Unsure: " + SessionsText(reading) + "; or " +
                     reading.sessions.alternative.value_or("") + ": " +
-                    ArgumentName(reading.sessions.column ? "session" : "gap") +
-                    " parts them.");
+                    WhatPartsThem(reading));
   }
   if (reading.time.column && !reading.time.sure) {
     const bool is_date = reading.time.unit == "date";

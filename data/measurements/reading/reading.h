@@ -61,7 +61,7 @@ struct Reading {
   };
   struct Sessions {
     std::optional<std::string> column;
-    std::string by;       // column, nights, dates, clock, counter, file, one
+    std::string by;  // column, nights, dates, clock, rest, counter, file, one
     std::string counter;  // the column that restarts with each
     std::int64_t count = 0;
     std::vector<std::int64_t> first_rows;  // in the order of the rows

@@ -61,6 +61,25 @@ std::string TakeGroups(std::string_view* text,
   return *count > 0 ? digits : "";
 }
 
+// "12.3" and "0.2" of "12.3 ± 0.2", "12.3 +/- 0.2" or "12.3(2)"; else nothing.
+// "1(2)" is a label.
+std::optional<std::pair<std::string_view, std::string_view>> AtUncertainty(
+    std::string_view cell) {
+  if (cell.ends_with(')')) {
+    cell.remove_suffix(1);
+    const std::size_t at = cell.find('(');
+    if (at == cell.npos || cell.find_first_of(".,") > at) return std::nullopt;
+    return std::pair(cell.substr(0, at), cell.substr(at + 1));
+  }
+  for (const std::string_view sign : {"\xC2\xB1", "\xB1", "+/-", "+-"}) {
+    const std::size_t at = cell.find(sign);
+    if (at == cell.npos) continue;
+    return std::pair(Trimmed(cell.substr(0, at)),
+                     Trimmed(cell.substr(at + sign.size())));
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 bool ReadFortranNumber(std::string_view cell,
@@ -86,6 +105,13 @@ Loose ReadLooseNumber(std::string_view cell,
                                                        : Loose::kNone;
   }
   if (ReadFortranNumber(cell, decimal_comma, form)) return Loose::kExponent;
+  if (const auto parts = AtUncertainty(cell)) {
+    NumberForm uncertainty;
+    return ReadNumberForm(parts->second, decimal_comma, &uncertainty) &&
+                   ReadNumberForm(parts->first, decimal_comma, form)
+               ? Loose::kUncertainty
+               : Loose::kNone;
+  }
   Loose kind = Loose::kDash;
   std::string sign;
   for (const std::string_view dash :
@@ -169,7 +195,8 @@ std::vector<std::string> LooseNumbers::Remarks() const {
        " without marks between thousands",
        " without the remark after it",
        " with the minus that stands behind, which changes the sign",
-       " with D for the exponent"});
+       " with D for the exponent",
+       " without the uncertainty behind them"});
   static_assert(kHow.size() == std::tuple_size_v<decltype(seen_)>);
   std::vector<std::string> remarks;
   for (std::size_t i = 1; i < kHow.size(); ++i) {

@@ -123,6 +123,7 @@ const char* EncodingByWords(std::string_view bytes) {
                                "CP1250",
                                "CP1251",
                                "CP1254",
+                               "MACINTOSH",
                                "CP932",
                                "EUC-JP",
                                "GB18030",

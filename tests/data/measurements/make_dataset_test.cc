@@ -97,6 +97,41 @@ TEST(MakeDataset, RemarksOnErrorsThatNoMachineHas) {
   EXPECT_THAT(remarks("error_arcsec", 1e5), IsEmpty());
 }
 
+TEST(MakeDataset, RemarksOnThermometersWithoutAUnitThatReadAsInDegF) {
+  const auto remarks = [](const std::string& name, double first) {
+    return Make(name + ",error_um\n" + std::to_string(first) + ",1\n" +
+                std::to_string(first + 15.0) + ",2\n")
+        .remarks;
+  };
+  EXPECT_THAT(remarks("T1", 68.0),
+              ElementsAre("'T1' read as in degF, but name no unit; if they "
+                          "are, write it: 'T1 [degF]'"));
+  EXPECT_THAT(remarks("Spindle temp", 70.0), ElementsAre(HasSubstr("in degF")));
+  EXPECT_THAT(remarks("T1", 20.0), IsEmpty());
+  EXPECT_THAT(remarks("T1", 140.0), IsEmpty());
+  EXPECT_THAT(remarks("T1 [degC]", 68.0), IsEmpty());
+  EXPECT_THAT(remarks("load", 68.0), IsEmpty());
+}
+
+TEST(MakeDataset, LeavesOutProbesThatAreCalledAsAxesAre) {
+  // By `scale` larger than the error.
+  const auto inputs = [](double scale) {
+    std::string text = "X_um,T1,error_um\n";
+    for (int i = 0; i < 12; ++i) {
+      text += std::to_string(scale * (i * 5 % 12)) + "," +
+              std::to_string(20 + i) + "," + std::to_string(i % 4) + "\n";
+    }
+    const PreparedDataset prepared = Make(text);
+    std::vector<std::string> names;
+    for (const ColumnInfo& input : prepared.dataset.inputs()) {
+      names.push_back(input.name);
+    }
+    return names;
+  };
+  EXPECT_THAT(inputs(1.0), ElementsAre("T1"));
+  EXPECT_THAT(inputs(1000.0), ElementsAre("X_um", "T1"));
+}
+
 TEST(MakeDataset, SaysWhichUnitOfTheTargetIsOnlyAssumed) {
   EXPECT_THAT(Make("a,error_x\n1,0.02\n2,0.03\n").remarks,
               ElementsAre("error_x: no unit in its name, taken as mm"));

@@ -184,6 +184,9 @@ TEST(MessyFiles, TextMayBeInAnEncodingOfThePlace) {
        std::vector<std::pair<const char*, std::string>>{
            {"LATIN1", german},
            {"CP850", german},
+           {"MACINTOSH", german},
+           {"MACINTOSH",
+            "Jour,Cycle,Durée [s],Position [mm],T1 [°C],T2 [°C],Écart [µm]"},
            {"CP1250",
             "Dzień,Cykl,Czas [s],Położenie [mm],T1 [°C],T2 [°C],Błąd [µm]"},
            {"CP1251",

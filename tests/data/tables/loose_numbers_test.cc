@@ -1,5 +1,7 @@
 #include "data/tables/cells/loose_numbers.h"
 
+#include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -48,6 +50,56 @@ TEST(LooseNumbers, AreNamedByWhatIsDoneToThem) {
           HasSubstr("2 cells are read as numbers with the minus that "
                     "stands behind, which changes the sign (the first "
                     "on line 2)")));
+}
+
+TEST(LooseNumbers, StandBeforeTheirUncertainty) {
+  for (const char* behind :
+       {" ± 0.20", "±0.2", " +/- 0.20", "(20)", " \xB1 0.2"}) {
+    SCOPED_TRACE(behind);
+    const CsvTable table =
+        ParseCsv("x_mm,error_um\n1,-1.50" + std::string(behind) + "\n2,2.25" +
+                     behind + "\n",
+                 "f.csv");
+    EXPECT_THAT(table.columns[1].values, ElementsAre(-1.5, 2.25));
+    EXPECT_THAT(table.remarks,
+                ElementsAre(HasSubstr("2 cells are read as numbers without the "
+                                      "uncertainty behind them")));
+  }
+  for (const char* label : {"1(2)", "1.5 ± x", "± 0.2"}) {
+    const CsvTable table =
+        ParseCsv("x_mm,label\n1," + std::string(label) + "\n", "f.csv");
+    EXPECT_TRUE(table.columns[1].is_text()) << label;
+  }
+}
+
+TEST(AngleCells, AreDegrees) {
+  const CsvTable table = ParseCsv(
+      "Angle;error_arcsec\n"
+      "0°00'00.0\";1\n-0° 30' 36\";2\n27°30′;3\n12° 34.5';4\n---;5\n"
+      "359°59’59.1”;6\n",
+      "f.csv");
+  EXPECT_EQ(table.columns[0].name, "Angle [deg]");
+  const std::vector<double> wanted = {0.0, -0.51, 27.5, 12.575, NAN, 359.99975};
+  for (std::size_t row = 0; row < wanted.size(); ++row) {
+    const double read = table.columns[0].values[row];
+    if (std::isnan(wanted[row])) {
+      EXPECT_TRUE(std::isnan(read));
+    } else {
+      EXPECT_DOUBLE_EQ(read, wanted[row]);
+    }
+  }
+  EXPECT_THAT(table.remarks,
+              ElementsAre(HasSubstr("'Angle [deg]' are angles in degrees")));
+}
+
+TEST(AngleCells, AreAnglesInAllRowsOrText) {
+  for (const char* cell : {"27°60'00\"", "north", "27°30'10\" x", "27'30°"}) {
+    const CsvTable table = ParseCsv(
+        "Angle;error_arcsec\n10°00'00\";1\n" + std::string(cell) + ";2\n",
+        "f.csv");
+    EXPECT_EQ(table.columns[0].name, "Angle") << cell;
+    EXPECT_TRUE(table.columns[0].is_text()) << cell;
+  }
 }
 
 TEST(UnitsOfCells, CountAmongMixedDecimalMarks) {

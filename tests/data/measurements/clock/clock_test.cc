@@ -331,7 +331,8 @@ TEST(Clock, ThatBeginsAnewInEachPassIsPassedOver) {
 TEST(Clock, IsNoThermometer) {
   for (const char* name : {"temp data", "tempo", "heating time temp", "cas"}) {
     const PreparedDataset prepared =
-        MadeOf(Days(name, [](int, double warm) { return CsvNumber(warm); }));
+        MadeOf(Days(name, [](int, double warm) { return CsvNumber(warm); }),
+               {.session = "none"});  // else by temperatures, of some
     EXPECT_EQ(prepared.reading.time.column, std::nullopt) << name;
     EXPECT_THAT(prepared.reading.sensors, ElementsAre(name));
     EXPECT_EQ(prepared.reading.sessions.count, 1);
@@ -421,6 +422,25 @@ TEST(Clock, KnowsTicksFromTheYearOneHoursInCompoundsAndPackedHours) {
       })).reading;
   EXPECT_EQ(packed.time.column, "hhmmss");
   EXPECT_EQ(packed.time.step_s, 60.0);
+}
+
+TEST(Clock, KnowsHoursAndMinutesWithoutAMarkBetween) {
+  // 803, 804, ... 859, 900
+  for (const std::string name : {"hhmm", "time", "Uhrzeit"}) {
+    const Reading reading = MadeOf(Days(name, [](int i, double) {
+                              return CsvNumber(803 + i + 40 * ((i + 3) / 60));
+                            })).reading;
+    EXPECT_EQ(reading.time.unit, "date") << name;
+    EXPECT_EQ(reading.time.step_s, 60.0) << name;
+    EXPECT_TRUE(reading.time.sure) << name;
+  }
+  // Seconds have what no clock shows, or too few of its minutes.
+  for (const int step : {1, 5, 50}) {
+    const Reading reading = MadeOf(Days("time", [=](int i, double) {
+                              return CsvNumber(800 + step * i);
+                            })).reading;
+    EXPECT_EQ(reading.time.unit, "s") << step;
+  }
 }
 
 TEST(Clock, AddsTwelveHoursBehindNoonWhereTheHoursHaveHalves) {

@@ -17,7 +17,9 @@
 namespace errmap::data {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using warming_log::Fixed;
 using warming_log::Log;
 using warming_log::Read;
@@ -143,6 +145,72 @@ TEST(Reading, BeginsASessionWhereTheCyclesCountAnew) {
   EXPECT_EQ(reading.sessions.by, "counter");
   EXPECT_EQ(reading.sessions.count, 4);
   EXPECT_EQ(reading.cycles.count, 20);
+}
+
+std::vector<std::string> PositionTempError(const Log::Row& row) {
+  return {Fixed(row.position), Fixed(row.warm), Fixed(row.error)};
+}
+
+TEST(Reading, BeginsASessionWhereTemperaturesFallBackToRest) {
+  for (const int days : {2, 4, 7}) {
+    Log log;
+    log.days = days;
+    log.cycles = 8;
+    const std::string text =
+        Text("position_mm,t1_degC,error_um", log.Rows(), PositionTempError);
+    const Reading reading = Read(text);
+    EXPECT_EQ(reading.sessions.by, "rest") << days;
+    EXPECT_EQ(reading.sessions.count, days);
+    EXPECT_EQ(reading.sessions.first_rows[1], 8 * log.positions);
+    EXPECT_FALSE(reading.sessions.sure);
+    EXPECT_THAT(ReadingLines(reading),
+                Contains(HasSubstr("back at rest); or one")));
+    EXPECT_EQ(Read(text, {.session = "none"}).sessions.count, 1);
+  }
+  Log one;
+  one.days = 1;
+  one.cycles = 30;
+  one.pause = 2000.0;
+  const Reading reading =
+      Read(Text("position_mm,t1_degC,error_um", one.Rows(), PositionTempError));
+  EXPECT_EQ(reading.sessions.count, 1);
+  EXPECT_TRUE(reading.sessions.sure);
+}
+
+TEST(Reading, IsUnsureOfSessionsWhereTemperaturesFallHalfway) {
+  // A pause cools by half, in one or in each cycle.
+  const auto read = [](int each) {
+    Log log;
+    log.days = 1;
+    log.cycles = 12;
+    return Read(Text(
+        "position_mm,t1_degC,error_um", log.Rows(), [=](const Log::Row& row) {
+          const double warm = 24.0 +
+                              2.0 * (row.cycle / each % 2 == 0 ? 1.0 : 0.0) +
+                              0.001 * row.position;
+          return std::vector<std::string>{
+              Fixed(row.position), Fixed(warm), Fixed(row.error)};
+        }));
+  };
+  for (const int each : {1, 6}) {
+    const Reading reading = read(each);
+    EXPECT_EQ(reading.sessions.count, each == 6 ? 2 : 1) << each;
+    EXPECT_FALSE(reading.sessions.sure) << each;
+  }
+}
+
+TEST(Reading, SeesNoRestInSpikesOfOneThermometer) {
+  int at = 0;
+  Log log;
+  log.days = 1;
+  log.cycles = 12;
+  const Reading reading = Read(Text(
+      "position_mm,t1_degC,error_um", log.Rows(), [&](const Log::Row& row) {
+        const double warm = at++ % 20 == 0 ? 85.0 : row.warm;
+        return std::vector<std::string>{
+            Fixed(row.position), Fixed(warm), Fixed(row.error)};
+      }));
+  EXPECT_EQ(reading.sessions.count, 1);
 }
 
 TEST(Reading, KeepsARunningNumberOutWhateverItsName) {

@@ -1,0 +1,100 @@
+#include "data/tables/cells/angle_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "data/tables/cells/csv_cells.h"
+#include "data/tables/cells/missing_cells.h"
+#include "data/tables/cells/unit_cells.h"
+#include "data/text.h"
+
+namespace errmap::data {
+namespace {
+
+constexpr double kSixty = 60.0;
+
+// Signs of degrees, minutes and seconds; those of seconds before the
+// apostrophe of minutes twice.
+constexpr auto kSigns = std::to_array<std::array<std::string_view, 4>>(
+    {{"\u00b0", "\u00ba", "", ""},
+     {"\u2032", "\u2019", "'", ""},
+     {"\u2033", "\u201d", "\"", "''"}});
+
+// The number and the sign of one part, off the front of `cell`.
+std::optional<double> TakePart(std::size_t part,
+                               bool decimal_comma,
+                               std::string_view* cell) {
+  const std::size_t size =
+      std::min(cell->find_first_not_of("0123456789.,"), cell->size());
+  const std::string_view behind = TrimmedCell(cell->substr(size));
+  NumberForm form;
+  if (!ReadNumberForm(cell->substr(0, size), decimal_comma, &form)) {
+    return std::nullopt;
+  }
+  for (const std::string_view sign : kSigns[part]) {
+    if (sign.empty() || !behind.starts_with(sign)) continue;
+    *cell = TrimmedCell(behind.substr(sign.size()));
+    return form.value;
+  }
+  return std::nullopt;
+}
+
+// Nothing unless each text is an angle or missing, and one is an angle.
+std::vector<std::optional<double>> AnglesOf(const CsvColumn& column,
+                                            bool decimal_comma) {
+  std::vector<std::optional<double>> angles;
+  bool any = false;
+  for (const std::string& text : column.texts) {
+    angles.push_back(ReadAngle(text, decimal_comma));
+    if (!angles.back() && !IsMissingNumber(text)) return {};
+    any = any || angles.back();
+  }
+  return any ? angles : std::vector<std::optional<double>>();
+}
+
+}  // namespace
+
+std::optional<double> ReadAngle(std::string_view cell, bool decimal_comma) {
+  const bool is_negative = cell.starts_with('-') || cell.starts_with("\u2212");
+  const std::size_t sign = cell.find_first_of("0123456789");
+  const std::string_view before = cell.substr(0, std::min(sign, cell.size()));
+  if (sign == cell.npos || !(before.empty() || before == "+" || is_negative)) {
+    return std::nullopt;
+  }
+  cell.remove_prefix(sign);
+  const std::optional<double> degrees = TakePart(0, decimal_comma, &cell);
+  if (!degrees) return std::nullopt;
+  const std::optional<double> minutes = TakePart(1, decimal_comma, &cell);
+  if (!minutes || *minutes >= kSixty) return std::nullopt;
+  double seconds = 0.0;
+  if (!cell.empty()) {
+    const std::optional<double> last = TakePart(2, decimal_comma, &cell);
+    if (!last || *last >= kSixty || !cell.empty()) return std::nullopt;
+    seconds = *last;
+  }
+  const double angle = *degrees + (*minutes + seconds / kSixty) / kSixty;
+  return is_negative ? -angle : angle;
+}
+
+void TakeAngleCells(bool decimal_comma, CsvTable* table) {
+  for (CsvColumn& column : table->columns) {
+    if (!column.is_text()) continue;
+    const auto angles = AnglesOf(column, decimal_comma);
+    const auto name = NameWithUnit(column.name, "deg");
+    if (angles.empty() || !name) continue;
+    std::erase_if(column.exceptions, [&](const auto& cell) {
+      const auto& angle = angles[cell.second];
+      if (angle) column.values.Own()[cell.first] = *angle;
+      return angle.has_value();
+    });
+    column.name = *name;
+    table->Remark("the cells of " + QuotedName(column.name) +
+                  " are angles in degrees, minutes and seconds");
+  }
+}
+
+}  // namespace errmap::data
