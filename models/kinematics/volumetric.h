@@ -30,7 +30,7 @@ struct VolumetricOptions {
 };
 
 /// Errors at the tool: tool minus work in the base frame, in the chain's length
-/// unit. The compensation is their negative.
+/// unit. The compensation is minus these.
 struct VolumetricErrors {
   Eigen::MatrixX3d exact;        // (m x 3)
   Eigen::MatrixX3d first_order;  // (m x 3)

@@ -72,7 +72,7 @@ struct NetKernels {
                         Scalar* y,
                         Scalar* o);
 
-  /// Takes that step: s += a t.
+  /// Takes the step: s += a t.
   void (*advance)(BlockSize size, const Scalar* t, Scalar a, Scalar* s);
 
   /// Computes the first and second derivatives with respect to a, at 0, of o(a)
