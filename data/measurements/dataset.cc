@@ -257,7 +257,7 @@ Dataset Dataset::SelectRows(const std::vector<Eigen::Index>& indices) const {
     if (has_groups()) parts.groups.codes.push_back(parts_.groups.codes[i]);
     if (parts_.log) parts.log_rows.push_back(parts_.log_rows[i]);
   }
-  return Dataset(std::move(parts));
+  return {OfChecked{}, std::move(parts)};
 }
 
 Dataset Dataset::WithLog(std::shared_ptr<const SessionLog> log,

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -158,6 +159,9 @@ class Dataset {
                      Eigen::MatrixXd input_values) const;
 
  private:
+  struct OfChecked {};  // parts of a data set need no second check
+  Dataset(OfChecked, Parts parts) : parts_(std::move(parts)) {}
+
   bool reads_log() const {
     return parts_.log && parts_.input_values.cols() == 0 && num_inputs() > 0;
   }

@@ -17,50 +17,63 @@ namespace {
 // What adds up to a share but for rounding does.
 constexpr double kRounding = 1e-9;
 
-// |residual| of each unit.
-std::map<Index, std::vector<double>> SizesOfUnits(
-    const VectorXd& residuals, const std::vector<Index>& units) {
-  std::map<Index, std::vector<double>> sizes;
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    sizes[units[i]].push_back(std::abs(residuals[static_cast<Index>(i)]));
-  }
-  return sizes;
-}
-
-// The least size that `share` of the units' weight does not exceed, each unit
-// of weight 1 shared by its rows.
-double QuantileOverUnits(const std::map<Index, std::vector<double>>& sizes,
-                         double share) {
-  std::vector<std::pair<double, double>> weighted;
-  for (const auto& [unit, of_unit] : sizes) {
-    for (const double size : of_unit) {
-      weighted.emplace_back(size, 1.0 / static_cast<double>(of_unit.size()));
+// |residual| of all rows, ascending: units weigh 1, shared by their rows.
+class SizesOfUnits {
+ public:
+  SizesOfUnits(const VectorXd& residuals, const std::vector<Index>& units) {
+    std::map<Index, std::vector<double>> sizes;
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      sizes[units[i]].push_back(std::abs(residuals[static_cast<Index>(i)]));
     }
+    if (sizes.size() < 2 || !residuals.allFinite()) return;
+    mean_squares_.resize(std::ssize(sizes));
+    Index u = 0;
+    for (const auto& [unit, of_unit] : sizes) {
+      const auto rows = static_cast<double>(of_unit.size());
+      mean_squares_[u++] =
+          Eigen::Map<const VectorXd>(of_unit.data(), std::ssize(of_unit))
+              .squaredNorm() /
+          rows;
+      for (const double size : of_unit) {
+        weighted_.emplace_back(size, 1.0 / rows);
+      }
+    }
+    std::ranges::sort(weighted_);
   }
-  std::ranges::sort(weighted);
-  double left = (share - kRounding) * static_cast<double>(sizes.size());
-  for (const auto& [size, weight] : weighted) {
-    left -= weight;
-    if (left <= 0.0) return size;
-  }
-  return weighted.back().first;
-}
 
-// Student's t over the normal's quantile.
-double Widening(const std::map<Index, std::vector<double>>& sizes,
-                double coverage) {
-  VectorXd mean_squares(std::ssize(sizes));
-  Index u = 0;
-  for (const auto& [unit, of_unit] : sizes) {
-    const Eigen::Map<const VectorXd> values(of_unit.data(),
-                                            std::ssize(of_unit));
-    mean_squares[u++] =
-        values.squaredNorm() / static_cast<double>(values.size());
+  PredictionInterval::Level Level(double coverage) const {
+    PredictionInterval::Level level;
+    level.coverage = coverage;
+    if (weighted_.empty()) return level;
+    const auto count = static_cast<double>(mean_squares_.size());
+    level.at_least = (count + 1.0) * coverage > count + kRounding;
+    level.half_width = Quantile(coverage) * Widening(coverage);
+    level.inside = level.outside = level.half_width;
+    return level;
   }
-  const double upper = 0.5 * (1.0 + coverage);
-  return stats::StudentQuantile(upper, stats::UnitFreedom(mean_squares)) /
-         stats::NormalQuantile(upper);
-}
+
+ private:
+  VectorXd mean_squares_;                            // (units)
+  std::vector<std::pair<double, double>> weighted_;  // empty: not known
+
+  // The least size that `share` of the units' weight does not exceed.
+  double Quantile(double share) const {
+    double left =
+        (share - kRounding) * static_cast<double>(mean_squares_.size());
+    for (const auto& [size, weight] : weighted_) {
+      left -= weight;
+      if (left <= 0.0) return size;
+    }
+    return weighted_.back().first;
+  }
+
+  // Student's t over the normal's quantile.
+  double Widening(double coverage) const {
+    const double upper = 0.5 * (1.0 + coverage);
+    return stats::StudentQuantile(upper, stats::UnitFreedom(mean_squares_)) /
+           stats::NormalQuantile(upper);
+  }
+};
 
 // Mean error of each unit, in their order, and the share of the mean square
 // that these means are.
@@ -148,11 +161,10 @@ void FindMemory(const VectorXd& residuals,
 }
 
 // Of those rows alone that are (not) inside of what was trained.
-double HalfWidthOf(const VectorXd& residuals,
-                   const std::vector<Index>& units,
-                   const std::vector<bool>& inside,
-                   bool wanted,
-                   double coverage) {
+SizesOfUnits SizesWhere(const VectorXd& residuals,
+                        const std::vector<Index>& units,
+                        const std::vector<bool>& inside,
+                        bool wanted) {
   std::vector<Index> rows;
   std::vector<Index> of_rows;
   for (std::size_t i = 0; i < inside.size(); ++i) {
@@ -160,7 +172,7 @@ double HalfWidthOf(const VectorXd& residuals,
     rows.push_back(static_cast<Index>(i));
     of_rows.push_back(units[i]);
   }
-  return UnitIntervalLevel(residuals(rows), of_rows, coverage).half_width;
+  return {residuals(rows), of_rows};
 }
 
 }  // namespace
@@ -168,16 +180,7 @@ double HalfWidthOf(const VectorXd& residuals,
 PredictionInterval::Level UnitIntervalLevel(const VectorXd& residuals,
                                             const std::vector<Index>& units,
                                             double coverage) {
-  PredictionInterval::Level level;
-  level.coverage = coverage;
-  const auto sizes = SizesOfUnits(residuals, units);
-  if (sizes.size() < 2 || !residuals.allFinite()) return level;
-  const auto count = static_cast<double>(sizes.size());
-  level.at_least = (count + 1.0) * coverage > count + kRounding;
-  level.half_width =
-      QuantileOverUnits(sizes, coverage) * Widening(sizes, coverage);
-  level.inside = level.outside = level.half_width;
-  return level;
+  return SizesOfUnits(residuals, units).Level(coverage);
 }
 
 std::optional<PredictionInterval> PromiseOf(
@@ -197,12 +200,13 @@ std::optional<PredictionInterval> PromiseOf(
   if (interval.units < 2) return std::nullopt;
   const VectorXd residuals = ResidualsOf(held, result);
   const std::vector<bool> is_inside = inside ? inside() : std::vector<bool>{};
+  const SizesOfUnits all(residuals, codes);
+  const SizesOfUnits insides = SizesWhere(residuals, codes, is_inside, true);
+  const SizesOfUnits outsides = SizesWhere(residuals, codes, is_inside, false);
   for (const double coverage : PredictionInterval::kCoverages) {
-    PredictionInterval::Level level =
-        UnitIntervalLevel(residuals, codes, coverage);
-    const double in = HalfWidthOf(residuals, codes, is_inside, true, coverage);
-    const double out =
-        HalfWidthOf(residuals, codes, is_inside, false, coverage);
+    PredictionInterval::Level level = all.Level(coverage);
+    const double in = insides.Level(coverage).half_width;
+    const double out = outsides.Level(coverage).half_width;
     if (in <= out) {
       level.inside = std::min(in, level.half_width);
       level.outside = std::max(out, level.half_width);

@@ -1,7 +1,10 @@
 #include "stats/comparison/sign_flip.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 
 #include "stats/random.h"
@@ -70,19 +73,35 @@ SignFlipTest TestExactly(const VectorXd& differences,
   return result;
 }
 
-// Fills `signs` with -1 and 1.
-void DrawSigns(Random* random, MatrixXd* signs) {
-  constexpr int kBits = 32;
-  std::uint64_t bits = 0;
-  int left = 0;
-  for (double& sign : signs->reshaped()) {
-    if (left == 0) {
-      bits = random->Below(std::uint64_t{1} << kBits);
-      left = kBits;
+// The signs that a byte stands for, its lowest bit first.
+using SignsOfByte = std::array<double, 8>;
+
+std::array<SignsOfByte, 256> SignsOfBytes() {
+  std::array<SignsOfByte, 256> signs{};
+  for (std::size_t byte = 0; byte < signs.size(); ++byte) {
+    for (std::size_t bit = 0; bit < signs[byte].size(); ++bit) {
+      signs[byte][bit] = ((byte >> bit) & 1U) != 0 ? 1.0 : -1.0;
     }
-    sign = (bits & 1U) != 0 ? 1.0 : -1.0;
-    bits >>= 1U;
-    --left;
+  }
+  return signs;
+}
+
+// Fills `signs` with -1 and 1, by the byte: bit by bit it takes longer than the
+// sums that follow.
+void DrawSigns(Random* random, MatrixXd* signs) {
+  static const auto kSigns = SignsOfBytes();
+  constexpr int kBytes = 4;
+  std::uint64_t bits = 0;
+  for (Index at = 0, left = 0; at < signs->size(); --left) {
+    if (left == 0) {
+      bits = random->Below(std::uint64_t{1} << (8 * kBytes));
+      left = kBytes;
+    }
+    const SignsOfByte& drawn = kSigns[bits & 0xFFU];
+    const Index size = std::min(std::ssize(drawn), signs->size() - at);
+    std::copy_n(drawn.begin(), size, signs->data() + at);
+    bits >>= 8U;
+    at += size;
   }
 }
 
