@@ -406,11 +406,11 @@ void AddExportCommand(CLI::App* app, Run* run) {
             "--max-offset X",
             command->max_offset,
             "Largest compensation: 20um (default: 1.3 times the errors' span)");
-  AddOption(command,
-            "--max-rate X",
-            command->max_rate,
-            "Largest change of the compensation per second: 1um (default: "
-            "10um, or 10 urad for angles)");
+  AddOption(
+      command,
+      "--max-rate X",
+      command->max_rate,
+      "Largest change per second: 1um (default: 10um)\n10 urad for angles");
   AddEveryOption(command, &command->every);
   AddTableOptions(command, &command->tables);
   AddForceFlag(command, &command->force);
