@@ -75,7 +75,10 @@ class MeasuredBeside {
     // "column_3" says nothing: the table has no line of names.
     if (NamesPosition(name) || stem_ == "column") return "";
     const std::string stem = StemOfColumn(name);
-    if (stem == stem_) return "measures the target's quantity";
+    // Channels of a logger have one stem, whatever they measure.
+    if (stem == stem_ && !StatesTemperature(name)) {
+      return "measures the target's quantity";
+    }
     const Header header = ReadHeader(name);
     const bool is_called =
         (ErrorSign(name) != 0 || SaysPhrase(name, Word::kComputed)) &&

@@ -138,6 +138,8 @@ TEST(ColumnRoles, LeavesOutErrorsMeasuredBesideTheTarget) {
   EXPECT_THAT(inputs("T1_C,Scaling error X (ppm),Squareness (µm/m),backlash_um",
                      "backlash_um"),
               ElementsAre("T1_C"));
+  EXPECT_THAT(inputs("CH1 [degC],CH2 [degC],CH3 [um],CH4 [um]", "CH4 [um]"),
+              ElementsAre("CH1 [degC]", "CH2 [degC]"));
   // Positions stay, whatever their unit, and so do axes of one letter.
   EXPECT_THAT(inputs("position_um,x_um,y_mm,error_um", "error_um"),
               ElementsAre("position_um", "x_um", "y_mm"));
