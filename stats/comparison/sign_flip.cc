@@ -86,8 +86,7 @@ std::array<SignsOfByte, 256> SignsOfBytes() {
   return signs;
 }
 
-// Fills `signs` with -1 and 1, by the byte: bit by bit it takes longer than the
-// sums that follow.
+// Fills `signs` with -1 and 1, by the byte: quicker than bit by bit.
 void DrawSigns(Random* random, MatrixXd* signs) {
   static const auto kSigns = SignsOfBytes();
   constexpr int kBytes = 4;
