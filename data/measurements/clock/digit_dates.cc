@@ -222,17 +222,20 @@ std::string ClockOfMinutes(double digits) {
   return ClockOfDigits(100.0 * digits);
 }
 
-// As below, and of a clock's minutes many differ.
+// As below, over more than one hour, and of a clock's minutes many differ: 0 to
+// 39 count what they like.
 bool AreClocksOfMinutes(const CsvColumn& column) {
   constexpr std::size_t kEnough = 12;
   std::set<double> minutes;
+  std::set<double> hours;
   return All(column,
              [&](double value) {
                minutes.insert(std::fmod(value, 100.0));
+               hours.insert(std::floor(value / 100.0));
                return value == std::floor(value) &&
                       !ClockOfMinutes(value).empty();
              }) &&
-         minutes.size() >= kEnough;
+         minutes.size() >= kEnough && hours.size() > 1;
 }
 
 // 60 to 99 never stand in the last digits of a clock, 0 to 59 all do.

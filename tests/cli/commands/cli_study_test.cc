@@ -241,7 +241,8 @@ TEST_F(CliStudy, EachComponentRefusesOrLeavesOutRowsOfAnotherLength) {
                "where = { direction = \"" + (i == 0 ? "up" : "down") + "\" }\n";
     }
     Write("study.toml", study);
-    return Run({"compare", "--config", "study.toml", "--format", "json"});
+    return Run(
+        {"compare", "--config", "study.toml", "--format", "json", "--quiet"});
   };
   for (const std::size_t first : {0U, 1U}) {
     EXPECT_THAT(RefusalOf(compare("11,up,0\n", first), kUnusable),

@@ -434,6 +434,11 @@ TEST(Clock, KnowsHoursAndMinutesWithoutAMarkBetween) {
     EXPECT_EQ(reading.time.step_s, 60.0) << name;
     EXPECT_TRUE(reading.time.sure) << name;
   }
+  // 0 to 39 in turn are no hour of a clock.
+  const Reading counts = MadeOf(Days("time_min", [](int i, double) {
+                           return CsvNumber(i % 40);
+                         })).reading;
+  EXPECT_NE(counts.time.unit, "date");
   // Seconds have what no clock shows, or too few of its minutes.
   for (const int step : {1, 5, 50}) {
     const Reading reading = MadeOf(Days("time", [=](int i, double) {
