@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "data/column_header.h"
 #include "data/column_words.h"
 #include "data/columns.h"
 #include "data/measurements/clock/date_time.h"
@@ -20,6 +21,7 @@
 #include "data/measurements/clock/time_units.h"
 #include "data/text.h"
 #include "data/text_index.h"
+#include "data/units.h"
 
 namespace errmap::data {
 namespace {
@@ -223,9 +225,10 @@ std::string ClockOfMinutes(double digits) {
 }
 
 // As below, over more than one hour, and of a clock's minutes many differ: 0 to
-// 39 count what they like.
+// 39 count what they like. So do numbers with a unit.
 bool AreClocksOfMinutes(const CsvColumn& column) {
   constexpr std::size_t kEnough = 12;
+  if (UnitOfColumn(column.name).quantity == Quantity::kTime) return false;
   std::set<double> minutes;
   std::set<double> hours;
   return All(column,

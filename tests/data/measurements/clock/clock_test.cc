@@ -434,11 +434,17 @@ TEST(Clock, KnowsHoursAndMinutesWithoutAMarkBetween) {
     EXPECT_EQ(reading.time.step_s, 60.0) << name;
     EXPECT_TRUE(reading.time.sure) << name;
   }
-  // 0 to 39 in turn are no hour of a clock.
+  // 0 to 39 in turn are no hour of a clock, and what has a unit counts.
+  for (const std::string name : {"time", "time_min"}) {
+    const Reading reading = MadeOf(Days(name, [](int i, double) {
+                              return CsvNumber(i % 40);
+                            })).reading;
+    EXPECT_NE(reading.time.unit, "date") << name;
+  }
   const Reading counts = MadeOf(Days("time_min", [](int i, double) {
-                           return CsvNumber(i % 40);
+                           return CsvNumber(803 + i + 40 * ((i + 3) / 60));
                          })).reading;
-  EXPECT_NE(counts.time.unit, "date");
+  EXPECT_EQ(counts.time.unit, "min");
   // Seconds have what no clock shows, or too few of its minutes.
   for (const int step : {1, 5, 50}) {
     const Reading reading = MadeOf(Days("time", [=](int i, double) {
