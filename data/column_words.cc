@@ -225,6 +225,11 @@ bool StatesTemperature(std::string_view column) {
              : Says(column, Word::kTemperature);
 }
 
+bool NamesTemperature(std::string_view column) {
+  return UnitOfColumn(column).quantity == Quantity::kTemperature ||
+         StatesTemperature(column);
+}
+
 bool IsCalled(std::string_view column, Word word) {
   std::vector<std::string> words = WordsOf(column);
   if (word != Word::kTemperature && StatesTemperature(column)) return false;

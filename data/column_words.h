@@ -56,6 +56,9 @@ bool IsWord(std::string_view said, Word word);
 /// "No. 1 [degC]", "Temp. Nr. 1".
 bool StatesTemperature(std::string_view column);
 
+/// True also if the name implies a temperature without a word for it: "T1".
+bool NamesTemperature(std::string_view column);
+
 /// True if the whole name is such a word, apart from words like "no" and
 /// "number". "Cycle No." counts cycles, but "elapsed_cycles" is something else.
 bool IsCalled(std::string_view column, Word word);
@@ -65,17 +68,16 @@ bool IsCalled(std::string_view column, Word word);
 bool SaysPhrase(std::string_view column, Word word);
 
 /// Returns the sign of an error, judged by its name. 1: an error ("deviation",
-/// "actual
-/// - nominal", "EXX"). -1: its opposite ("correction", "minus error", "nominal
-/// - actual", an unknown difference). 0: not an error.
+/// "EXX", "actual - nominal"). -1: its opposite ("correction", "minus error",
+/// "nominal - actual", an unknown difference). 0: not an error.
 int ErrorSign(std::string_view column);
 
 /// True if a name begins like that of an error and is not a temperature ("Error
 /// amp. [degC]").
 bool BeginsAsError(std::string_view column);
 
-/// True if a column has a unit that only errors have. A name of one letter does
-/// not count: it may be a position.
+/// True if a column has a unit that only errors have. The letter of an axis
+/// does not count: it may be a position.
 bool IsInUnitOfErrors(std::string_view column);
 
 /// True if a column's name is that of a position: "position_mm", "x_pos_mm",

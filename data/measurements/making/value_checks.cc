@@ -42,9 +42,8 @@ std::optional<std::string> LikelyFahrenheit(
   std::vector<std::string> names;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const std::string& name = inputs[i].name;
-    if (ReadHeader(name).source == UnitSource::kStated ||
-        !(inputs[i].unit.quantity == Quantity::kTemperature ||
-          StatesTemperature(name))) {
+    if (!NamesTemperature(name) ||
+        ReadHeader(name).source == UnitSource::kStated) {
       continue;
     }
     const auto column = values.col(static_cast<Eigen::Index>(i));

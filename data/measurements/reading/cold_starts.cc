@@ -63,11 +63,9 @@ std::vector<Warmth> WarmthOfThermometers(const CsvTable& table,
                                          const std::vector<Index>& rows) {
   std::vector<Warmth> found;
   for (const CsvColumn& column : table.columns) {
-    const Unit unit = UnitOfColumn(column.name);
-    const bool is_thermometer = unit.quantity == Quantity::kTemperature ||
-                                StatesTemperature(column.name);
-    if (!is_thermometer || !column.exceptions.empty()) continue;
-    if (auto warmth = WarmthOf(ValuesOfRows(column, rows), unit)) {
+    if (!NamesTemperature(column.name) || !column.exceptions.empty()) continue;
+    if (auto warmth =
+            WarmthOf(ValuesOfRows(column, rows), UnitOfColumn(column.name))) {
       found.push_back(*std::move(warmth));
     }
   }

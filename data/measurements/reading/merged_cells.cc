@@ -6,12 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "data/column_header.h"
 #include "data/column_words.h"
 #include "data/columns.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
-#include "data/units.h"
 
 namespace errmap::data {
 
@@ -37,10 +35,7 @@ std::vector<std::size_t> FilledRows(const CsvTable& table,
 bool IsReadSeldom(const std::string& name,
                   const std::vector<std::size_t>& rows) {
   constexpr std::size_t kFewestReadings = 3;
-  const bool is_temperature =
-      UnitOfColumn(name).quantity == Quantity::kTemperature ||
-      StatesTemperature(name);
-  if (!is_temperature || rows.size() < kFewestReadings) return false;
+  if (!NamesTemperature(name) || rows.size() < kFewestReadings) return false;
   const std::size_t step = rows[1] - rows[0];
   for (std::size_t i = 1; i < rows.size(); ++i) {
     if (rows[i] - rows[i - 1] != step) return false;

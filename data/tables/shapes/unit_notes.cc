@@ -75,8 +75,7 @@ bool AreTooMuch(const CsvColumn& column, const std::string& unit) {
 
 // The unit that a note gives a column whose name has none; "" for none.
 std::string UnitFor(const CsvColumn& column, const UnitNote& note) {
-  if (StatesTemperature(column.name) ||
-      UnitOfColumn(column.name).quantity == Quantity::kTemperature) {
+  if (NamesTemperature(column.name)) {
     return note.of_all || note.of_temperatures ? note.temperature : "";
   }
   if (ErrorSign(column.name) != 0) {
