@@ -13,7 +13,8 @@ std::vector<Index> AllIndices(Index count);
 /// no more. One is drawn from each of `most` equal stretches, the same at every
 /// call. The first and the last index are always included. Even steps could
 /// coincide with patterns in the rows: if positions repeat every 20 rows, every
-/// 20th row has the same position.
+/// 20th row has the same position, and a hold-out of every fifth row never
+/// tests it.
 std::vector<Index> SpreadSample(Index count, Index most);
 
 /// Returns the elements of `all` at these indices.

@@ -23,11 +23,10 @@ using VectorOf = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 /// Returns the statistics of `errors` (P x J, P >= 1), computed in the order of
 /// NISTIR 5367, Appendix A, and in this precision (float, as in the program, or
 /// double). As in the program, sums are divided by loop variables that ended
-/// one past their limits ((P+1)(J+1) instead of P J), and the error function is
-/// a rational approximation. The K-S test uses the first output with the mean
-/// and sd of all, and truncates its series where the program does. For
-/// reproducing the report only. Throws std::invalid_argument if there are no
-/// errors.
+/// one past their limits ((P+1)(J+1) instead of P J). The error function is a
+/// rational approximation. The K-S test uses the first output with the mean and
+/// sd of all, and truncates its series where the program does. For reproducing
+/// the report only. Throws std::invalid_argument if there are no errors.
 template <typename Scalar>
 Report1995Statistics StatisticsOf1995(const MatrixOf<Scalar>& errors);
 

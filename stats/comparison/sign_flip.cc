@@ -90,17 +90,15 @@ std::array<SignsOfByte, 256> SignsOfBytes() {
 void DrawSigns(Random* random, MatrixXd* signs) {
   static const auto kSigns = SignsOfBytes();
   constexpr int kBytes = 4;
-  std::uint64_t bits = 0;
-  for (Index at = 0, left = 0; at < signs->size(); --left) {
-    if (left == 0) {
-      bits = random->Below(std::uint64_t{1} << (8 * kBytes));
-      left = kBytes;
+  for (Index at = 0; at < signs->size();) {
+    std::uint64_t bits = random->Below(std::uint64_t{1} << (8 * kBytes));
+    for (int byte = 0; byte < kBytes && at < signs->size(); ++byte) {
+      const SignsOfByte& drawn = kSigns[bits & 0xFFU];
+      const Index size = std::min(std::ssize(drawn), signs->size() - at);
+      std::copy_n(drawn.begin(), size, signs->data() + at);
+      bits >>= 8U;
+      at += size;
     }
-    const SignsOfByte& drawn = kSigns[bits & 0xFFU];
-    const Index size = std::min(std::ssize(drawn), signs->size() - at);
-    std::copy_n(drawn.begin(), size, signs->data() + at);
-    bits >>= 8U;
-    at += size;
   }
 }
 
