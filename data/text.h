@@ -71,7 +71,8 @@ std::string JoinWords(const std::vector<std::string>& words,
                       std::string_view between);
 
 /// Returns the text as UTF-8. Text that is not valid UTF-8 is read as Latin-1,
-/// the form of spreadsheets on western Windows, so that a degree sign survives.
+/// the encoding of spreadsheets on western Windows, so that a degree sign
+/// survives.
 std::string AsUtf8(std::string_view text);
 
 /// "did you mean 'compare'? ", or "" if no candidate is near (NearestName).

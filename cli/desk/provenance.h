@@ -26,7 +26,7 @@ std::string ShownNames(const std::vector<std::string>& files);
 models::ProvenanceRecord MakeProvenance(const std::string& command_line,
                                         const std::vector<InputFile>& inputs);
 
-/// Makes the provenance of a model file from plain texts: "command_line",
+/// Makes the provenance of a model file, as plain texts: "command_line",
 /// "data", "data_sha256", "rows", "seed", "compiler", "libraries", "platform".
 /// Further data files are "data_2", "data_2_sha256", ...
 models::Provenance ModelProvenance(const std::string& command_line,

@@ -7,9 +7,9 @@ namespace errmap::netcg {
 
 /// E(w) and its gradient, computed as by subroutines FORWARD and FUNC of NISTIR
 /// 5367, Appendix A. Every sum has the program's order and precision, and the
-/// logistic function is 0 below -40. So results agree to the last digit.
-/// Weights w (N): w1 (H x (I+1)) column by column, then w2 (J x (H+1)) in the
-/// same way; the last column of each is the bias.
+/// logistic function is 0 below -40. So results agree with the program's to the
+/// last digit. Weights w (N): w1 (H x (I+1)) column by column, then w2 (J x
+/// (H+1)) in the same way; the last column of each is the bias.
 template <typename Scalar>
 class NetcgObjective final : public fitting::BasicObjective<Scalar> {
  public:

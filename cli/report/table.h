@@ -33,7 +33,7 @@ struct Error {
   double value;
   double scale = 1.0;
 };
-/// A 95 % interval of an error `of`, if that is known.
+/// A 95 % interval of an error, whose value is `of` if known.
 struct Interval {
   models::IntervalRecord ends;
   double of = models::kNotKnown;

@@ -73,7 +73,8 @@ class Option {
   const Option& Required(bool required = true) const;
   /// Sets the placeholder of its value in help: "FILE.csv".
   const Option& Value(const std::string& name) const;
-  /// Shows this default in help, or by default the variable's current value.
+  /// Shows a default in help: this text, or with ShowDefault the variable's
+  /// current value.
   const Option& Default(const std::string& text) const;
   const Option& ShowDefault() const;
   /// Accepts whole numbers from `low` to `high`.

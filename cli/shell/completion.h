@@ -24,8 +24,8 @@ struct Completion {
   bool folders = false;   // only names of folders
 };
 
-/// Completes the last of `words`, which are those from the program's name to
-/// the cursor; it may be "". Offers commands, options, an option's allowed
+/// Completes the last of `words`, which are those between the program's name
+/// and the cursor; it may be "". Offers commands, options, an option's allowed
 /// words, models with their options, hold-outs, and the columns of the data
 /// file named before.
 Completion Complete(const ProgramReference& program,

@@ -7,7 +7,7 @@
 
 namespace errmap::turning_centre {
 
-/// A body of a thermal network, with one temperature.
+/// A lumped body of a thermal network: it has one temperature.
 struct ThermalBody {
   std::string name;
   double heat_capacity = 0.0;    // J/K, > 0

@@ -13,8 +13,8 @@ namespace errmap::turning_centre {
 
 inline constexpr std::size_t kNumThermocouples = 40;
 
-/// A line of NISTIR 5367, Table 1, with the place that the sensor measures
-/// here.
+/// A line of NISTIR 5367, Table 1, with the bodies whose temperature the sensor
+/// reads here.
 struct ThermocoupleSite {
   std::string_view location;  // as the table has it
   std::string_view axis;      // "x", "z", "spindle", "bed" or "none"

@@ -51,12 +51,14 @@ struct FoundSessions {
 /// one, rows are counted. Sessions are the column named, else each of several
 /// files (kFileColumn), unless one clock continues through all. Otherwise they
 /// are the first usable column with a name in kSessionColumns or another word
-/// for sessions and runs, else the only column of dates, if time has none.
-/// Without one, a session ends where time goes back or at a night (Nights). If
-/// that gives one session, they end where a count of cycles restarts. A word
-/// that recurs after another ("day", "night", "day") begins a new session. A
-/// default column that is unusable is skipped with a remark. "none" means no
-/// column, unless one has that name. The target and the weight are never used.
+/// for sessions and runs. Without one, they are the only column of dates, if
+/// time has none. Without columns, a session ends where time goes back or at a
+/// night (Nights). If that gives one session, they end where a count of cycles
+/// restarts. Without times and such a count, a column of blocks or a fall of
+/// temperatures (FindColdStarts) divides the rows. A word that recurs after
+/// another ("day", "night", "day") begins a new session. A default column that
+/// is unusable is skipped with a remark. "none" means no column, unless one has
+/// that name. The target and the weight are never used.
 ///
 /// Throws InputError, with row and remedy, if a named column is missing, is the
 /// target or the weight, holds no times, or is not in order. Also if a cell is

@@ -22,9 +22,9 @@ struct GradientDescentOptions {
 /// Included to show why the report abandoned it. The cost may rise; the result
 /// is the best point found.
 ///
-/// Ends like ScaledConjugateGradient. Ends with kNoDescent if the steps leave
-/// the region where the objective is finite, or if the gradient is small at a
-/// point that is not the best found.
+/// Ends like ScaledConjugateGradient. Ends with kNoDescent if a step makes the
+/// objective infinite or NaN, or if the gradient is small at a point that is
+/// not the best found.
 class GradientDescent final : public Optimizer {
  public:
   /// Throws std::invalid_argument if an option is out of range.

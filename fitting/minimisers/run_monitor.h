@@ -64,8 +64,9 @@ class RunMonitor {
     }
   }
 
-  /// Ends the run if `evaluations` plus another `needed` would exceed a limit.
-  /// Called before each pass, so that limits always hold.
+  /// Ends the run if it was interrupted, or if a limit (iterations,
+  /// evaluations, time) forbids another pass of at most `needed` evaluations
+  /// after `evaluations`. Called before each pass, so that limits always hold.
   bool StopAtLimit(std::int64_t evaluations, std::int64_t needed) {
     const auto limit = Exhausted(evaluations, needed);
     if (!limit) return false;

@@ -53,8 +53,8 @@ struct ScaledConjugateGradientOptions {
 /// first failure after a success needs another value. Six failures in a row
 /// restart it from steepest descent; 61 along steepest descent end it. A step
 /// to a non-finite cost or gradient is a failure; a quarter of it is tried
-/// next. Before it ends, it recomputes cost and gradient. A goal that this does
-/// not confirm does not end the run.
+/// next. Before it ends, it recomputes cost and gradient at the result. A goal
+/// that this does not confirm does not end the run.
 ///
 /// kNetcg takes curvature from a difference of gradients over sigma |w| /
 /// |p|. It multiplies lambda by 4 after a failure, by 16 after a poor

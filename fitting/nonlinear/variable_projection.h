@@ -7,8 +7,8 @@
 
 namespace errmap::fitting {
 
-/// A regression without its conditionally linear parameters c. For given other
-/// parameters a, c is the least squares solution, so that
+/// A regression with its conditionally linear parameters c eliminated. For
+/// given other parameters a, c is the least squares solution, so that
 ///
 ///   f(a) = min over c of 1/2 |r(a, c)|^2
 ///

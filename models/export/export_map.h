@@ -38,8 +38,8 @@ inline constexpr std::size_t kLongestMapName = 40;
 /// decreasing positions, with its controller. Compares it with each map. Throws
 /// std::invalid_argument as MakeMapProgram, JoinedPrograms and AddController.
 /// Also throws if the name is not a safe identifier of at most kLongestMapName
-/// characters, or if single precision loses more than AllowedDeviation within
-/// the trained range.
+/// characters. It throws, too, if single precision loses more than
+/// AllowedDeviation within the trained range.
 MapExport PrepareExport(const std::vector<const FittedModel*>& maps,
                         const std::string& name,
                         Precision precision,

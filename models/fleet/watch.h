@@ -137,14 +137,14 @@ std::optional<MapJudgement> JudgeSessions(
 /// component separately, however many are watched.
 inline constexpr double kSurelyChanged = 0.0025;
 /// To be worse, the error must exceed the promise by the difference that never
-/// matters. The error, or the promise plus its offset, must also exceed the
-/// promise by this share.
+/// matters. The larger of the error and hypot(promise, offset of the error)
+/// must also exceed the promise by this share.
 inline constexpr double kLeastWorse = 0.2;
 /// `indifference` in the unit of the judgement.
 bool IsWorse(const MapJudgement& judgement, double indifference);
 /// If p is below this and the error exceeds the promise as above, the map is
-/// doubtful until one more session. It is also doubtful if the error is three
-/// times the promise, since few sessions do not show how rare that is.
+/// doubtful until one more session decides. It is also doubtful if the error is
+/// three times the promise, since few sessions do not show how rare that is.
 inline constexpr double kDoubtful = 0.02;
 bool IsDoubtful(const MapJudgement& judgement, double indifference);
 

@@ -53,9 +53,9 @@ class SessionOffsets {
   VectorXd weights_;  // (sessions)
 };
 
-/// Beyond this share outside an input's trained range, a shrunk map is linear
-/// in the input. Further out, a parabola predicts nothing useful, while a
-/// straight line through the same data still holds
+/// Where an input is outside its trained range by more than this share of it, a
+/// shrunk map is linear in the input. Further out, a parabola predicts nothing
+/// useful, while a straight line through the same data still holds
 /// (models/uncertainty/measured.md). Exact least squares (Eq. 7 to 9 and
 /// similar) are limited only by their guards.
 inline constexpr double kBendMargin = 0.1;

@@ -30,9 +30,9 @@ struct Holdout {
   std::vector<stats::Fold> folds;
   /// file:TEST.csv, or null.
   std::shared_ptr<const data::Dataset> test_data;
-  /// Number of those rows that the data set also contains. The model was fitted
-  /// to them, so their errors say nothing about another day; among_neighbours
-  /// is then set.
+  /// Number of rows of that file that the data set also contains. The model was
+  /// fitted to them, so their errors say nothing about another day;
+  /// among_neighbours is then set.
   Index rows_of_training = 0;
   /// The inner hold-out for choices inside the training rows of a fold.
   InnerHoldout inner = InnerHoldout::kDecisive;

@@ -105,8 +105,8 @@ struct ComponentSummary {
   std::string key;
   ModelStatus status = ModelStatus::kFailed;
   LeftOut<std::string> why;  // it failed
-  /// Names of the two components, one per direction of motion, as which it was
-  /// studied. The data below are then in their summaries.
+  /// Names of the two components, one per direction of motion, if it was
+  /// studied as two. Their summaries then have the data below.
   LeftOut<std::vector<std::string>> ways;
   std::string file;
   std::string sha256;

@@ -46,8 +46,7 @@ struct Check {
   double p_map = 0.0;  // NaN: not judged
   models::WatchStatus status = models::WatchStatus::kNotJudged;
 
-  /// True if `part` is the beginning of this session, which was measured
-  /// further.
+  /// True if `part` is the beginning of this session, which has gone on since.
   bool GoesOnFrom(const Check& part) const {
     return !begins_sha256.empty() && begins_sha256 == part.begins_sha256 &&
            session.rows > part.session.rows;

@@ -121,8 +121,8 @@ std::vector<Figure> TrainingFigures(const ReportView& view,
 
 /// The recommended map's effect on the machine's error, on held-out rows. Shows
 /// the error over position before and after, the remaining error over the time
-/// of day, and the error by day or cycle, with the difference of the worst one.
-/// Omits figures that the data do not allow.
+/// of day, and the error by day or cycle. The last shows how the worst one
+/// differs. Omits figures that the data do not allow.
 std::vector<Figure> CompensationFigures(const ReportView& view,
                                         const std::string& prefix);
 

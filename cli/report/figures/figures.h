@@ -32,7 +32,7 @@ struct Figure {
   Plot plot;  // plot.name: "c1-gap", unique in the report
 };
 
-/// Amount of figures for each component.
+/// Selects how many figures each component gets.
 enum class FigureDetail { kFull, kSome, kBrief };
 
 /// The figures of one component.

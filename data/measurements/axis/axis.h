@@ -26,8 +26,8 @@ struct Axis {
   std::vector<std::size_t> numbers;    // whole numbers that go with it
 };
 
-/// Returns the column that `selection` names, else the one whose values recur
-/// like commanded ones and whose name or unit confirms it, else one with the
+/// Returns the column that `selection` names. Otherwise the one whose values
+/// recur like commanded ones, confirmed by its name or unit, else one with the
 /// name of a position. `target` is an index into the table.
 Axis FindAxis(const CsvTable& table,
               const DatasetSelection& selection,

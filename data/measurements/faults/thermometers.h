@@ -17,7 +17,7 @@ inline constexpr Eigen::Index kFewestRows = 12;
 /// Thresholds of jumps and steps, in multiples of the column's noise.
 inline constexpr double kJumpNoise = 20.0;
 
-/// Number of other thermometers used in a comparison.
+/// Fewest other thermometers for a comparison.
 inline constexpr std::size_t kFewestOthers = 3;
 
 /// A temperature column without its faulty cells.

@@ -16,8 +16,8 @@ namespace errmap::data {
 std::optional<std::string> UnlikelySize(const ColumnInfo& target,
                                         const Eigen::VectorXd& values);
 
-/// Returns a remark on thermometers that nobody gave a unit, if they read as a
-/// shop and a warm machine do in degF.
+/// Returns a remark on thermometers without a unit whose readings are those of
+/// a shop and a warm machine in degF.
 std::optional<std::string> LikelyFahrenheit(
     const std::vector<ColumnInfo>& inputs, const Eigen::MatrixXd& values);
 

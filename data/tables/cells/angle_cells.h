@@ -7,12 +7,12 @@
 
 namespace errmap::data {
 
-/// Reads an angle in degrees, minutes and, if it has them, seconds
-/// ("-27\u00b030'15.5\"", "27\u00b0 30.5'"), in degrees.
+/// Returns an angle in degrees, read from degrees, minutes and, if present,
+/// seconds ("-27°30'15.5"", "27° 30.5'"). Nothing for other cells.
 std::optional<double> ReadAngle(std::string_view cell, bool decimal_comma);
 
-/// Converts columns whose cells are all such angles, or missing. "[deg]"
-/// becomes part of the name.
+/// Converts columns whose cells are all such angles, or missing, to degrees.
+/// Adds "[deg]" to their names.
 void TakeAngleCells(bool decimal_comma, CsvTable* table);
 
 }  // namespace errmap::data

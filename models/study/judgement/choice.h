@@ -46,9 +46,9 @@ std::optional<std::size_t> BestOf(const HoldoutComparison& comparison,
 /// unit.
 double MarginOf(const HoldoutComparison& comparison, double indifference);
 
-/// Returns true if no model is better than `baseline` by more than the margin.
+/// Checks whether no model is better than `baseline` by more than the margin.
 /// Even the lowest error may be due to chance, so the bound is checked, too.
-/// Returns false without another model.
+/// Without another model, nothing can be established.
 Confidence ThatNothingIsBetter(const HoldoutComparison& comparison,
                                const StudyResult& study,
                                std::size_t baseline,
