@@ -19,20 +19,20 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/desk/provenance.h"
 #include "cli/report/shell_word.h"
 #include "cli/shell/command_reference.h"
 #include "cli/shell/completion.h"
 #include "cli/shell/help_text.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/slice.h"
+#include "cli/study_setup/provenance.h"
 #include "data/argument_name.h"
 #include "data/files/atomic_file.h"
 #include "data/files/shown_path.h"
 #include "data/input_error.h"
 #include "data/measurements/reading/reading.h"
 #include "data/text.h"
-#include "models/study/record/making/make_provenance.h"
+#include "models/study/record/builders/make_provenance.h"
 #include "models/version.h"
 
 namespace errmap::cli {
@@ -296,7 +296,7 @@ void AddHelpCommand(CLI::App* app) {
 
 // A line on the compiler and the machine, and one per library.
 std::string MadeWith() {
-  const models::ProvenanceRecord made = desk::MakeProvenance("", {});
+  const models::ProvenanceRecord made = study_setup::MakeProvenance("", {});
   std::string text = made.compiler + "; " + made.platform + "\n";
   for (const auto& [name, version] : made.libraries) {
     text += fmt::format("{} {}\n", name, version);

@@ -13,8 +13,8 @@ std::string DumpJson(const Json& document) {
 
 Json ProvenanceJson(const std::string& command_line,
                     const Json& configuration,
-                    const std::vector<desk::InputFile>& inputs) {
-  Json json = models::ToJson(desk::MakeProvenance(command_line, inputs));
+                    const std::vector<study_setup::InputFile>& inputs) {
+  Json json = models::ToJson(study_setup::MakeProvenance(command_line, inputs));
   json["configuration"] = configuration;
   return json;
 }

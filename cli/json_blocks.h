@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/desk/provenance.h"
+#include "cli/study_setup/provenance.h"
 
 namespace errmap::cli {
 
@@ -21,6 +21,6 @@ std::string DumpJson(const Json& document);
 /// including defaults; null if there are none.
 Json ProvenanceJson(const std::string& command_line,
                     const Json& configuration,
-                    const std::vector<desk::InputFile>& inputs);
+                    const std::vector<study_setup::InputFile>& inputs);
 
 }  // namespace errmap::cli

@@ -179,7 +179,7 @@ inline Bounds Widened(double min, double max, double margin) {
 
 /// Bounds to which a map's inputs and predictions are clipped. A column that
 /// hardly moved in training may move far on another day.
-struct Guards {
+struct ClampLimits {
   /// Inputs of the form are clipped to their range, Widened by this.
   double input_margin = 2.0;
   /// Predictions are clipped to the target's range, Widened by this.
@@ -197,13 +197,13 @@ struct Guards {
   }
 };
 
-/// Returns Guards with default margins at the trained range of the form's
+/// Returns ClampLimits with default margins at the trained range of the form's
 /// inputs and of `targets` (at least one). If the map extrapolates in an input
 /// that only increases, the error may leave its range by the width of that
 /// range.
-Guards MakeGuards(const std::vector<TrainedInput>& form_inputs,
-                  const VectorXd& targets,
-                  bool grows = false);
+ClampLimits MakeClampLimits(const std::vector<TrainedInput>& form_inputs,
+                            const VectorXd& targets,
+                            bool grows = false);
 
 struct Prediction {
   VectorXd errors;  // (m) target's unit
@@ -235,7 +235,7 @@ struct FittedModel {
   /// Derives the inputs of the form (models/history/history.h). Null: the form
   /// reads `inputs` as they are.
   std::shared_ptr<const History> history;
-  std::optional<Guards> guards;  // empty: nothing is clipped
+  std::optional<ClampLimits> guards;  // empty: nothing is clipped
   /// RMSE on inner hold-outs of the options that the fit chose (target's unit).
   /// NaN if the fit chose nothing.
   double inner_rmse = stats::kNaN;

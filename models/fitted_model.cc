@@ -48,10 +48,10 @@ MatrixXd ColumnsByName(const data::Dataset& dataset,
 
 }  // namespace
 
-Guards MakeGuards(const std::vector<TrainedInput>& form_inputs,
-                  const VectorXd& targets,
-                  bool grows) {
-  Guards guards;
+ClampLimits MakeClampLimits(const std::vector<TrainedInput>& form_inputs,
+                            const VectorXd& targets,
+                            bool grows) {
+  ClampLimits guards;
   if (grows) guards.error_margin = 1.0;
   const auto size = std::ssize(form_inputs);
   guards.input_min.resize(size);

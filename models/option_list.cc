@@ -31,11 +31,11 @@ std::string RangeText(std::string_view what, Value least, Value most) {
 
 }  // namespace
 
-std::string Whole::values() const {
+std::string IntegerRange::values() const {
   return RangeText("a whole number", least, most);
 }
 
-std::optional<std::int64_t> Whole::Read(const std::string& text) const {
+std::optional<std::int64_t> IntegerRange::Read(const std::string& text) const {
   return ReadWhole<std::int64_t>(text);
 }
 

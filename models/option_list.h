@@ -34,7 +34,7 @@ struct OptionInfo {
 // Kinds of value. Each one reads words, checks the range, and writes a value so
 // that it reads back.
 
-struct Whole {
+struct IntegerRange {
   using Value = std::int64_t;
   std::int64_t least;
   std::int64_t most;  // no limit if the largest int64_t

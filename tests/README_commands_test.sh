@@ -54,7 +54,7 @@ gallery)
   pages="data/sets/examples.md"
   ;;
 developers)
-  pages="README.md cli/desk/README.md models/README.md
+  pages="README.md cli/study_setup/README.md models/README.md
   models/polynomial/README.md models/net/README.md models/history/README.md
   models/study/README.md models/uncertainty/README.md \
   models/uncertainty/measured.md models/session/README.md \

@@ -41,7 +41,7 @@ SKIPPED = 77
 MOST_FILES = {"column": 1, "format": 1, "holdout": 3, "problem": 2,
               "filter": 4, "remark": 1}
 # Likewise, without what they make, and the headers of their lists.
-OF_STRUCTS = {"option": (3, "cli/desk/study_options.h"),
+OF_STRUCTS = {"option": (3, "cli/study_setup/study_options.h"),
               "family": (6, "models/file/map_members_json.h")}
 
 

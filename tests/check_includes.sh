@@ -65,7 +65,7 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
                                          "data/files " \
                                          "data/measurements/axis " \
                                          "data/measurements/faults "
-    rooms["data/measurements/making"] = rooms["data/measurements/reading"]
+    rooms["data/measurements/builders"] = rooms["data/measurements/reading"]
     rooms["data/formats"] = " data data/files data/measurements "
     rooms["models"] = ""
     rooms["models/history"] = " models "
@@ -86,7 +86,7 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
                                    "models/study/judgement " \
                                    "models/study/rezero models/export " \
                                    "models/export/program "
-    rooms["models/study/record/making"] = rooms["models/study/record"] \
+    rooms["models/study/record/builders"] = rooms["models/study/record"] \
                                           "models/study/record "
     rooms["models/sensors"] = rooms["models/study"] "models/study " \
                               "models/study/judgement "
@@ -108,19 +108,19 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     # Libraries of their own: a record as words, tables, figures, pages.
     rooms["cli/report"] = ""
     rooms["cli/report/figures"] = " cli/report "
-    rooms["cli/report/words/answers"] = rooms["cli/report/figures"]
-    rooms["cli/report/words/commands"] = rooms["cli/report/words/answers"] \
-                                         "cli/report/words/answers "
-    rooms["cli/report/tables"] = rooms["cli/report/words/commands"] \
-                                 "cli/report/words/commands "
+    rooms["cli/report/text/answers"] = rooms["cli/report/figures"]
+    rooms["cli/report/text/commands"] = rooms["cli/report/text/answers"] \
+                                         "cli/report/text/answers "
+    rooms["cli/report/tables"] = rooms["cli/report/text/commands"] \
+                                 "cli/report/text/commands "
     rooms["cli/report/documents"] = rooms["cli/report/tables"] \
                                     "cli/report/tables cli/report/figures "
     # What a study or a machine is given, and its run.
-    rooms["cli/desk"] = rooms["cli/report/documents"] "cli/report/documents "
-    rooms["cli/desk/plan"] = rooms["cli/desk"] "cli/desk "
-    rooms["cli/desk/toml"] = rooms["cli/desk/plan"] "cli/desk/plan "
+    rooms["cli/study_setup"] = rooms["cli/report/documents"] "cli/report/documents "
+    rooms["cli/study_setup/plan"] = rooms["cli/study_setup"] "cli/study_setup "
+    rooms["cli/study_setup/toml"] = rooms["cli/study_setup/plan"] "cli/study_setup/plan "
     # The command line, which is linked with all of them.
-    rooms["cli"] = rooms["cli/desk/toml"] "cli/desk/toml "
+    rooms["cli"] = rooms["cli/study_setup/toml"] "cli/study_setup/toml "
     rooms["cli/shell"] = rooms["cli"] "cli "
     rooms["cli/output"] = rooms["cli/shell"] "cli/shell "
     rooms["cli/commands"] = rooms["cli/output"] "cli/output "
@@ -176,7 +176,7 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     room = room_of(FILENAME)
     public_header = is_header &&
         (folder ~ /^(stats|data|fitting|models)$/ ||
-         room ~ /^cli\/(report|desk|machine)$|^cli\/(report|desk)\//)
+         room ~ /^cli\/(report|study_setup|machine)$|^cli\/(report|study_setup)\//)
     print "checked"
     if (folder != "tests" && !(room in rooms)) {
       violation("the room " room "/ is not known to this check")
@@ -184,8 +184,8 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
   }
 
   # Of the library, only the report and the page of a store print commands to
-  # type; a desk reads them.
-  (folder ~ /^(stats|data|fitting|models)$/ || room ~ /^cli\/(desk|fleet\/run)|^cli\/(machine|netcg|turning_centre)$/) &&
+  # type; a study_setup reads them.
+  (folder ~ /^(stats|data|fitting|models)$/ || room ~ /^cli\/(study_setup|fleet\/run)|^cli\/(machine|netcg|turning_centre)$/) &&
   /"([^"\\]|\\.)*--[a-z]/ && !/^[ \t]*\/\// {
     violation("a flag is named in a text; see data/argument_name.h")
   }
@@ -263,12 +263,12 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
       violation("<" name "> belongs in models/*.cc and cli/")
       next
     }
-    if (name ~ /^toml\+\+\// && FILENAME !~ /^cli\/desk\/toml\//) {
-      violation("<" name "> belongs in cli/desk/toml/")
+    if (name ~ /^toml\+\+\// && FILENAME !~ /^cli\/study_setup\/toml\//) {
+      violation("<" name "> belongs in cli/study_setup/toml/")
       next
     }
     # Nor is how TOML is read.
-    if (FILENAME ~ /^cli\/desk\/toml\/toml_(keys|parser)\.h$/) next
+    if (FILENAME ~ /^cli\/study_setup\/toml\/toml_(keys|parser)\.h$/) next
     if (name ~ /^sqlite3/ && FILENAME !~ /^data\/files\/sqlite[^\/]*\.cc$/) {
       violation("<" name "> belongs in data/files/sqlite*.cc")
       next

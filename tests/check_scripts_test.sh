@@ -25,7 +25,7 @@ good_tree() {
   rm -rf "$tree"
   mkdir -p "$tree/stats" "$tree/data" "$tree/fitting/minimisers" \
     "$tree/models/study" "$tree/models/net" "$tree/cli/report" \
-    "$tree/cli/desk" \
+    "$tree/cli/study_setup" \
     "$tree/cli/output" "$tree/tests/benchmarks"
   printf '%s\n' '#pragma once' '#include <vector>' '#include <Eigen/Core>' \
     >"$tree/stats/summary.h"
@@ -54,7 +54,7 @@ good_tree() {
   printf '%s\n' '#pragma once' '#include "models/study/study.h"' \
     >"$tree/cli/report/page.h"
   printf '%s\n' '#pragma once' '#include "cli/report/page.h"' \
-    >"$tree/cli/desk/config.h"
+    >"$tree/cli/study_setup/config.h"
   printf '%s\n' '#pragma once' '#include "fitting/minimisers/optimizer.h"' \
     >"$tree/tests/test_problems.h"
   printf '%s\n' '#include <gtest/gtest.h>' '#include <nlohmann/json.hpp>' \
@@ -97,7 +97,7 @@ violation fitting/minimisers/ceres_optimizer.cc '#include "cli/output/report.h"'
 violation models/study/study.cc '#include "cli/output/report.h"'
 violation models/study/study.cc '  #  include "cli/output/report.h"  // indented'
 violation cli/report/page.h '#include "cli/output/report.h"'
-violation cli/desk/config.h '#include "cli/output/report.h"'
+violation cli/study_setup/config.h '#include "cli/output/report.h"'
 # Flags in texts.
 violation data/csv.h 'const char* kAdvice = "name it with --target";'
 violation models/study/study.cc '  "a \"b\" with --keep-dead");'
@@ -110,13 +110,13 @@ check_includes || fail "check_includes refuses flags where they may be"
 # Between rooms: upwards, sideways, unknown, and from the root of a folder.
 violation models/net/net.h '#include "models/study/study.h"'
 violation models/study/study.cc '#include "cli/report/page.h"'
-violation cli/report/page.h '#include "cli/desk/config.h"'
-violation cli/desk/config.h '#include "cli/desk/toml/keys.h"'
+violation cli/report/page.h '#include "cli/study_setup/config.h"'
+violation cli/study_setup/config.h '#include "cli/study_setup/toml/keys.h"'
 violation models/kind.h '#include "models/net/net.h"'
 violation fitting/minimisers/optimizer.h '#include "fitting/nonlinear/fit.h"'
 # From the core to a slice.
 violation cli/output/report.h '#include "cli/machine/machine_file.h"'
-violation cli/desk/config.h '#include "cli/fleet/run/fleet_run.h"'
+violation cli/study_setup/config.h '#include "cli/fleet/run/fleet_run.h"'
 violation cli/report/page.h '#include "cli/machine/record/machine_record.h"'
 cases=$((cases + 1))
 good_tree
@@ -158,7 +158,7 @@ violation fitting/minimisers/ceres_optimizer.cc '#include <boost/math/tools/root
 violation stats/summary.h '#include <boost/math/tools/roots.hpp>'
 violation models/study/study.cc '#include <CLI/CLI.hpp>'
 violation cli/output/report.cc '#include <toml++/toml.h>'
-violation cli/desk/config.h '#include <toml++/toml.h>'
+violation cli/study_setup/config.h '#include <toml++/toml.h>'
 violation cli/output/report.h '#include <CLI/App.hpp>'
 violation cli/output/report.cc '#include <CLI/CLI.hpp>'
 violation data/csv.h '#include <nlohmann/json.hpp>'

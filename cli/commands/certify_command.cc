@@ -6,7 +6,7 @@
 #include "cli/commands/data_arguments.h"
 #include "cli/json_blocks.h"
 #include "cli/report/number_text.h"
-#include "cli/report/words/commands/certify_text.h"
+#include "cli/report/text/commands/certify_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "models/certification/certification.h"
@@ -57,7 +57,7 @@ int RunCertify(const CertifyArguments& arguments,
   }
   if (certification.passed()) return kDone;
   const auto missed = std::ssize(certification.missed);
-  Say(
+  Warn(
       fmt::format("certify: {} missed, the first: {}; this installation is not "
                   "to be trusted",
                   report::Count(missed, "floor"),

@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "cli/command.h"
-#include "cli/report/words/commands/fault_text.h"
+#include "cli/report/text/commands/fault_text.h"
 #include "cli/shell/command_reference.h"
 #include "cli/shell/standard_streams.h"
 #include "data/files/shown_path.h"
@@ -54,7 +54,7 @@ std::string FlagOf(std::string_view key) {
   return flag;
 }
 
-void FlagAdder::operator()(const desk::StudyOption& option,
+void FlagAdder::operator()(const study_setup::StudyOption& option,
                            std::string& text) const {
   if (option.check == nullptr) {
     AddOption(command_, FlagOf(option.key), text, option.help);
@@ -72,7 +72,7 @@ void FlagAdder::operator()(const desk::StudyOption& option,
   Finish(option);
 }
 
-void FlagAdder::operator()(const desk::StudyOption& option,
+void FlagAdder::operator()(const study_setup::StudyOption& option,
                            std::vector<std::string>& names) const {
   AddOption(
       command_,
@@ -84,13 +84,14 @@ void FlagAdder::operator()(const desk::StudyOption& option,
   Finish(option);
 }
 
-void FlagAdder::operator()(const desk::StudyOption& option, bool& flag) const {
+void FlagAdder::operator()(const study_setup::StudyOption& option,
+                           bool& flag) const {
   AddFlag(command_, FlagOf(option.key), flag, option.help);
   Finish(option);
 }
 
-void FlagAdder::operator()(const desk::StudyOption& option,
-                           desk::GivenError& error) const {
+void FlagAdder::operator()(const study_setup::StudyOption& option,
+                           study_setup::GivenError& error) const {
   AddOption(
       command_,
       FlagOf(option.key),
@@ -102,7 +103,7 @@ void FlagAdder::operator()(const desk::StudyOption& option,
   Finish(option);
 }
 
-void FlagAdder::Finish(const desk::StudyOption& option) const {
+void FlagAdder::Finish(const study_setup::StudyOption& option) const {
   const Option added = FindOption(command_, FlagOf(option.key));
   if (*option.value != '\0') added.Value(option.value);
   if (!heading_.empty()) added.Under(heading_);
@@ -127,8 +128,8 @@ void AddDataArguments(CLI::App* command, DataArguments* arguments) {
       "another option differs")
       .Under(kDataOptions)
       .Seldom();
-  desk::ForSelectionOptions(arguments->selection,
-                            FlagAdder(command, kDataOptions));
+  study_setup::ForSelectionOptions(arguments->selection,
+                                   FlagAdder(command, kDataOptions));
   AddFlag(command,
           "--quiet",
           arguments->quiet,
@@ -146,9 +147,9 @@ void AddRowOptions(CLI::App* command,
                    data::MissingPolicy* missing,
                    data::FaultPolicy* faults) {
   const data::DatasetSelection all;
-  desk::ForSelectionOptions(
+  study_setup::ForSelectionOptions(
       all,
-      [&]<typename Member>(const desk::StudyOption& option,
+      [&]<typename Member>(const study_setup::StudyOption& option,
                            const Member& /*said*/,
                            const auto&... values) {
         const FlagAdder add(command, kDataOptions);
@@ -220,12 +221,12 @@ data::PreparedDataset ReadData(const DataArguments& arguments) {
   return prepared;
 }
 
-desk::GivenError ErrorOfFlag(const char* flag,
-                             const std::optional<std::string>& text,
-                             bool may_be_zero) {
+study_setup::GivenError ErrorOfFlag(const char* flag,
+                                    const std::optional<std::string>& text,
+                                    bool may_be_zero) {
   if (!text) return {};
   return data::ThrowingAs<UsageError>(flag + std::string(" "), [&] {
-    return desk::ParseGivenError(*text, may_be_zero);
+    return study_setup::ParseGivenError(*text, may_be_zero);
   });
 }
 
@@ -233,13 +234,13 @@ double GoalOrNone(const std::optional<std::string>& goal,
                   const data::ColumnInfo& target,
                   double size,
                   bool quiet) {
-  const desk::GivenError given = ErrorOfFlag("--goal", goal, false);
+  const study_setup::GivenError given = ErrorOfFlag("--goal", goal, false);
   if (!given.is_given()) return models::kNotKnown;
   const std::string remark =
-      desk::BareNumberRemark("goal", given, target, size);
+      study_setup::BareNumberRemark("goal", given, target, size);
   if (!remark.empty()) SayUnless(quiet, {remark});
   return data::ThrowingAs<UsageError>(
-      "--goal ", [&] { return desk::InUnitOf(target.unit, given); });
+      "--goal ", [&] { return study_setup::InUnitOf(target.unit, given); });
 }
 
 int JobsOf(int jobs) {
@@ -253,16 +254,16 @@ std::unique_ptr<models::ModelRecipe> RecipeFromArgument(
                                       [&] { return models::MakeRecipe(spec); });
 }
 
-void Say(const std::string& line) { WriteMessage(line); }
+void Warn(const std::string& line) { WriteMessage(line); }
 
 void SayUnless(bool quiet, const std::vector<std::string>& lines) {
   if (quiet) return;
-  for (const std::string& line : lines) Say(line);
+  for (const std::string& line : lines) Warn(line);
 }
 
 std::function<void(const std::string&)> Sayer(bool quiet) {
   if (quiet) return {};
-  return Say;
+  return Warn;
 }
 
 void AddKeepPathsFlag(CLI::App* command) {

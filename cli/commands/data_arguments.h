@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/desk/given_error.h"
-#include "cli/desk/study_options.h"
 #include "cli/shell/command_options.h"
+#include "cli/study_setup/given_error.h"
+#include "cli/study_setup/study_options.h"
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/history/map_log.h"
@@ -34,22 +34,23 @@ struct DataArguments {
 /// Returns the flag of a study file's key: "--keep-dead" for "keep_dead".
 std::string FlagOf(std::string_view key);
 
-/// Visits a list of cli/desk/study_options.h and adds the flag of each option
-/// to a command. The visited members must outlive the command.
+/// Visits a list of cli/study_setup/study_options.h and adds the flag of each
+/// option to a command. The visited members must outlive the command.
 class FlagAdder {
  public:
   explicit FlagAdder(CLI::App* command, std::string_view heading = {})
       : command_(command), heading_(heading) {}
 
-  void operator()(const desk::StudyOption& option, std::string& text) const;
+  void operator()(const study_setup::StudyOption& option,
+                  std::string& text) const;
   /// The flag's value is a list of names separated by commas.
-  void operator()(const desk::StudyOption& option,
+  void operator()(const study_setup::StudyOption& option,
                   std::vector<std::string>& names) const;
-  void operator()(const desk::StudyOption& option, bool& flag) const;
-  void operator()(const desk::StudyOption& option,
-                  desk::GivenError& error) const;
+  void operator()(const study_setup::StudyOption& option, bool& flag) const;
+  void operator()(const study_setup::StudyOption& option,
+                  study_setup::GivenError& error) const;
   template <typename Value>
-  void operator()(const desk::StudyOption& option,
+  void operator()(const study_setup::StudyOption& option,
                   Value& chosen,
                   const std::vector<Value>& values) const {
     AddChoice(command_, FlagOf(option.key), option.help, values, &chosen);
@@ -57,7 +58,7 @@ class FlagAdder {
   }
 
  private:
-  void Finish(const desk::StudyOption& option) const;
+  void Finish(const study_setup::StudyOption& option) const;
 
   CLI::App* command_;
   std::string_view heading_;
@@ -88,9 +89,9 @@ void AddFromRest(CLI::App* command, models::MapDataArguments* arguments);
 
 /// Parses the value of `flag`, such as "2um" or "0.002". Throws UsageError
 /// naming `flag`.
-desk::GivenError ErrorOfFlag(const char* flag,
-                             const std::optional<std::string>& text,
-                             bool may_be_zero);
+study_setup::GivenError ErrorOfFlag(const char* flag,
+                                    const std::optional<std::string>& text,
+                                    bool may_be_zero);
 
 /// Returns --goal in the target's unit, or NaN if it is not given. Unless
 /// `quiet`, prints a remark if a bare number is too large for errors of `size`
@@ -113,10 +114,10 @@ std::unique_ptr<models::ModelRecipe> RecipeFromArgument(
     const std::string& spec);
 
 /// Writes a message about the run to stderr: "errmap: ...".
-void Say(const std::string& line);
+void Warn(const std::string& line);
 /// Writes each of `lines` as a message, unless `quiet`.
 void SayUnless(bool quiet, const std::vector<std::string>& lines);
-/// Returns the function Say, or an empty one if `quiet`.
+/// Returns the function Warn, or an empty one if `quiet`.
 std::function<void(const std::string&)> Sayer(bool quiet);
 
 /// Adds --keep-paths to the help. The program reads it before any command runs.

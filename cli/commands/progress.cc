@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/desk/plan/study_forecast.h"
 #include "cli/report/wrap_text.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/study_setup/plan/study_forecast.h"
 
 namespace errmap::cli {
 
@@ -26,7 +26,7 @@ std::string ProgressText(const ProgressState& state, std::size_t width) {
   std::string left;
   if (std::isfinite(seconds_left) && state.done < state.all) {
     about = ", about ";
-    left = desk::RoughTimeText(seconds_left) + " left";
+    left = study_setup::RoughTimeText(seconds_left) + " left";
   }
   std::string whole = fits + elapsed + about + left;
   if (state.best.empty()) return whole;

@@ -7,14 +7,14 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/report/number_text.h"
-#include "cli/report/words/commands/residual_text.h"
-#include "cli/report/words/commands/residual_words.h"
+#include "cli/report/text/commands/residual_text.h"
+#include "cli/report/text/commands/residual_words.h"
 #include "cli/report/wrap_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/study_setup/provenance.h"
 #include "data/column_header.h"
 #include "data/columns.h"
 #include "data/csv.h"
@@ -25,7 +25,7 @@
 #include "data/measurements/dataset.h"
 #include "data/text.h"
 #include "models/record_json.h"
-#include "models/study/record/making/parts.h"
+#include "models/study/record/builders/parts.h"
 #include "stats/error_metrics.h"
 #include "stats/not_a_number.h"
 #include "stats/report_1995.h"
@@ -91,7 +91,7 @@ Column FindColumn(const data::CsvTable& table,
     try {
       return ReadColumn(table, column.name, arguments);
     } catch (const data::InputError& error) {
-      Say(fmt::format("{}: left out: {}", column.name, error.what()));
+      Warn(fmt::format("{}: left out: {}", column.name, error.what()));
     }
     return {};
   }
@@ -268,7 +268,7 @@ int RunResiduals(const ResidualsArguments& arguments,
     document["provenance"] =
         ProvenanceJson(command_line,
                        ConfigurationJson(arguments, inputs),
-                       {desk::HashInput(arguments.file)});
+                       {study_setup::HashInput(arguments.file)});
     PrintResult(DumpJson(document));
     return kDone;
   }

@@ -1,6 +1,6 @@
 # A fleet: studies of many components in one store.
 errmap_library(fleet
-  PUBLIC errmap_desk
+  PUBLIC errmap_study_setup
   PRIVATE fmt::fmt nlohmann_json::nlohmann_json)
 
 errmap_room(fleet fleet/run RUNS_ONCE

@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/desk/toml/toml_keys.h"
+#include "cli/study_setup/toml/toml_keys.h"
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
@@ -21,17 +21,17 @@ namespace errmap::machine {
 namespace {
 
 using data::QuotedName;
-using desk::Keys;
-using desk::NumberOf;
-using desk::ParseToml;
-using desk::Place;
-using desk::Refuse;
 using models::Branch;
 using models::ErrorDirection;
 using models::ErrorSource;
 using models::Joint;
 using models::KinematicLink;
 using models::MachineError;
+using study_setup::Keys;
+using study_setup::NumberOf;
+using study_setup::ParseToml;
+using study_setup::Place;
+using study_setup::Refuse;
 
 constexpr std::array kDirections = {ErrorDirection::kX,
                                     ErrorDirection::kY,

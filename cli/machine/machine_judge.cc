@@ -85,7 +85,7 @@ PositioningRecord RecordOf(const std::string& name,
 
 class MachineJudge {
  public:
-  MachineJudge(const MachineStudy& study, const desk::StudyRun& run)
+  MachineJudge(const MachineStudy& study, const study_setup::StudyRun& run)
       : study_(study),
         run_(run),
         poses_(MakeTruePoses(study.points, study.file.machine, study.session)),
@@ -461,8 +461,9 @@ class MachineJudge {
 
   // All rows, those of the later sessions too.
   data::Dataset DatasetOf(const ComponentStudy& component) const {
-    const auto config = std::ranges::find(
-        run_.config.components, component.name, &desk::ComponentConfig::name);
+    const auto config = std::ranges::find(run_.config.components,
+                                          component.name,
+                                          &study_setup::ComponentConfig::name);
     return data::MakeDataset(
                data::ReadCsv(config->data),
                models::SelectionLike(component.data.dataset, config->selection))
@@ -496,7 +497,7 @@ class MachineJudge {
   }
 
   const MachineStudy& study_;
-  const desk::StudyRun& run_;
+  const study_setup::StudyRun& run_;
   TruePoses poses_;
   std::vector<Index> later_;  // rows of the poses
   std::optional<TruePoses> along_;
@@ -508,7 +509,7 @@ class MachineJudge {
 }  // namespace
 
 MachineRecord JudgeMachine(const MachineStudy& study,
-                           const desk::StudyRun& run) {
+                           const study_setup::StudyRun& run) {
   return MachineJudge(study, run).Judge();
 }
 

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/desk/provenance.h"
 #include "cli/machine/true_poses.h"
+#include "cli/study_setup/provenance.h"
 #include "data/argument_name.h"
 #include "data/columns.h"
 #include "data/input_error.h"
@@ -39,10 +39,11 @@ std::string SessionColumn(const data::CsvTable& points,
 
 // One map is asked for of each, and PlanStudy plans two where rows go both
 // ways.
-void RequireOneWay(const MachineStudy& study, const desk::StudyPlan& plan) {
+void RequireOneWay(const MachineStudy& study,
+                   const study_setup::StudyPlan& plan) {
   for (const std::string& stem : study.stems) {
     if (std::ranges::any_of(plan.config.components,
-                            [&](const desk::ComponentConfig& component) {
+                            [&](const study_setup::ComponentConfig& component) {
                               return component.name == stem;
                             })) {
       continue;
@@ -58,7 +59,8 @@ void RequireOneWay(const MachineStudy& study, const desk::StudyPlan& plan) {
 }
 
 // Better refused before the fits than after them.
-void RequireQuantities(const MachineStudy& study, const desk::StudyPlan& plan) {
+void RequireQuantities(const MachineStudy& study,
+                       const study_setup::StudyPlan& plan) {
   const models::Machine& machine = study.file.machine;
   for (std::size_t k = 0; k < machine.errors.size(); ++k) {
     const data::Unit wanted =
@@ -88,7 +90,7 @@ void RequireQuantities(const MachineStudy& study, const desk::StudyPlan& plan) {
 
 // Days that are named otherwise in one file would be learnt from and judge.
 void RequireSharedSessions(const MachineStudy& study,
-                           const desk::StudyPlan& plan) {
+                           const study_setup::StudyPlan& plan) {
   const std::vector<std::string> of_points =
       data::GroupByColumn(
           study.points, study.session, data::AllRows(study.points.num_rows))
@@ -171,29 +173,29 @@ MachineStudy ReadMachineStudy(const std::string& machine,
   return study;
 }
 
-desk::StudyPlan PlanOfMachine(const MachineStudy& study,
-                              desk::StudyConfig config,
-                              const desk::Remark& remark) {
-  const desk::ComponentConfig like = config.components.empty()
-                                         ? desk::ComponentConfig{}
-                                         : config.components.front();
+study_setup::StudyPlan PlanOfMachine(const MachineStudy& study,
+                                     study_setup::StudyConfig config,
+                                     const study_setup::Remark& remark) {
+  const study_setup::ComponentConfig like = config.components.empty()
+                                                ? study_setup::ComponentConfig{}
+                                                : config.components.front();
   config.components.clear();
   for (const std::string& stem : study.stems) {
-    desk::ComponentConfig component = like;
+    study_setup::ComponentConfig component = like;
     component.name = stem;
     component.data = study.FileNamed(stem + ".csv");
     component.selection.session = study.session;
     component.later = study.later;
     config.components.push_back(std::move(component));
   }
-  desk::StudyPlan plan = desk::PlanStudy(config, remark);
+  study_setup::StudyPlan plan = study_setup::PlanStudy(config, remark);
   RequireOneWay(study, plan);
   RequireQuantities(study, plan);
   RequireSharedSessions(study, plan);
-  plan.inputs.push_back(desk::HashInput(study.path));
-  plan.inputs.push_back(desk::HashInput(study.points.file));
+  plan.inputs.push_back(study_setup::HashInput(study.path));
+  plan.inputs.push_back(study_setup::HashInput(study.points.file));
   if (study.diagonals) {
-    plan.inputs.push_back(desk::HashInput(study.diagonals->file));
+    plan.inputs.push_back(study_setup::HashInput(study.diagonals->file));
   }
   return plan;
 }

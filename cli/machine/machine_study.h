@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "cli/desk/plan/study_plan.h"
-#include "cli/desk/plan/study_run.h"
-#include "cli/desk/study_config.h"
 #include "cli/machine/machine_file.h"
 #include "cli/machine/record/machine_record.h"
+#include "cli/study_setup/plan/study_plan.h"
+#include "cli/study_setup/plan/study_run.h"
+#include "cli/study_setup/study_config.h"
 #include "data/csv.h"
 
 namespace errmap::machine {
@@ -47,14 +47,14 @@ MachineStudy ReadMachineStudy(const std::string& machine,
 /// component's target is not an error of its link, or is a length for an angle.
 /// Also if its rows have both directions of motion, or if it shares no session
 /// with the points.
-desk::StudyPlan PlanOfMachine(const MachineStudy& study,
-                              desk::StudyConfig config = {},
-                              const desk::Remark& remark = {});
+study_setup::StudyPlan PlanOfMachine(const MachineStudy& study,
+                                     study_setup::StudyConfig config = {},
+                                     const study_setup::Remark& remark = {});
 
 /// Judges the maps of a finished run together at the points of the later
 /// sessions. Filters run through the folder's temperatures.csv, if there is
 /// one. Throws data::InputError as EvaluateAt does.
 MachineRecord JudgeMachine(const MachineStudy& study,
-                           const desk::StudyRun& run);
+                           const study_setup::StudyRun& run);
 
 }  // namespace errmap::machine

@@ -4,7 +4,7 @@ errmap_room(report machine/record WITH report_slices
   machine_record.cc
   machine_tables.cc)
 
-errmap_room(desk machine RUNS_ONCE
+errmap_room(study_setup machine RUNS_ONCE
   machine_file.cc
   machine_judge.cc
   machine_points.cc

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "cli/desk/plan/run_files.h"
 #include "cli/report/documents/report_html.h"
 #include "cli/report/figures/learning_figures.h"
 #include "cli/report/report.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/study_setup/plan/run_files.h"
 #include "data/files/atomic_file.h"
 #include "data/text.h"
 #include "models/learning/learning_record.h"
@@ -62,16 +62,16 @@ void RemoveAbandoned(const std::string& folder) {
       (std::filesystem::path(folder) / "models").string());
 }
 
-std::vector<std::string> OutputNames(const desk::StudyPlan& plan) {
-  std::vector<std::string> names = desk::RunFileNames(plan);
+std::vector<std::string> OutputNames(const study_setup::StudyPlan& plan) {
+  std::vector<std::string> names = study_setup::RunFileNames(plan);
   names.insert(names.begin() + 1, {kReportPage, kReportText});
   return names;
 }
 
-void WriteOutputs(const desk::StudyRun& run,
+void WriteOutputs(const study_setup::StudyRun& run,
                   const models::StudyRecord& record,
                   ClaimedFolder* folder) {
-  desk::WriteRunFiles(
+  study_setup::WriteRunFiles(
       run, record, [&](const std::string& name, std::string_view content) {
         folder->Write(name, content);
       });

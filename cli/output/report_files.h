@@ -4,10 +4,10 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/desk/plan/study_plan.h"
-#include "cli/desk/plan/study_run.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/figures/figures.h"
+#include "cli/study_setup/plan/study_plan.h"
+#include "cli/study_setup/plan/study_run.h"
 #include "models/study/record/study_record.h"
 
 namespace errmap::cli {
@@ -36,11 +36,11 @@ void WriteReport(const models::StudyRecord& record, ClaimedFolder* folder);
 void RemoveAbandoned(const std::string& folder);
 
 /// Returns the names of all files that WriteOutputs may write for a study.
-std::vector<std::string> OutputNames(const desk::StudyPlan& plan);
+std::vector<std::string> OutputNames(const study_setup::StudyPlan& plan);
 
-/// Writes the files of a run (desk::WriteRunFiles) and the report. Throws
-/// std::system_error naming a path that cannot be written.
-void WriteOutputs(const desk::StudyRun& run,
+/// Writes the files of a run (study_setup::WriteRunFiles) and the report.
+/// Throws std::system_error naming a path that cannot be written.
+void WriteOutputs(const study_setup::StudyRun& run,
                   const models::StudyRecord& record,
                   ClaimedFolder* folder);
 

@@ -57,7 +57,7 @@ set(ERRMAP_PUBLIC_HEADERS
   models/scaling.h
   models/sensors/applicability.h
   models/sensors/sensitivity.h
-  models/session/kept_promise.h
+  models/session/calibration_check.h
   models/session/session_check.h
   models/session/session_offset.h
   models/study/given_predictions.h
@@ -67,13 +67,13 @@ set(ERRMAP_PUBLIC_HEADERS
   models/study/study.h
   models/study/study_defaults.h
   models/uncertainty/map_update.h
-  models/uncertainty/promise.h
+  models/uncertainty/add_uncertainty.h
   cli/report/report.h
-  cli/desk/plan/run_files.h
-  cli/desk/plan/study_plan.h
-  cli/desk/plan/study_run.h
-  cli/desk/study_config.h
-  cli/desk/toml/study_file.h
+  cli/study_setup/plan/run_files.h
+  cli/study_setup/plan/study_plan.h
+  cli/study_setup/plan/study_run.h
+  cli/study_setup/study_config.h
+  cli/study_setup/toml/study_file.h
   models/version.h
   stats/bias.h
   stats/comparison/holm.h

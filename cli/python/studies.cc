@@ -7,9 +7,6 @@
 
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/studies/compare_arguments.h"
-#include "cli/desk/plan/run_files.h"
-#include "cli/desk/plan/study_forecast.h"
-#include "cli/desk/plan/study_run.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/output/report_files.h"
 #include "cli/python/foreign.h"
@@ -19,6 +16,9 @@
 #include "cli/report/documents/study_table.h"
 #include "cli/report/figures/figures.h"
 #include "cli/report/report.h"
+#include "cli/study_setup/plan/run_files.h"
+#include "cli/study_setup/plan/study_forecast.h"
+#include "cli/study_setup/plan/study_run.h"
 #include "models/model_file.h"
 #include "models/version.h"
 #include "stats/holdout.h"
@@ -30,7 +30,7 @@ using Words = std::vector<std::string>;
 
 /// A finished study: what was run, and its record.
 struct Study {
-  desk::StudyRun run;
+  study_setup::StudyRun run;
   models::StudyRecord record;
   std::vector<std::string> outputs;
   std::vector<std::string> messages;
@@ -63,7 +63,7 @@ struct Study {
   void Write(const std::string& folder, bool force) const {
     cli::ClaimedFolder claimed(folder, outputs, {}, force);
     models::StudyRecord named = record;
-    desk::NameMaps(run, &named);
+    study_setup::NameMaps(run, &named);
     cli::WriteOutputs(run, named, &claimed);
   }
 
@@ -77,7 +77,7 @@ struct Study {
     for (const models::ModelResult& result : of.study.models) {
       if (result.name != model) continue;
       if (!result.final_fit) break;
-      return desk::MapFileText(run, of, result);
+      return study_setup::MapFileText(run, of, result);
     }
     throw py::key_error(model);
   }
@@ -128,9 +128,9 @@ Study Compare(const Words& words,
   const auto work = [&] {
     const cli::CompareArguments arguments = cli::ReadCompareArguments(words);
     const int jobs = cli::JobsOf(arguments.jobs);
-    desk::StudyPlan plan = cli::PlanOf(arguments, own);
+    study_setup::StudyPlan plan = cli::PlanOf(arguments, own);
     study.outputs = cli::OutputNames(plan);
-    desk::StudyForecast forecast(plan, jobs);
+    study_setup::StudyForecast forecast(plan, jobs);
     const auto note = [&](std::size_t component,
                           const models::FitProgress& fit) {
       forecast.Note(component, fit);
@@ -138,13 +138,13 @@ Study Compare(const Words& words,
     };
     std::string command = "errmap compare";
     for (const std::string& word : words) command += " " + word;
-    study.run = desk::RunPlan(std::move(plan),
-                              command,
-                              {.jobs = jobs,
-                               .stop = &stop,
-                               .cache = arguments.cache,
-                               .progress = note});
-    study.record = desk::RecordOf(study.run, jobs);
+    study.run = study_setup::RunPlan(std::move(plan),
+                                     command,
+                                     {.jobs = jobs,
+                                      .stop = &stop,
+                                      .cache = arguments.cache,
+                                      .progress = note});
+    study.record = study_setup::RecordOf(study.run, jobs);
   };
   const auto tell = [&] {
     if (!progress.is_none()) progress(*standing.Get());
@@ -167,8 +167,8 @@ py::list Forecast(const Words& words,
   cli::Host host{.stop = &stop};
   const auto work = [&] {
     const cli::CompareArguments arguments = cli::ReadCompareArguments(words);
-    const desk::StudyPlan plan = cli::PlanOf(arguments);
-    seconds = desk::RoughSecondsOfModels(plan.components.front());
+    const study_setup::StudyPlan plan = cli::PlanOf(arguments);
+    seconds = study_setup::RoughSecondsOfModels(plan.components.front());
   };
   if (RunHostedWork({tables, {}}, &host, &stop, work, {})) {
     throw py::error_already_set();

@@ -3,11 +3,11 @@
 #include "cli/report/documents/report_html.h"
 #include "cli/report/documents/study_table.h"
 #include "cli/report/tables/report_tables.h"
-#include "cli/report/words/answers/first_answer.h"
-#include "cli/report/words/answers/verdict_text.h"
+#include "cli/report/text/answers/first_answer.h"
+#include "cli/report/text/answers/verdict_text.h"
 #include "data/text.h"
+#include "models/study/record/builders/make_provenance.h"
 #include "models/study/record/make_study_record.h"
-#include "models/study/record/making/make_provenance.h"
 #include "models/version.h"
 
 namespace errmap::report {

@@ -332,7 +332,7 @@ class BlendRecipe final : public ModelRecipe {
     fitted.inputs = DescribeInputs(read, all);
     if (options_.bases.clip) {
       fitted.guards =
-          MakeGuards(fitted.inputs, training.target_values(), grows);
+          MakeClampLimits(fitted.inputs, training.target_values(), grows);
     }
     fitted.model = std::make_shared<AveragedModel>(
         std::ssize(all), "likelihood", std::move(members));

@@ -11,7 +11,7 @@
 #include "data/text.h"
 #include "models/recipe_catalog.h"
 #include "models/study/rezero/rezeroed_study.h"
-#include "models/uncertainty/promise.h"
+#include "models/uncertainty/add_uncertainty.h"
 
 namespace errmap::models {
 namespace {
@@ -150,10 +150,10 @@ void RunComponent(ComponentPlan* plan,
       // What a map promises holds where nobody re-zeroes it.
       const auto m =
           static_cast<std::size_t>(&model - component.study.models.data());
-      AddPromise(dataset,
-                 before ? before->holdouts[h] : component.holdouts[h],
-                 before ? before->results[m][h] : model.holdouts[h],
-                 &*model.final_fit);
+      AddUncertainty(dataset,
+                     before ? before->holdouts[h] : component.holdouts[h],
+                     before ? before->results[m][h] : model.holdouts[h],
+                     &*model.final_fit);
     }
     // Sensors and sessions are weighed by maps as they are.
     if (!before) AddAdvice(options, plan);

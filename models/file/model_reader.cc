@@ -136,8 +136,8 @@ History ReadHistory(const Node& node, const std::vector<TrainedInput>& inputs) {
   return history;
 }
 
-Guards ReadGuards(const Node& node, Index num_inputs) {
-  Guards guards;
+ClampLimits ReadClampLimits(const Node& node, Index num_inputs) {
+  ClampLimits guards;
   ReadMembers(node, &guards);
   if (guards.input_min.size() != num_inputs ||
       guards.input_max.size() != num_inputs) {
@@ -420,7 +420,7 @@ FittedModel ReadModel(const Node& root) {
                             fitted.model->num_inputs()));
   }
   if (const auto guards = root.Find("guards")) {
-    fitted.guards = ReadGuards(*guards, fitted.model->num_inputs());
+    fitted.guards = ReadClampLimits(*guards, fitted.model->num_inputs());
   }
   if (const auto interval = root.Find("interval")) {
     fitted.interval = ReadInterval(*interval);

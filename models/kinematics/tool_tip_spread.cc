@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "stats/distributions.h"
-#include "stats/unit_freedom.h"
+#include "stats/satterthwaite_dof.h"
 
 namespace errmap::models {
 namespace {
@@ -35,7 +35,7 @@ bool IsKnown(const MatrixX3d& half_widths, Index direction) {
 double Spread(const VectorXd& mean_squares, double coverage) {
   return std::sqrt(mean_squares.mean()) *
          stats::StudentQuantile(0.5 * (1.0 + coverage),
-                                stats::UnitFreedom(mean_squares));
+                                stats::SatterthwaiteDof(mean_squares));
 }
 
 }  // namespace

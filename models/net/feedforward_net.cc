@@ -122,7 +122,7 @@ FittedModel MapOfWeights(const NetShape& shape,
   map.inputs = DescribeInputs(training, columns);
   map.model =
       std::make_shared<FeedforwardNet>(FormOfWeights(shape, w, inputs, target));
-  map.guards = MakeGuards(map.inputs, training.target_values());
+  map.guards = MakeClampLimits(map.inputs, training.target_values());
   return map;
 }
 

@@ -75,12 +75,13 @@ OptionList<NetOptions> CommonList() {
     return *options.starts > 1;
   };
   OptionList<Options> list;
-  list.push_back(OptionFor("hidden",
-                           "hidden nodes",
-                           &Options::hidden,
-                           WordOr<GivenOrByCv<std::int64_t>, Whole>{
-                               "cv", kByCrossValidation, Whole{1, kMostNodes}})
-                     .Always());
+  list.push_back(
+      OptionFor("hidden",
+                "hidden nodes",
+                &Options::hidden,
+                WordOr<GivenOrByCv<std::int64_t>, IntegerRange>{
+                    "cv", kByCrossValidation, IntegerRange{1, kMostNodes}})
+          .Always());
   list.push_back(OptionFor("wfactor",
                            "weight decay",
                            &Options::wfactor,
@@ -108,7 +109,7 @@ OptionList<NetOptions> CommonList() {
   list.push_back(OptionFor("iterations",
                            "the most steps",
                            &Options::iterations,
-                           Whole{1, kMostSteps})
+                           IntegerRange{1, kMostSteps})
                      .Always());
   list.push_back(OptionFor("egoal",
                            "ends at a root-mean-square error below it",
@@ -136,7 +137,7 @@ OptionList<NetOptions> CommonList() {
   list.push_back(OptionFor("evaluations",
                            "the most evaluations",
                            &Options::evaluations,
-                           Whole{1, kNoLimit}));
+                           IntegerRange{1, kNoLimit}));
   list.push_back(OptionFor("errdel",
                            "ends where the error stays above this share of it",
                            &Options::errdel,
@@ -144,7 +145,7 @@ OptionList<NetOptions> CommonList() {
   list.push_back(OptionFor("nfreq",
                            "steps between looks at errdel",
                            &Options::nfreq,
-                           Whole{1, kMostSteps})
+                           IntegerRange{1, kMostSteps})
                      .When([](const Options& options) {
                        return options.errdel.has_value();
                      }));
@@ -153,7 +154,7 @@ OptionList<NetOptions> CommonList() {
   list.push_back(OptionFor("starts",
                            "starts of which one is taken",
                            &Options::starts,
-                           Whole{1, kMostStarts})
+                           IntegerRange{1, kMostStarts})
                      .When(several));
   list.push_back(OptionFor("choose",
                            "which start: of lowest cost, by inner hold-outs",
@@ -164,14 +165,14 @@ OptionList<NetOptions> CommonList() {
       OptionFor("members",
                 "starts that are averaged",
                 &Options::members,
-                Whole{1, kMostMembers})
+                IntegerRange{1, kMostMembers})
           .When([](const Options& options) { return *options.members > 1; }));
   list.push_back(OptionFor(
       "rows",
       "the most rows to train on",
       &Options::rows,
-      WordOr<std::int64_t, Whole>{
-          "all", NetOptions::kAllRows, Whole{kFewestRows, kNoLimit}}));
+      WordOr<std::int64_t, IntegerRange>{
+          "all", NetOptions::kAllRows, IntegerRange{kFewestRows, kNoLimit}}));
   const auto view = [](auto& options) { return &options.view; };
   AddWithin(ViewOptionList(), view, &list);
   list.push_back(ClipOption<Options>());
@@ -217,7 +218,7 @@ OptionList<BackpropTraining> ListOf(const BackpropTraining& /*method*/) {
 constexpr const char* kAboutMethod = "the solver's method";
 constexpr const char* kAboutMemory = "pairs of vectors that it keeps";
 // Pairs of vectors that a quasi-Newton method may be asked to keep.
-constexpr Whole kMemories{1, 1000};
+constexpr IntegerRange kMemories{1, 1000};
 
 OptionList<CeresTraining> ListOf(const CeresTraining& /*method*/) {
   return {

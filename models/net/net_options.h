@@ -149,7 +149,7 @@ struct NetOptions {
   /// grows with the rows, but accuracy hardly does beyond this number.
   std::int64_t rows = 20'000;
   std::optional<ViewOptions> view = {};
-  bool clip = true;  // true: the map is guarded (Guards)
+  bool clip = true;  // true: the map is guarded (ClampLimits)
 
   static constexpr std::int64_t kAllRows =
       std::numeric_limits<std::int64_t>::max();

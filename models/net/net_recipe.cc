@@ -171,7 +171,7 @@ class OneLayerRecipe final : public NetRecipe {
     FittedModel fitted = FitView(*viewed.rows, tuned[best], context);
     if (options_.view) NoteView(viewed, &fitted);
     if (options_.clip) {
-      fitted.guards = MakeGuards(fitted.inputs, training.target_values());
+      fitted.guards = MakeClampLimits(fitted.inputs, training.target_values());
     }
     if (views.size() > 1) {
       std::string tried;

@@ -149,7 +149,7 @@ OptionList<BestSubsetOptions> BestSubsetList() {
   list.push_back(OptionFor("max_terms",
                            "the most terms",
                            &Options::max_terms,
-                           Whole{0, kMostSubsetTerms}));
+                           IntegerRange{0, kMostSubsetTerms}));
   list.push_back(OptionFor("sigma2",
                            "variance of the error, for cp",
                            &Options::sigma2,
@@ -159,7 +159,7 @@ OptionList<BestSubsetOptions> BestSubsetList() {
   list.push_back(OptionFor("bootstrap",
                            "repetitions that tell how firm each term is",
                            &Options::bootstrap,
-                           Whole{0, kMostRepetitions})
+                           IntegerRange{0, kMostRepetitions})
                      .Never());
   AddWithin(
       TermOptionList(), [](auto& options) { return &options.terms; }, &list);

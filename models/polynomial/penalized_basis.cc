@@ -217,7 +217,7 @@ void SummedBasis::PredictFold(
     Index fold,
     const fitting::PenalizedPath::Solutions& solutions,
     const std::function<void(const Rows&, const MatrixXd&)>& take) const {
-  const Guards margins;
+  const ClampLimits margins;
   RowRanges trained(std::ssize(design_.inputs()));
   for (Index f = 0; f < folds_->folds.count(); ++f) {
     if (Predicts(f, fold)) {

@@ -218,7 +218,7 @@ FittedModel MapOfCandidate(const std::string& name,
       std::sqrt(residual.squaredNorm() / static_cast<double>(design.rows())));
   if (guarded) {
     fitted.guards =
-        MakeGuards(fitted.inputs, raw.target_values(), viewed.grows());
+        MakeClampLimits(fitted.inputs, raw.target_values(), viewed.grows());
   }
   if (viewed.history != nullptr) {
     fitted = WithHistory(std::move(fitted), raw, *viewed.history);

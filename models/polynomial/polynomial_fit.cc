@@ -317,9 +317,10 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
       fitted.inputs,
       std::sqrt(solution.residual_sum_of_squares / rows.observations));
   if (guarded_) {
-    fitted.guards = MakeGuards(fitted.inputs,
-                               training.target_values(),
-                               GrowsStraight(form, fitted.inputs, training));
+    fitted.guards =
+        MakeClampLimits(fitted.inputs,
+                        training.target_values(),
+                        GrowsStraight(form, fitted.inputs, training));
   }
   fitted.model =
       std::make_shared<PolynomialModel>(std::move(form), solution.rank);

@@ -22,7 +22,7 @@ struct FormOptions {
 /// Base of all recipes of polynomials.
 class PolynomialRecipe : public ModelRecipe {
  public:
-  /// `guarded`: results of FitTerms are clipped (Guards).
+  /// `guarded`: results of FitTerms are clipped (ClampLimits).
   PolynomialRecipe(std::string name, bool guarded)
       : name_(std::move(name)), guarded_(guarded) {}
   std::string name() const override { return name_; }

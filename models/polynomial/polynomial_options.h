@@ -46,7 +46,7 @@ struct PositionTemperatureOptions {
   PositionTemperatureForm form = PositionTemperatureForm::kEq8;
   std::string position = {};     // "": the first position
   std::string temperature = {};  // T; "": the input that fits best
-  bool clip = true;              // true: the map is guarded (Guards)
+  bool clip = true;              // true: the map is guarded (ClampLimits)
 
   std::string_view type() const;
   void Validate() const;
@@ -56,7 +56,7 @@ struct PositionTemperatureOptions {
 /// poly:full: all products up to a degree.
 struct FullOptions {
   int degree = 2;    // 1 .. 12
-  bool clip = true;  // true: the map is guarded (Guards)
+  bool clip = true;  // true: the map is guarded (ClampLimits)
 
   std::string_view type() const { return "poly:full"; }
   void Validate() const;
@@ -97,7 +97,7 @@ struct StepwiseOptions {
   TermOptions terms = {};
   /// Its `intercept` is always true.
   std::optional<ViewOptions> view = {};
-  bool clip = true;  // true: the map is guarded (Guards)
+  bool clip = true;  // true: the map is guarded (ClampLimits)
 
   std::string_view type() const { return "poly:stepwise"; }
   void Validate() const;
@@ -111,7 +111,7 @@ struct BestSubsetOptions {
   std::optional<double> sigma2 = {};  // for Cp, above 0; empty: estimated
   std::int64_t bootstrap = 0;         // 0 .. 1,000,000 for the report
   TermOptions terms = {};
-  bool clip = true;  // true: the map is guarded (Guards)
+  bool clip = true;  // true: the map is guarded (ClampLimits)
 
   std::string_view type() const { return "poly:best"; }
   void Validate() const;
@@ -137,7 +137,7 @@ struct BasisOptions {
   std::optional<int> degree = {};     // 1 .. 4; empty: that of the terms
   Centring centring = Centring::kStandardised;  // or kAll, kNone
   std::vector<NamedTerm> exclude = {};
-  bool clip = true;  // true: the map is guarded (Guards)
+  bool clip = true;  // true: the map is guarded (ClampLimits)
   /// PenalizedBasis::between if the inner hold-outs are of whole sessions;
   /// above 0, at most 1. Empty: a quarter if a view is given and no column only
   /// grows, else 1.
@@ -167,7 +167,7 @@ struct FormulaOptions {
   bool intercept = true;
   /// Names one view; its `intercept` is not used.
   std::optional<ViewOptions> view = {};
-  bool clip = true;  // true: the map is guarded (Guards)
+  bool clip = true;  // true: the map is guarded (ClampLimits)
 
   std::string_view type() const { return "poly"; }
   void Validate() const;

@@ -258,7 +258,7 @@ const std::vector<ListedModel<FullOptions>>& ListedModels() {
     options.push_back(OptionFor("degree",
                                 "the highest power of a term",
                                 &FullOptions::degree,
-                                Whole{1, kMostDegree})
+                                IntegerRange{1, kMostDegree})
                           .Always());
     options.front().always_in_spec = true;
     options.push_back(ClipOption<FullOptions>());

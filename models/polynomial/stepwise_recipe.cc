@@ -415,12 +415,13 @@ OptionList<StepwiseOptions> StepwiseList() {
                            "the largest p of a term that stays",
                            &Options::remove,
                            Number{0.0, 1.0}));
-  list.push_back(OptionFor("max_terms",
-                           "the most terms",
-                           &Options::max_terms,
-                           WordOr<std::int64_t, Whole>{
-                               "none", Options::kNoLimit, Whole{0, kMost}})
-                     .Always());
+  list.push_back(
+      OptionFor("max_terms",
+                "the most terms",
+                &Options::max_terms,
+                WordOr<std::int64_t, IntegerRange>{
+                    "none", Options::kNoLimit, IntegerRange{0, kMost}})
+          .Always());
   list.back().write = [write = list.back().write](const Options& options) {
     return options.max_terms ? write(options)
                              : OptionText(std::string("rows/5"));
@@ -432,7 +433,7 @@ OptionList<StepwiseOptions> StepwiseList() {
   list.push_back(OptionFor("bootstrap",
                            "repetitions that tell how firm each term is",
                            &Options::bootstrap,
-                           Whole{0, kMost})
+                           IntegerRange{0, kMost})
                      .Never());
   AddWithin(
       TermOptionList(), [](auto& options) { return &options.terms; }, &list);

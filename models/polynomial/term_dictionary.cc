@@ -103,7 +103,7 @@ Option<std::optional<int>> DegreeOption() {
       "degree",
       "the highest power of a term",
       [](auto& degree) { return &degree; },
-      Whole{1, kMostDegree});
+      IntegerRange{1, kMostDegree});
 }
 
 Option<std::vector<NamedTerm>> TermsOption(const std::string& name,

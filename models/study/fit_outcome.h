@@ -5,7 +5,7 @@
 #include <string>
 
 #include "models/error_model.h"
-#include "models/study/memorisation.h"
+#include "models/study/shuffled_target_fit.h"
 #include "stats/eigen.h"
 
 namespace errmap::models {
@@ -17,7 +17,7 @@ struct FitOutcome {
   double seconds = 0.0;
   VectorXd train_predictions;  // target's unit; empty if failed
   VectorXd test_predictions;   // the same; empty for a fit to all rows
-  std::optional<Memorisation> memorisation;  // of a net fitted to all rows
+  std::optional<ShuffledTargetFit> memorisation;  // of a net fitted to all rows
   /// True if memory ran out: another try may succeed, so it is not kept.
   bool try_again = false;
 };

@@ -80,7 +80,7 @@ FitOutcome FitAllRows(const ModelRecipe& recipe,
   FitOutcome outcome = FitOnce(recipe, dataset, nullptr, context);
   if (is_net && outcome.fitted) {
     outcome.memorisation =
-        AssessMemorisation(recipe, dataset, *outcome.fitted, context);
+        FitShuffledTargets(recipe, dataset, *outcome.fitted, context);
     outcome.try_again = outcome.memorisation->why_not == kNoMemory;
   }
   return outcome;

@@ -90,7 +90,8 @@ struct ModelResult {
   std::optional<FittedModel> final_fit;  // to all rows; the map to use
   std::string final_why_failed;
   double final_fit_seconds = 0.0;
-  std::optional<Memorisation> memorisation;  // of a net, fitted to all rows
+  std::optional<ShuffledTargetFit>
+      memorisation;         // of a net, fitted to all rows
   double predict_ns = 0.0;  // per prediction; NaN if no fit succeeded
 
   bool ok() const;          // every hold-out, and the final fit if any

@@ -12,10 +12,10 @@
 namespace errmap::models {
 
 /// Returns the errors of a model's predictions of `holdout`'s held-out rows;
-/// nothing if PromiseOf returns nothing. `inputs` are those that the map reads:
-/// in use, only their temperatures can show when the next probe is due. The
-/// position of a probe is always known, so it may be a column that the map does
-/// not read.
+/// nothing if PredictionIntervalOf returns nothing. `inputs` are those that the
+/// map reads: in use, only their temperatures can show when the next probe is
+/// due. The position of a probe is always known, so it may be a column that the
+/// map does not read.
 std::optional<HeldOutErrors> HeldOutErrorsOf(
     const data::Dataset& dataset,
     const Holdout& holdout,

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "models/study/judgement/units_of_analysis.h"
-#include "stats/comparison/memory_bounds.h"
+#include "stats/comparison/ar1_t_test.h"
 #include "stats/distributions.h"
 #include "stats/randomness.h"
-#include "stats/unit_freedom.h"
+#include "stats/satterthwaite_dof.h"
 
 namespace errmap::models {
 namespace {
@@ -70,7 +70,8 @@ class SizesOfUnits {
   // Student's t over the normal's quantile.
   double Widening(double coverage) const {
     const double upper = 0.5 * (1.0 + coverage);
-    return stats::StudentQuantile(upper, stats::UnitFreedom(mean_squares_)) /
+    return stats::StudentQuantile(upper,
+                                  stats::SatterthwaiteDof(mean_squares_)) /
            stats::NormalQuantile(upper);
   }
 };
@@ -183,7 +184,7 @@ PredictionInterval::Level UnitIntervalLevel(const VectorXd& residuals,
   return SizesOfUnits(residuals, units).Level(coverage);
 }
 
-std::optional<PredictionInterval> PromiseOf(
+std::optional<PredictionInterval> PredictionIntervalOf(
     const data::Dataset& dataset,
     const Holdout& holdout,
     const HoldoutResult& result,

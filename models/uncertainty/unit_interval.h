@@ -14,9 +14,9 @@ namespace errmap::models {
 /// Returns the half-width that holds `coverage` of the errors of a further
 /// unit, drawn like these, on average over such units. It is the quantile of
 /// |residual| over all rows, with equal weight for every unit, times Student's
-/// t over the normal quantile. The degrees of freedom are UnitFreedom of the
-/// units' mean squares: few if the units differ much, more if all have similar
-/// errors.
+/// t over the normal quantile. The degrees of freedom are SatterthwaiteDof of
+/// the units' mean squares: few if the units differ much, more if all have
+/// similar errors.
 ///
 /// An interval without assumptions on how units differ is wider. With fewer
 /// than 9 units for 0.9, 19 for 0.95, there is none (Dunn, Wasserman & Ramdas
@@ -38,7 +38,7 @@ PredictionInterval::Level UnitIntervalLevel(const VectorXd& residuals,
 /// rows. The one inside is at most that of all rows, the one outside at least.
 /// Both stay equal if the one inside is larger, or if either is from fewer than
 /// two units.
-std::optional<PredictionInterval> PromiseOf(
+std::optional<PredictionInterval> PredictionIntervalOf(
     const data::Dataset& dataset,
     const Holdout& holdout,
     const HoldoutResult& result,

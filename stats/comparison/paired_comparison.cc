@@ -291,7 +291,7 @@ void BoundErrors(const UnitLosses& losses,
   constexpr std::uint64_t kOwnSequence = 0x9e3779b97f4a7c15U;
   const UnitBootstrap bootstrap(
       losses, options.resamples, options.seed ^ kOwnSequence);
-  const MemoryBounds with_memory(losses);
+  const Ar1TTest with_memory(losses);
   const double units = static_cast<double>(losses.num_units());
   for (Index model = 0; model < losses.num_models(); ++model) {
     const double shown = with_memory.ShownInLosses(model);

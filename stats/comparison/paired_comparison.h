@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "stats/comparison/ar1_t_test.h"
 #include "stats/comparison/mean_difference.h"
-#include "stats/comparison/memory_bounds.h"
 #include "stats/comparison/sign_flip.h"
 #include "stats/comparison/signed_rank.h"
 #include "stats/comparison/tiers.h"

@@ -18,7 +18,7 @@ namespace errmap::stats {
 ///
 /// With 0.55, its rate of false rejections is 4.2 to 4.4 % at a memory of 0.5
 /// and 5.6 to 6.0 % at 0.6 (6 to 20 normal values; less with heavier tails).
-/// The t test of MemoryBounds with 0.5 has 4.4 to 4.9 and 6.9 to 7.8 %. Without
+/// The t test of Ar1TTest with 0.5 has 4.4 to 4.9 and 6.9 to 7.8 %. Without
 /// memory, its power at a mean of one standard deviation is 42 and 56 % for 8
 /// and 10 values; that of the t test is 32 and 45 %.
 class PointOptimalTest {

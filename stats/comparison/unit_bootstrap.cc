@@ -7,7 +7,7 @@
 #include "stats/distributions.h"
 #include "stats/random.h"
 #include "stats/require.h"
-#include "stats/unit_freedom.h"
+#include "stats/satterthwaite_dof.h"
 
 namespace errmap::stats {
 namespace {
@@ -136,7 +136,7 @@ Bounds95 UnitBootstrap::OfRmse(Index model, double worth) const {
   // RMSE.
   constexpr double kNoLeast = 0.0;
   const VectorXd squares = 1.0 + 2.0 * influence_.col(model).array() / rmse;
-  const double freedom = UnitFreedom(squares, kNoLeast);
+  const double freedom = SatterthwaiteDof(squares, kNoLeast);
   WidenByChiSquared(rmse, worth * freedom, &bounds);
   return bounds;
 }

@@ -42,7 +42,7 @@ class UnitBootstrap {
 
   /// Returns bounds of the RMSE of `model`; NaN below 2 units. They are at
   /// least as wide as for a mean square with `worth` times the units' degrees
-  /// of freedom (unit_freedom.h). `worth` is effective units over units: 1
+  /// of freedom (satterthwaite_dof.h). `worth` is effective units over units: 1
   /// unless neighbours resemble each other.
   Bounds95 OfRmse(Index model, double worth = 1.0) const;
   /// Returns bounds of RMSE(a) - RMSE(b); NaN below 2 units.

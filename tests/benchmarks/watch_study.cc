@@ -40,7 +40,7 @@
 #include "models/fleet/watch.h"
 #include "models/recipe_catalog.h"
 #include "models/session/map_rows.h"
-#include "models/uncertainty/promise.h"
+#include "models/uncertainty/add_uncertainty.h"
 
 namespace errmap {
 namespace {
@@ -154,7 +154,8 @@ Deployed Deploy(const Machine& machine, int days) {
       data::MakeDataset(machine.Days(1, days), {.session = "day"}).dataset;
   Deployed deployed{.map = models::MakeRecipe(kSpec)->Fit(training, {}),
                     .relations = models::LearnRelations(training)};
-  models::AddPromise(training, models::MakeRecipe(kSpec), {}, &deployed.map);
+  models::AddUncertainty(
+      training, models::MakeRecipe(kSpec), {}, &deployed.map);
   return deployed;
 }
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The report as a browser shows it, on a desk (1280 px), on a phone (390 px) and
+# The report as a browser shows it, on a study_setup (1280 px), on a phone (390 px) and
 # on paper:
 #
 #   report_browser_test.sh ERRMAP ROOT [PAGE]

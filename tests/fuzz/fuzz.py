@@ -35,14 +35,14 @@ RECORDS = " ".join([RECORD + "record", *(f"{RECORD}{part}_record" for part in PA
 
 # Dictionary, longest input in bytes, sources whose edges count.
 READERS = {
-    "csv": ("csv", 4096, "data/tables/csv data/tables/cells/csv data/measurements/column_ data/measurements/faults/column_ data/measurements/making/idle_inputs data/measurements/making/make_dataset data/measurements/session data/tables/text/text data/text"),
+    "csv": ("csv", 4096, "data/tables/csv data/tables/cells/csv data/measurements/column_ data/measurements/faults/column_ data/measurements/builders/idle_inputs data/measurements/builders/make_dataset data/measurements/session data/tables/text/text data/text"),
     "patterns": ("numbers", 4096, "data/formats/pattern_file data/formats/record_reader data/formats/fortran_format"),
     "holdout": ("spec", 128, "stats/holdout"),
     "spec": ("spec", 512, "models/model_spec models/recipe_catalog models/polynomial/formula"),
     "model": ("json", 8192, "models/file/model_reader models/file/model_form_json models/file/model_json models/blend/form_to_model data/formats/nesting"),
     "results": ("json", 8192, RECORDS),
     "journal": (None, 8192, "models/study/journal/fit_record"),
-    "study": ("toml", 4096, "cli/desk/toml"),
+    "study": ("toml", 4096, "cli/study_setup/toml"),
     "netcg": ("numbers", 4096, "cli/netcg/run_file data/formats/record_reader"),
     "weights": ("numbers", 4096, "cli/netcg/weights_file data/formats/record_reader"),
     "split": ("csv", 4096, "models/study/split_file"),

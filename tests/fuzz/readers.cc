@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "cli/command.h"
-#include "cli/desk/toml/study_file.h"
 #include "cli/machine/machine_file.h"
 #include "cli/netcg/netcg_files.h"
 #include "cli/netcg/run_file.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/report.h"
+#include "cli/study_setup/toml/study_file.h"
 #include "data/column_header.h"
 #include "data/csv.h"
 #include "data/formats/pattern_file.h"
@@ -159,7 +159,7 @@ void ReadKeptFit(std::string_view bytes) {
 }
 
 void ReadStudy(std::string_view bytes) {
-  desk::ParseStudyFile(std::string(bytes), "study.toml", {});
+  study_setup::ParseStudyFile(std::string(bytes), "study.toml", {});
 }
 
 void ReadNetcg(std::string_view bytes) {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "cli/command.h"
-#include "cli/desk/plan/study_plan.h"
-#include "cli/desk/plan/study_run.h"
 #include "cli/report/documents/study_table.h"
+#include "cli/study_setup/plan/study_plan.h"
+#include "cli/study_setup/plan/study_run.h"
 #include "data/csv.h"
 #include "data/input_error.h"
 #include "models/study/record/study_record.h"
@@ -99,12 +99,13 @@ void Judge(const std::string& file, bool is_noise) {
       "poly:stepwise:degree=2",
       "poly:ridge:degree=2",
       "net:scg:hidden=2:iterations=5:wfactor=1e-3"};
-  desk::StudyConfig config;
+  study_setup::StudyConfig config;
   config.holdouts = {"every:3", "groups:3", "leave-one-group-out"};
   config.models = models;
   config.components.emplace_back().data = file;
-  const desk::StudyRun run = desk::RunPlan(desk::PlanStudy(config));
-  const models::StudyRecord record = desk::RecordOf(run);
+  const study_setup::StudyRun run =
+      study_setup::RunPlan(study_setup::PlanStudy(config));
+  const models::StudyRecord record = study_setup::RecordOf(run);
   const std::string text = models::ToJsonText(record);
   Require(models::ToJsonText(models::FromJsonText(text)) == text);
   Require(!report::StudyTable(record, {}).text.empty());

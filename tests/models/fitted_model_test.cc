@@ -22,7 +22,7 @@ using errmap::testing::QuadraticData;
 FittedModel Guarded(const data::Dataset& training) {
   FittedModel fitted =
       MakeRecipe("poly:formula=position_mm+t1_degC")->Fit(training, {});
-  fitted.guards = MakeGuards(fitted.inputs, training.target_values());
+  fitted.guards = MakeClampLimits(fitted.inputs, training.target_values());
   return fitted;
 }
 
@@ -89,7 +89,8 @@ TEST(FittedModel, PredictsARowAsItPredictsAllToTheLastBit) {
     FittedModel fitted = MakeRecipe(spec)->Fit(training, {});
     for (const bool guarded : {false, true}) {
       if (guarded) {
-        fitted.guards = MakeGuards(fitted.inputs, training.target_values());
+        fitted.guards =
+            MakeClampLimits(fitted.inputs, training.target_values());
         fitted.guards->error_margin = 0.0;
         fitted.guards->input_margin = -0.1;
       } else {

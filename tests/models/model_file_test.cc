@@ -11,7 +11,7 @@
 #include "models/history/with_history.h"
 #include "models/map_experience.h"
 #include "models/recipe_catalog.h"
-#include "models/uncertainty/promise.h"
+#include "models/uncertainty/add_uncertainty.h"
 #include "tests/models/history/history_data.h"
 #include "tests/models/model_test_data.h"
 
@@ -138,7 +138,7 @@ FittedModel MapWithMemoryInModelFile(const data::Dataset& dataset) {
                            "poly:formula=\"ema(t1_degC,600s)\"+\"zeroed(t2_"
                            "degC)\"")
                            ->Fit(derived, {});
-  fitted.guards = MakeGuards(fitted.inputs, dataset.target_values());
+  fitted.guards = MakeClampLimits(fitted.inputs, dataset.target_values());
   return WithHistory(std::move(fitted), dataset, history);
 }
 
@@ -199,7 +199,7 @@ Json MapWithExperience() {
   const data::Dataset days = errmap::testing::WanderingDays();
   FittedModel fitted = MakeRecipe("poly:full:degree=1")->Fit(days, {});
   AddExperience(days, &fitted);
-  AddPromise(days, MakeRecipe("poly:full:degree=1"), {}, &fitted);
+  AddUncertainty(days, MakeRecipe("poly:full:degree=1"), {}, &fitted);
   return WithoutChecksum(ModelToJson(fitted, {}));
 }
 

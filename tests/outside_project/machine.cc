@@ -10,9 +10,9 @@ int main(int argc, char** argv) {
   const auto study = machine::ReadMachineStudy(argv[1], argv[2], 2);
   auto plan = machine::PlanOfMachine(
       study, {.holdouts = {"sessions:4"}, .models = {"poly:ridge:view=raw"}});
-  const auto run = desk::RunPlan(
+  const auto run = study_setup::RunPlan(
       std::move(plan), "machine", {.jobs = 2, .keep_fold_maps = true});
-  auto record = desk::RecordOf(run);
+  auto record = study_setup::RecordOf(run);
   machine::AddMachine(machine::JudgeMachine(study, run), &record);
   std::ofstream(argv[3]) << models::ToJsonText(record);
   std::cout << report::ScreenText(record);

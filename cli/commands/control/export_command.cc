@@ -11,10 +11,10 @@
 #include "cli/commands/control/export_tables.h"
 #include "cli/commands/control/map_for_control.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/desk/given_error.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
 #include "cli/shell/command_options.h"
+#include "cli/study_setup/given_error.h"
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
 #include "data/text.h"
@@ -54,7 +54,7 @@ std::optional<double> LimitOf(const char* flag,
                               const data::Unit& target) {
   if (text.empty()) return std::nullopt;
   return data::ThrowingAs<UsageError>(flag + std::string(" "), [&] {
-    return desk::InUnitOf(target, ErrorOfFlag(flag, text, false));
+    return study_setup::InUnitOf(target, ErrorOfFlag(flag, text, false));
   });
 }
 
@@ -153,11 +153,11 @@ void SayWhatWasWritten(const models::MapExport& map,
                        const std::vector<std::string>& files,
                        const std::string& folder) {
   const std::string& unit = map.program.target.unit.symbol;
-  Say(fmt::format(
+  Warn(fmt::format(
       "{} in {}", data::JoinWords(files, ", "), data::PrintablePath(folder)));
   if (map.program.has_directions()) {
     const models::ControllerLimits& limits = map.program.limits;
-    Say(
+    Warn(
         fmt::format("the first map acts while the position increases, the "
                     "second while it decreases: a turn counts after {:.3g}, "
                     "and moves it by at most {}",
@@ -165,19 +165,20 @@ void SayWhatWasWritten(const models::MapExport& map,
                     report::ErrorText(map.program.target.unit, limits.reversal)
                         .WithUnit(limits.reversal)));
   }
-  Say(fmt::format(
+  Warn(fmt::format(
       "{}: error{} of {}, {} of state; compensation = -error",
       map.name,
       unit.empty() ? "" : " in " + unit,
       report::Count(map.program.size(models::Space::kReading), "input"),
       report::Count(map.program.size(models::Space::kState), "number")));
-  Say(fmt::format(
+  Warn(fmt::format(
       "its arithmetic agrees with errmap predict to {:.1e} of the "
       "error's range over {}",
       map.deviations.anywhere,
       report::Count(static_cast<long long>(map.num_checked), "row")));
   if (map.deviations.inside > models::AllowedDeviation(map.precision)) {
-    Say("warning: the map's own sums cancel; a penalised map (poly:ridge) "
+    Warn(
+        "warning: the map's own sums cancel; a penalised map (poly:ridge) "
         "would be steadier");
   }
 }
@@ -188,13 +189,13 @@ void SayWhatFailuresDo(const models::MapProgram& program) {
   const data::Unit& unit = program.target.unit;
   const models::ControllerLimits& limits = program.limits;
   const report::ErrorText text(unit, limits.max_error);
-  Say(fmt::format(
+  Warn(fmt::format(
       "limits: {}, and {} each second",
       text.WithUnit(limits.max_error),
       report::ErrorText(unit, limits.max_rate).WithUnit(limits.max_rate)));
   if (limits.own_error > 0.0 &&
       limits.max_error > models::kMostTimesOwn * limits.own_error) {
-    Say(fmt::format(
+    Warn(fmt::format(
         "warning: --max-offset is {:.0f} times the map's own limit, {}; write "
         "its unit, such as 20um",
         limits.max_error / limits.own_error,
@@ -202,7 +203,7 @@ void SayWhatFailuresDo(const models::MapProgram& program) {
   }
   for (const models::ProgramReading& reading : program.readings) {
     if (reading.is_position || !models::IsCount(reading.column.unit)) continue;
-    Say(
+    Warn(
         fmt::format("{} is counted, not measured: no check finds it wrong, so "
                     "restart it with each session",
                     data::NameInRemark(reading.column.name)));
@@ -210,7 +211,7 @@ void SayWhatFailuresDo(const models::MapProgram& program) {
   const std::vector<models::FailingSensor> sensors =
       models::WorstOfFailing(program);
   for (std::size_t i = 0; i < std::min(kMost, sensors.size()); ++i) {
-    Say(
+    Warn(
         fmt::format("{} failing to 0 would move it by up to {}, any failure of "
                     "it by up to {}. Checks and limits keep it within {}",
                     data::NameInRemark(sensors[i].name),
@@ -292,7 +293,7 @@ int RunExport(const ExportArguments& arguments) {
   if (!arguments.quiet) {
     SayWhatWasWritten(map, names, arguments.out);
     SayWhatFailuresDo(map.program);
-    if (!of_table.empty()) Say(of_table);
+    if (!of_table.empty()) Warn(of_table);
   }
   return kDone;
 }

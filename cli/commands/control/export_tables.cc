@@ -161,7 +161,7 @@ void SayOfLinuxcnc(const models::CompFile& file,
   const auto text = [&](double error) {
     return report::ErrorText(unit, error).WithUnit(error);
   };
-  Say(
+  Warn(
       fmt::format("{}: COMP_FILE_TYPE = 0 in {}, {} from {:g} to {:g}; beyond "
                   "the ends LinuxCNC holds the value",
                   data::PrintablePath(out),
@@ -170,29 +170,30 @@ void SayOfLinuxcnc(const models::CompFile& file,
                   file.low,
                   file.high));
   const std::string forward = data::PrintablePath(maps.forward.file);
-  Say(maps.are_two
-          ? fmt::format("forward column (position increases): {}; reverse: {}",
-                        forward,
-                        data::PrintablePath(maps.reverse.file))
-          : fmt::format("{} fills both columns: the directions of motion are "
-                        "taken as alike",
-                        forward));
-  Say(fmt::format(
+  Warn(maps.are_two
+           ? fmt::format("forward column (position increases): {}; reverse: {}",
+                         forward,
+                         data::PrintablePath(maps.reverse.file))
+           : fmt::format("{} fills both columns: the directions of motion are "
+                         "taken as alike",
+                         forward));
+  Warn(fmt::format(
       "errors forward: {}; reverse: {}",
       LimitText(
           increasing, file.forward_at_limit, file.num_points, unit.symbol),
       LimitText(
           decreasing, file.reverse_at_limit, file.num_points, unit.symbol)));
-  Say(models::StateText(increasing));
-  Say(fmt::format("between the points it errs by up to {}",
-                  text(file.interpolation_error)));
+  Warn(models::StateText(increasing));
+  Warn(fmt::format("between the points it errs by up to {}",
+                   text(file.interpolation_error)));
   if (arguments.resolution > 0.0) {
-    Say(fmt::format("in steps of {:g} {} by up to {}",
-                    arguments.resolution,
-                    unit.symbol,
-                    text(file.error_with_steps)));
+    Warn(fmt::format("in steps of {:g} {} by up to {}",
+                     arguments.resolution,
+                     unit.symbol,
+                     text(file.error_with_steps)));
   }
-  Say("column = nominal + error; LinuxCNC adds nominal - column, which is "
+  Warn(
+      "column = nominal + error; LinuxCNC adds nominal - column, which is "
       "compensation = -error");
 }
 

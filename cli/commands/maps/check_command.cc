@@ -10,13 +10,13 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/maps/map_warnings.h"
-#include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/report/number_text.h"
-#include "cli/report/words/commands/check_text.h"
-#include "cli/report/words/commands/when_text.h"
+#include "cli/report/text/commands/check_text.h"
+#include "cli/report/text/commands/when_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/study_setup/provenance.h"
 #include "data/columns.h"
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
@@ -293,11 +293,11 @@ int RunCheck(const ProbeArguments& arguments, const std::string& command_line) {
     document.update(CheckJson(check));
     document["sites"] = models::ToJson(sites);
     if (schedule) document["next_probe"] = NextProbeJson(*schedule, goal);
-    document["provenance"] =
-        ProvenanceJson(command_line,
-                       {{"missing", ToString(arguments.rows.missing)},
-                        {"faults", ToString(arguments.rows.faults)}},
-                       desk::HashInputs(arguments.files, {arguments.model}));
+    document["provenance"] = ProvenanceJson(
+        command_line,
+        {{"missing", ToString(arguments.rows.missing)},
+         {"faults", ToString(arguments.rows.faults)}},
+        study_setup::HashInputs(arguments.files, {arguments.model}));
     PrintResult(DumpJson(document));
   } else {
     PrintFitted(fmt::format(

@@ -6,24 +6,24 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/maps/map_warnings.h"
-#include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/report/documents/summary_text.h"
 #include "cli/report/number_text.h"
-#include "cli/report/words/answers/data_words.h"
-#include "cli/report/words/commands/check_text.h"
-#include "cli/report/words/commands/kept_promise_text.h"
+#include "cli/report/text/answers/data_words.h"
+#include "cli/report/text/commands/calibration_check_text.h"
+#include "cli/report/text/commands/check_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/study_setup/provenance.h"
 #include "data/measurements/measured_files.h"
 #include "data/text.h"
 #include "models/record_json.h"
 #include "models/sensors/sensor_check.h"
-#include "models/session/kept_promise.h"
+#include "models/session/calibration_check.h"
 #include "models/session/map_rows.h"
 #include "models/study/fold_pool.h"
+#include "models/study/record/builders/parts.h"
 #include "models/study/record/make_study_record.h"
-#include "models/study/record/making/parts.h"
 #include "models/trained_range.h"
 #include "stats/kolmogorov_smirnov.h"
 
@@ -109,7 +109,7 @@ struct Evaluation {
   const RowsJudged& judged;
   Index clipped;  // rows
   std::optional<models::SensorFaultFound> sensor;
-  models::KeptPromise kept;
+  models::CalibrationCheck kept;
   RowsLearnt learnt;
   VectorXd residuals;
   stats::ErrorMetrics metrics;
@@ -135,10 +135,11 @@ Json EvaluationJson(const Evaluation& found,
        models::ToJson(models::MakeRecord(
            stats::AssessNormality(stats::OrderedSample(found.residuals)), {}))},
       {"provenance",
-       ProvenanceJson(command_line,
-                      {{"missing", ToString(arguments.rows.missing)},
-                       {"faults", ToString(arguments.rows.faults)}},
-                      desk::HashInputs(arguments.files, {arguments.model}))}});
+       ProvenanceJson(
+           command_line,
+           {{"missing", ToString(arguments.rows.missing)},
+            {"faults", ToString(arguments.rows.faults)}},
+           study_setup::HashInputs(arguments.files, {arguments.model}))}});
   return json;
 }
 
@@ -195,17 +196,17 @@ int RunEvaluate(const EvaluateArguments& arguments,
       .judged = judged,
       .clipped = prediction.clipped.count(),
       .sensor = SensorFaultOf(fitted, dataset),
-      .kept = models::HoldToPromise(
+      .kept = models::CheckCalibration(
           fitted, dataset.target_values(), predicted, judged.flags),
       .learnt = FindRowsLearnt(fitted, arguments.model, arguments.files, rows),
       .residuals = dataset.target_values() - predicted,
       .metrics = models::Judge(dataset, predicted)};
   if (found.clipped > 0 && !arguments.quiet) {
-    Say(fmt::format("warning: {} clipped by the map's guards",
-                    report::Count(found.clipped, "row")));
+    Warn(fmt::format("warning: {} clipped by the map's guards",
+                     report::Count(found.clipped, "row")));
   }
   if (!(found.metrics.rmse <= models::kLargestRmse)) {
-    Say(
+    Warn(
         fmt::format("{}: the predictions err by {:.3g} RMSE, too much to be "
                     "squared; the map does not serve there",
                     data::PrintablePath(files),

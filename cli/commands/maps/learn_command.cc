@@ -12,18 +12,18 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/progress.h"
-#include "cli/desk/data_options.h"
-#include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/output/report_files.h"
 #include "cli/report/figures/learning_figures.h"
 #include "cli/report/figures/svg.h"
 #include "cli/report/shell_word.h"
-#include "cli/report/words/answers/next_steps.h"
-#include "cli/report/words/commands/learning_text.h"
+#include "cli/report/text/answers/next_steps.h"
+#include "cli/report/text/commands/learning_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/study_setup/data_options.h"
+#include "cli/study_setup/provenance.h"
 #include "data/csv.h"
 #include "data/files/atomic_file.h"
 #include "data/files/prepare_folder.h"
@@ -67,13 +67,13 @@ std::vector<std::unique_ptr<models::ModelRecipe>> RecipesOf(
   for (const std::string& spec : SplitFlag("--models", arguments.model_list)) {
     auto recipe = RecipeFromArgument(spec);
     if (const auto missing = recipe->WhatIsMissing(dataset)) {
-      Say(fmt::format("{} is left out: it needs {}", spec, *missing));
+      Warn(fmt::format("{} is left out: it needs {}", spec, *missing));
       continue;
     }
     if (recipe->kind() == models::ModelKind::kBlend &&
         arguments.model_list == models::kLearningModels &&
         dataset.num_rows() * dataset.num_inputs() > models::kMostForBlend) {
-      Say(
+      Warn(
           fmt::format("{} is left out: so many curves of so many rows take "
                       "long; --models {} draws it",
                       spec,
@@ -208,7 +208,8 @@ std::string ComparisonOfChosen(const models::SensorCurve& curve,
   selection.exclude.clear();
   std::vector<std::string> words{"errmap", "compare"};
   std::ranges::copy(arguments.data.files, std::back_inserter(words));
-  report::AddOptions(desk::DataOptions(selection, arguments.seed), &words);
+  report::AddOptions(study_setup::DataOptions(selection, arguments.seed),
+                     &words);
   return "With these alone:\n  " +
          report::ShellCommand(words, OutputTerminal().columns, 2) + "\n";
 }
@@ -281,14 +282,14 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
   }
   if (!arguments.candidates.empty()) LearnNext(arguments, dataset, &learned);
   if (learned.interrupted) {
-    Say(arguments.by == "sensors"
-            ? "interrupted"
-            : "interrupted; with --out the fits that are done are kept for "
-              "--resume");
+    Warn(arguments.by == "sensors"
+             ? "interrupted"
+             : "interrupted; with --out the fits that are done are kept for "
+               "--resume");
     return kInterrupted;
   }
   models::LearningRecord& record = learned.record;
-  record.file = desk::ShownNames(arguments.data.files);
+  record.file = study_setup::ShownNames(arguments.data.files);
   record.target = dataset.target().name;
   record.unit = dataset.target().unit.symbol;
   if (!arguments.by.empty()) record.by = arguments.by;
@@ -299,7 +300,7 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
                       {"repeats", arguments.repeats},
                       {"sensors", arguments.sensors},
                       {"seed", arguments.seed}},
-                     desk::HashInputs(arguments.data.files));
+                     study_setup::HashInputs(arguments.data.files));
   if (arguments.format == "json") {
     PrintResult(DumpJson(document));
   } else {

@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 
 #include "cli/commands/data_arguments.h"
-#include "cli/desk/provenance.h"
 #include "cli/report/number_text.h"
-#include "cli/report/words/commands/fault_text.h"
-#include "cli/report/words/commands/outside_text.h"
+#include "cli/report/text/commands/fault_text.h"
+#include "cli/report/text/commands/outside_text.h"
 #include "cli/shell/command_options.h"
+#include "cli/study_setup/provenance.h"
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/measurements/reading/reading.h"
@@ -30,7 +30,7 @@ Json MapAnswerJson(const char* schema,
                    const std::vector<std::string>& files) {
   return {{"schema", schema},
           {"model", fitted.name},
-          {"file", desk::ShownNames(files)},
+          {"file", study_setup::ShownNames(files)},
           {"target", fitted.target.name},
           {"unit", fitted.target.unit.symbol}};
 }
@@ -64,13 +64,15 @@ RowsLearnt FindRowsLearnt(const models::FittedModel& fitted,
                           const std::string& model,
                           const std::vector<std::string>& files,
                           const models::MapRows& rows) {
-  const std::vector<desk::InputFile> all = desk::DataOf(ProvenanceOf(model));
+  const std::vector<study_setup::InputFile> all =
+      study_setup::DataOf(ProvenanceOf(model));
   const data::Dataset& dataset = rows.prepared.dataset;
   RowsLearnt learnt{.of = dataset.num_rows()};
   learnt.file = std::ranges::all_of(
-      desk::HashInputs(files), [&](const desk::InputFile& file) {
-        return std::ranges::find(all, file.sha256, &desk::InputFile::sha256) !=
-               all.end();
+      study_setup::HashInputs(files), [&](const study_setup::InputFile& file) {
+        return std::ranges::find(all,
+                                 file.sha256,
+                                 &study_setup::InputFile::sha256) != all.end();
       });
   learnt.rows = learnt.file ? learnt.of
                             : models::CountLearntRows(fitted,
@@ -160,7 +162,7 @@ bool SayNotFinite(const VectorXd& predicted,
     first = i;
   }
   if (count == 0) return false;
-  Say(
+  Warn(
       fmt::format("{}: {} of {} not finite, the first in data row {}; the map "
                   "does not serve there",
                   data::PrintablePath(file),

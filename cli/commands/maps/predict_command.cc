@@ -11,9 +11,9 @@
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
-#include "cli/report/words/answers/interval_text.h"
-#include "cli/report/words/commands/check_text.h"
-#include "cli/report/words/commands/kept_promise_text.h"
+#include "cli/report/text/answers/interval_text.h"
+#include "cli/report/text/commands/calibration_check_text.h"
+#include "cli/report/text/commands/check_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "data/columns.h"
@@ -269,21 +269,21 @@ void SayWhatIsPredicted(const Predicted& found) {
   const models::FittedModel& fitted = found.fitted;
   const std::string& unit = fitted.target.unit.symbol;
   const bool aligned = fitted.align == data::Alignment::kFirst;
-  Say(fmt::format("{} predicted as {}{}{}; compensate by minus that",
-                  report::Count(found.NumWhole(), "row"),
-                  fitted.target.name,
-                  unit.empty() ? "" : " in " + unit,
-                  aligned ? " since the session's first row" : ""));
+  Warn(fmt::format("{} predicted as {}{}{}; compensate by minus that",
+                   report::Count(found.NumWhole(), "row"),
+                   fitted.target.name,
+                   unit.empty() ? "" : " in " + unit,
+                   aligned ? " since the session's first row" : ""));
   if (fitted.interval) {
-    Say(report::IntervalLine(
+    Warn(report::IntervalLine(
         models::MakeRecord(*fitted.interval),
         report::ErrorText(fitted.target.unit,
                           fitted.interval->levels[0].half_width)));
     const std::string halves =
         report::HalfWidthsLine(*fitted.interval, fitted.target.unit);
-    if (!halves.empty()) Say(halves);
+    if (!halves.empty()) Warn(halves);
   }
-  if (found.probes) Say(report::OffsetLine(*found.probes, fitted.target.unit));
+  if (found.probes) Warn(report::OffsetLine(*found.probes, fitted.target.unit));
   SayUnless(false, found.map.warnings);
 }
 
@@ -293,13 +293,13 @@ void SaySensorFault(const models::FittedModel& fitted, const MatrixXd& inputs) {
   if (!fault || fault->fault == models::SensorFault::kSpike) return;
   std::string text = report::SensorText(*fault);
   text.pop_back();  // the end of the line
-  Say("warning: " + text);
+  Warn("warning: " + text);
 }
 
 void SayClipped(const Predicted& found) {
   const Index clipped = std::ranges::count(found.clipped, true);
   if (clipped == 0) return;
-  Say(
+  Warn(
       fmt::format("warning: {} clipped by the map's guards, since an input "
                   "or the error went far beyond its trained range{}",
                   report::Count(clipped, "row"),
@@ -312,7 +312,7 @@ void SayMissing(const Predicted& found) {
   if (missing == 0) return;
   const auto first = static_cast<std::size_t>(
       std::ranges::find(found.is_whole, false) - found.is_whole.begin());
-  Say(
+  Warn(
       fmt::format("warning: {} of {} lack{} a reading, the first {} in data "
                   "row {}: nothing is predicted there",
                   missing,
@@ -380,7 +380,7 @@ void SayAll(const Predicted& found, const WholeRows& whole) {
   if (const Index learnt =
           models::CountLearntRows(found.fitted, inputs, nullptr);
       learnt > 0) {
-    Say(
+    Warn(
         fmt::format("the readings of {} of {} are ones that the map was "
                     "trained on: on new ones it errs more",
                     learnt,
@@ -389,7 +389,7 @@ void SayAll(const Predicted& found, const WholeRows& whole) {
   if (const std::string made_for =
           models::MadeForText(found.fitted, found.table);
       !made_for.empty()) {
-    Say("warning: " + made_for);
+    Warn("warning: " + made_for);
   }
 }
 

@@ -9,13 +9,13 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/maps/map_warnings.h"
-#include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
-#include "cli/report/words/commands/kept_promise_text.h"
+#include "cli/report/text/commands/calibration_check_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/study_setup/provenance.h"
 #include "data/files/atomic_file.h"
 #include "data/files/shown_path.h"
 #include "data/measurements/column_checks.h"
@@ -25,9 +25,9 @@
 #include "models/model_file.h"
 #include "models/record_json.h"
 #include "models/study/study_defaults.h"
+#include "models/uncertainty/add_uncertainty.h"
 #include "models/uncertainty/learnt_rows.h"
 #include "models/uncertainty/map_update.h"
-#include "models/uncertainty/promise.h"
 
 namespace errmap::cli {
 namespace {
@@ -71,17 +71,17 @@ data::Dataset ReadRows(const models::FittedModel& map,
 
 // What the map learnt from.
 struct KnownFiles {
-  std::vector<desk::InputFile> files;  // beside the one of new sessions
-  std::vector<std::string> lost;       // those that are not found as they were
-  bool any = false;                    // whether any is known
+  std::vector<study_setup::InputFile> files;  // beside the one of new sessions
+  std::vector<std::string> lost;  // those that are not found as they were
+  bool any = false;               // whether any is known
 };
 
 // A file that the map names, where it is still as it was: by that name from
 // here, beside the new sessions or beside the map. A map knows of most files
 // their name alone (data::ShownPath), so where update is run from must not
 // decide what is found.
-std::optional<desk::InputFile> FindNamed(const desk::InputFile& named,
-                                         const UpdateArguments& arguments) {
+std::optional<study_setup::InputFile> FindNamed(
+    const study_setup::InputFile& named, const UpdateArguments& arguments) {
   namespace fs = std::filesystem;
   for (const fs::path& folder : {fs::path(),
                                  fs::path(arguments.file).parent_path(),
@@ -91,7 +91,7 @@ std::optional<desk::InputFile> FindNamed(const desk::InputFile& named,
       const std::string path = (folder / name).string();
       std::error_code ignored;
       if (!fs::is_regular_file(path, ignored)) continue;
-      desk::InputFile found = desk::HashInput(path);
+      study_setup::InputFile found = study_setup::HashInput(path);
       if (found.sha256 == named.sha256) return found;
     }
   }
@@ -103,13 +103,13 @@ std::optional<desk::InputFile> FindNamed(const desk::InputFile& named,
 KnownFiles FindKnown(const UpdateArguments& arguments) {
   KnownFiles known;
   for (const std::string& file : arguments.known) {
-    known.files.push_back(desk::HashInput(file));
+    known.files.push_back(study_setup::HashInput(file));
   }
   known.any = !known.files.empty();
   if (known.any) return known;
-  const std::string fresh = desk::HashInput(arguments.file).sha256;
-  for (const desk::InputFile& named :
-       desk::DataOf(ProvenanceOf(arguments.model))) {
+  const std::string fresh = study_setup::HashInput(arguments.file).sha256;
+  for (const study_setup::InputFile& named :
+       study_setup::DataOf(ProvenanceOf(arguments.model))) {
     if (named.sha256 == fresh) {
       known.any = true;
     } else if (auto found = FindNamed(named, arguments)) {
@@ -135,12 +135,12 @@ std::string LostText(const KnownFiles& known) {
 // The rows of some files, one after the other; none: none.
 std::optional<data::Dataset> ReadKnown(
     const models::FittedModel& map,
-    const std::vector<desk::InputFile>& files,
+    const std::vector<study_setup::InputFile>& files,
     const UpdateArguments& arguments) {
   std::optional<data::Dataset> known;
   UpdateArguments as_fitted = arguments;
   as_fitted.columns.target.clear();
-  for (const desk::InputFile& file : files) {
+  for (const study_setup::InputFile& file : files) {
     data::Dataset rows = ReadRows(map, file.file, as_fitted);
     known = known ? models::Joined(*known, rows) : std::move(rows);
   }
@@ -180,13 +180,13 @@ models::FittedModel FitSuccessor(const models::FittedModel& old_map,
       RecipeFromArgument(old_map.name)->Fit(all, context);
   fitted.where = old_map.where;
   models::AddExperience(all, &fitted);
-  models::AddPromise(all,
-                     RecipeFromArgument(old_map.name),
-                     {.seed = context.seed,
-                      .jobs = context.threads,
-                      .stop = &stop,
-                      .indifference = context.indifference},
-                     &fitted);
+  models::AddUncertainty(all,
+                         RecipeFromArgument(old_map.name),
+                         {.seed = context.seed,
+                          .jobs = context.threads,
+                          .stop = &stop,
+                          .indifference = context.indifference},
+                         &fitted);
   return fitted;
 }
 
@@ -211,7 +211,7 @@ int RunUpdate(const UpdateArguments& arguments,
   const models::FittedModel old_map = LoadMap(arguments.model, arguments.quiet);
   const data::Dataset fresh = ReadRows(old_map, arguments.file, arguments);
   const KnownFiles known_files = FindKnown(arguments);
-  std::vector<desk::InputFile> learnt_from = known_files.files;
+  std::vector<study_setup::InputFile> learnt_from = known_files.files;
   const double indifference = models::DefaultIndifference(old_map.target.unit);
   const std::atomic<bool>& stop = InstallInterruptFlag();
   const models::FitContext context{.seed = arguments.seed,
@@ -236,11 +236,11 @@ int RunUpdate(const UpdateArguments& arguments,
   }
   if (stop.load()) return kInterrupted;
   if (!trial.why_failed.empty()) {
-    Say(fmt::format(
+    Warn(fmt::format(
         "{} failed: {}; the old map stays", old_map.name, trial.why_failed));
     return kEveryFitFailed;
   }
-  learnt_from.push_back(desk::HashInput(arguments.file));
+  learnt_from.push_back(study_setup::HashInput(arguments.file));
   const bool better = trial.better(indifference);
   if (better) {
     models::FittedModel fitted;
@@ -252,14 +252,15 @@ int RunUpdate(const UpdateArguments& arguments,
     if (stop.load()) return kInterrupted;
     models::SaveModel(
         fitted,
-        desk::ModelProvenance(
+        study_setup::ModelProvenance(
             command_line, learnt_from, all->num_rows(), arguments.seed),
         arguments.out);
   } else {
     data::WriteFileAtomically(arguments.out, data::ReadFile(arguments.model));
   }
   if (arguments.format == "json") {
-    learnt_from.insert(learnt_from.begin(), desk::HashInput(arguments.model));
+    learnt_from.insert(learnt_from.begin(),
+                       study_setup::HashInput(arguments.model));
     const Json provenance =
         ProvenanceJson(command_line,
                        {{"missing", ToString(arguments.missing)},

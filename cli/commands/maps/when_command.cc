@@ -7,12 +7,12 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/maps/map_warnings.h"
-#include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/report/number_text.h"
-#include "cli/report/words/commands/when_text.h"
+#include "cli/report/text/commands/when_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/study_setup/provenance.h"
 #include "data/columns.h"
 #include "data/files/shown_path.h"
 #include "data/input_error.h"
@@ -151,8 +151,10 @@ int RunWhen(const WhenArguments& arguments, const std::string& command_line) {
                          {"spent", advised.Spent(since->age, since->change)},
                          {"due", due}};
     }
-    document["provenance"] = ProvenanceJson(
-        command_line, Json::object(), {desk::HashInput(arguments.model)});
+    document["provenance"] =
+        ProvenanceJson(command_line,
+                       Json::object(),
+                       {study_setup::HashInput(arguments.model)});
     PrintResult(DumpJson(document));
   } else {
     PrintFitted(fmt::format(

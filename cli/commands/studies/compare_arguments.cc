@@ -14,7 +14,7 @@
 namespace errmap::cli {
 namespace {
 
-desk::PredictionsFile ParsePredictions(const std::string& pair) {
+study_setup::PredictionsFile ParsePredictions(const std::string& pair) {
   const std::size_t equals = pair.find('=');
   if (equals == 0 || equals == pair.npos || equals + 1 == pair.size()) {
     throw UsageError("--predictions must be NAME=FILE, found '" + pair + "'");
@@ -96,7 +96,7 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
             arguments->models,
             "One model (may be repeated): net:scg:hidden=60:wfactor=1e-3")
       .OneAtATime();
-  desk::ForStudyOptions(arguments->study, FlagAdder(command));
+  study_setup::ForStudyOptions(arguments->study, FlagAdder(command));
   AddSeedOption(command, &arguments->study.seed);
   AddOption(command,
             "--jobs N",

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "cli/commands/data_arguments.h"
-#include "cli/desk/plan/study_plan.h"
-#include "cli/desk/plan/study_run.h"
-#include "cli/desk/study_options.h"
-#include "cli/desk/toml/study_file.h"
+#include "cli/study_setup/plan/study_plan.h"
+#include "cli/study_setup/plan/study_run.h"
+#include "cli/study_setup/study_options.h"
+#include "cli/study_setup/toml/study_file.h"
 
 namespace CLI {
 class App;
@@ -37,16 +37,16 @@ class CompareMode {
   }
 
   /// Returns the plan if this mode makes one.
-  virtual std::optional<desk::StudyPlan> Plan(
+  virtual std::optional<study_setup::StudyPlan> Plan(
       const CompareArguments& /*arguments*/,
-      const desk::MakeOwnRecipes& /*own*/) {
+      const study_setup::MakeOwnRecipes& /*own*/) {
     return std::nullopt;
   }
 
   /// True if the mode adds something to the record of a run. It then needs the
   /// maps of all folds.
   virtual bool Judges() const { return false; }
-  virtual void Judge(const desk::StudyRun& /*run*/,
+  virtual void Judge(const study_setup::StudyRun& /*run*/,
                      models::StudyRecord* /*record*/) const {}
 };
 
@@ -56,10 +56,11 @@ struct CompareArguments {
   std::vector<std::string> holdouts;
   std::string model_list;
   std::vector<std::string> models;
-  desk::StudyConfig study;  // what desk::ForStudyOptions lists, and the seed
+  study_setup::StudyConfig
+      study;  // what study_setup::ForStudyOptions lists, and the seed
   std::string split;
   std::string save_split;
-  std::vector<desk::PredictionsFile> predictions;
+  std::vector<study_setup::PredictionsFile> predictions;
   bool resume = false;
   std::string cache;  // folder of the last fits, or ""
   bool force = false;
@@ -91,31 +92,31 @@ CompareArguments ReadCompareArguments(std::vector<std::string> words);
 
 /// Reads the study file of --config, changed by --set and by the flags of the
 /// command line.
-desk::StudyFile ConfigOfFile(const CompareArguments& arguments);
+study_setup::StudyFile ConfigOfFile(const CompareArguments& arguments);
 
 /// Returns the study of one component that the options alone describe.
-desk::StudyConfig ConfigOf(const CompareArguments& arguments);
+study_setup::StudyConfig ConfigOf(const CompareArguments& arguments);
 
 /// Returns the given flags that cannot apply to as many components as `reach`.
 std::vector<std::string> GivenOfFewer(const CompareArguments& arguments,
-                                      desk::Reach reach);
+                                      study_setup::Reach reach);
 
 /// Returns the plan from a slice's mode, the study file or DATA. `own` (may be
 /// empty) adds the caller's recipes.
-desk::StudyPlan PlanOf(const CompareArguments& arguments,
-                       const desk::MakeOwnRecipes& own = {});
+study_setup::StudyPlan PlanOf(const CompareArguments& arguments,
+                              const study_setup::MakeOwnRecipes& own = {});
 
 /// Returns a description of a study for a terminal: components, rows, groups,
 /// hold-outs, models, number of fits, and rough time on `jobs` processors. Then
 /// lists the files to be written into `out` ("": none).
-std::string PlanText(const desk::StudyPlan& plan,
+std::string PlanText(const study_setup::StudyPlan& plan,
                      int jobs,
                      const std::string& out);
 
 /// Returns a sentence on the time that a study takes; "" below half a minute.
 /// Unless its models were `chosen`, also names the faster ones, which together
 /// take at most a quarter of that time.
-std::vector<std::string> LongRunLines(const desk::StudyPlan& plan,
+std::vector<std::string> LongRunLines(const study_setup::StudyPlan& plan,
                                       int jobs,
                                       bool chosen);
 

@@ -8,15 +8,15 @@
 #include "cli/command.h"
 #include "cli/commands/progress.h"
 #include "cli/commands/studies/compare_arguments.h"
-#include "cli/desk/plan/run_files.h"
-#include "cli/desk/plan/study_forecast.h"
-#include "cli/desk/plan/study_run.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/output/report_files.h"
 #include "cli/report/documents/study_table.h"
 #include "cli/report/report.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/study_setup/plan/run_files.h"
+#include "cli/study_setup/plan/study_forecast.h"
+#include "cli/study_setup/plan/study_run.h"
 #include "data/files/atomic_file.h"
 #include "data/text.h"
 #include "models/study/journal/kept_fits.h"
@@ -39,9 +39,9 @@ bool AnyJudged(const models::ComponentStudy& component) {
   return false;
 }
 
-int StatusOf(const desk::StudyRun& run) {
+int StatusOf(const study_setup::StudyRun& run) {
   if (run.interrupted) {
-    Say("interrupted; what was finished is shown");
+    Warn("interrupted; what was finished is shown");
     return kInterrupted;
   }
   bool any = false;
@@ -49,28 +49,29 @@ int StatusOf(const desk::StudyRun& run) {
     if (AnyJudged(component)) {
       any = true;
     } else if (run.has_several()) {
-      Say(fmt::format("{}: every fit failed", data::Printable(component.name)));
+      Warn(
+          fmt::format("{}: every fit failed", data::Printable(component.name)));
     }
   }
   if (any) return kDone;
-  Say("every fit failed; the reasons are in the table");
+  Warn("every fit failed; the reasons are in the table");
   return kEveryFitFailed;
 }
 
-void SayShortOfMemory(const desk::StudyRun& run) {
+void SayShortOfMemory(const study_setup::StudyRun& run) {
   int fits = 0;
   for (const models::ComponentStudy& component : run.components) {
     fits += component.study.short_of_memory;
   }
   if (fits == 0) return;
-  Say(fmt::format(
+  Warn(fmt::format(
       "{} of the fits found not enough memory; fewer --jobs need less, and "
       "with --out the same command with --resume makes just these again",
       fits));
 }
 
 void SaveSplit(const models::ComponentStudy& comparison,
-               const desk::ComponentConfig& config) {
+               const study_setup::ComponentConfig& config) {
   if (config.save_split.empty()) return;
   data::WriteFileAtomically(
       config.save_split,
@@ -91,14 +92,14 @@ std::unique_ptr<models::KeptFits> OpenJournal(
 }
 
 // The files, where fit can read the same rows of them.
-std::vector<std::string> DataForFit(const desk::StudyRun& run) {
-  const desk::ComponentConfig& component = run.config.components.front();
+std::vector<std::string> DataForFit(const study_setup::StudyRun& run) {
+  const study_setup::ComponentConfig& component = run.config.components.front();
   return component.selection.where.empty() && component.later.empty()
              ? component.AllData()
              : std::vector<std::string>();
 }
 
-report::Screen Formatted(const desk::StudyRun& run,
+report::Screen Formatted(const study_setup::StudyRun& run,
                          const models::StudyRecord& record,
                          const CompareArguments& arguments) {
   const std::string& format = arguments.format;
@@ -116,10 +117,10 @@ report::Screen Formatted(const desk::StudyRun& run,
 
 // Refuses places for single files that cannot be written to: better now than
 // after minutes of fitting.
-void CheckPlaces(const desk::StudyPlan& plan,
+void CheckPlaces(const study_setup::StudyPlan& plan,
                  const CompareArguments& arguments,
                  const std::vector<std::string>& inputs) {
-  for (const desk::ComponentConfig& component : plan.config.components) {
+  for (const study_setup::ComponentConfig& component : plan.config.components) {
     CheckOutputName("--save-split", component.save_split, inputs);
     RequirePlaceFor(component.save_split);
   }
@@ -135,18 +136,18 @@ void CheckPlaces(const desk::StudyPlan& plan,
   RequirePlaceFor(arguments.page);
 }
 
-desk::StudyRun RunShowingProgress(desk::StudyPlan plan,
-                                  const CompareArguments& arguments,
-                                  int jobs,
-                                  bool keep_fold_maps,
-                                  models::KeptFits* journal) {
-  desk::StudyRun run;
+study_setup::StudyRun RunShowingProgress(study_setup::StudyPlan plan,
+                                         const CompareArguments& arguments,
+                                         int jobs,
+                                         bool keep_fold_maps,
+                                         models::KeptFits* journal) {
+  study_setup::StudyRun run;
   {
     SayUnless(arguments.data.quiet,
               LongRunLines(plan, jobs, arguments.ChoosesModels()));
     Progress progress(!arguments.data.quiet);
-    desk::StudyForecast forecast(plan, jobs);
-    run = desk::RunPlan(
+    study_setup::StudyForecast forecast(plan, jobs);
+    run = study_setup::RunPlan(
         std::move(plan),
         arguments.command_line,
         {.jobs = jobs,
@@ -158,7 +159,7 @@ desk::StudyRun RunShowingProgress(desk::StudyPlan plan,
          .progress = [&](std::size_t component,
                          const models::FitProgress& fit) {
            forecast.Note(component, fit);
-           const desk::StudyForecast::Best best = forecast.BestSoFar();
+           const study_setup::StudyForecast::Best best = forecast.BestSoFar();
            progress.Show({.done = fit.done,
                           .all = fit.all,
                           .left = forecast.SecondsLeft(),
@@ -179,7 +180,7 @@ int RunCompare(const CompareArguments& arguments) {
   for (const auto& mode : arguments.modes) {
     if (const auto status = mode->Begin(arguments)) return *status;
   }
-  desk::StudyPlan plan = PlanOf(arguments);
+  study_setup::StudyPlan plan = PlanOf(arguments);
   const auto judge = std::ranges::find_if(
       arguments.modes,
       &CompareMode::Judges,
@@ -202,12 +203,12 @@ int RunCompare(const CompareArguments& arguments) {
   }
   // Open, and so the folder taken, until all is written.
   const std::unique_ptr<models::KeptFits> journal = OpenJournal(arguments);
-  const desk::StudyRun run = RunShowingProgress(
+  const study_setup::StudyRun run = RunShowingProgress(
       std::move(plan), arguments, jobs, is_judged, journal.get());
   SayShortOfMemory(run);
-  models::StudyRecord record = desk::RecordOf(run, jobs);
+  models::StudyRecord record = study_setup::RecordOf(run, jobs);
   if (is_judged && !run.interrupted) (*judge)->Judge(run, &record);
-  if (folder) desk::NameMaps(run, &record);
+  if (folder) study_setup::NameMaps(run, &record);
   // Before the files: a full disk must not cost the answer.
   PrintScreen(Formatted(run, record, arguments));
   if (!arguments.page.empty()) {

@@ -61,9 +61,9 @@ std::vector<std::string> ModelSpecs(const CompareArguments& arguments) {
   return specs;
 }
 
-desk::StudyFile ReadChanged(const CompareArguments& arguments) {
+study_setup::StudyFile ReadChanged(const CompareArguments& arguments) {
   return data::ThrowingAs<UsageError>("", [&] {
-    return desk::ReadStudyFile(arguments.config, arguments.changes);
+    return study_setup::ReadStudyFile(arguments.config, arguments.changes);
   });
 }
 
@@ -78,28 +78,29 @@ void Override(const std::set<std::string>& given,
               const Config& flags,
               Config* config) {
   for_options(flags,
-              [&]<typename Member>(const desk::StudyOption& option,
+              [&]<typename Member>(const study_setup::StudyOption& option,
                                    const Member& said,
                                    const auto&... /*values*/) {
                 if (!given.contains(FlagOf(option.key))) return;
-                for_options(*config,
-                            [&]<typename Other>(const desk::StudyOption& other,
-                                                Other& member,
-                                                const auto&... /*values*/) {
-                              if constexpr (std::is_same_v<Member, Other>) {
-                                if (std::string_view(other.key) == option.key)
-                                  member = said;
-                              }
-                            });
+                for_options(
+                    *config,
+                    [&]<typename Other>(const study_setup::StudyOption& other,
+                                        Other& member,
+                                        const auto&... /*values*/) {
+                      if constexpr (std::is_same_v<Member, Other>) {
+                        if (std::string_view(other.key) == option.key)
+                          member = said;
+                      }
+                    });
               });
 }
 
 }  // namespace
 
-desk::StudyConfig ConfigOf(const CompareArguments& arguments) {
+study_setup::StudyConfig ConfigOf(const CompareArguments& arguments) {
   CheckHoldouts(arguments.holdouts);
   const DataArguments& data = arguments.data;
-  desk::ComponentConfig component;
+  study_setup::ComponentConfig component;
   if (!data.files.empty()) {
     component.data = data.files.front();
     component.more_data.assign(data.files.begin() + 1, data.files.end());
@@ -109,16 +110,17 @@ desk::StudyConfig ConfigOf(const CompareArguments& arguments) {
   component.save_split = arguments.save_split;
   component.predictions = arguments.predictions;
   std::vector<std::string> specs = ModelSpecs(arguments);
-  for (const desk::PredictionsFile& predictions : component.predictions) {
+  for (const study_setup::PredictionsFile& predictions :
+       component.predictions) {
     if (std::ranges::find(specs, predictions.name) != specs.end() ||
         std::ranges::count(component.predictions,
                            predictions.name,
-                           &desk::PredictionsFile::name) > 1) {
+                           &study_setup::PredictionsFile::name) > 1) {
       throw UsageError("two models are named " + predictions.name +
                        "; give the --predictions another name");
     }
   }
-  desk::StudyConfig config = arguments.study;
+  study_setup::StudyConfig config = arguments.study;
   config.holdouts = arguments.holdouts;
   config.models = std::move(specs);
   config.components = {std::move(component)};
@@ -126,21 +128,21 @@ desk::StudyConfig ConfigOf(const CompareArguments& arguments) {
 }
 
 std::vector<std::string> GivenOfFewer(const CompareArguments& arguments,
-                                      desk::Reach reach) {
+                                      study_setup::Reach reach) {
   std::vector<std::string> flags;
   const auto add = [&](const std::string& flag) {
     if (arguments.given.contains(flag)) flags.push_back(flag);
   };
-  desk::ForSelectionOptions(
+  study_setup::ForSelectionOptions(
       arguments.data.selection,
-      [&](const desk::StudyOption& option, const auto&... /*said*/) {
+      [&](const study_setup::StudyOption& option, const auto&... /*said*/) {
         if (option.reach < reach) add(FlagOf(option.key));
       });
   for (const char* flag : kFilesOfOne) add(flag);
   return flags;
 }
 
-desk::StudyFile ConfigOfFile(const CompareArguments& arguments) {
+study_setup::StudyFile ConfigOfFile(const CompareArguments& arguments) {
   const auto given = [&](const char* flag) {
     return arguments.given.contains(flag);
   };
@@ -148,21 +150,22 @@ desk::StudyFile ConfigOfFile(const CompareArguments& arguments) {
     throw UsageError(
         "DATA and --config exclude each other; the study file names its data");
   }
-  desk::StudyFile file = ReadChanged(arguments);
-  desk::StudyConfig& config = file.config;
-  const desk::StudyConfig flags = ConfigOf(arguments);
+  study_setup::StudyFile file = ReadChanged(arguments);
+  study_setup::StudyConfig& config = file.config;
+  const study_setup::StudyConfig flags = ConfigOf(arguments);
   if (given("--seed")) config.seed = flags.seed;
   if (given("--holdout")) config.holdouts = flags.holdouts;
   if (given("--models") || given("--model")) config.models = flags.models;
   const auto of_study = [](auto& of, const auto& visit) {
-    desk::ForStudyOptions(of, visit);
+    study_setup::ForStudyOptions(of, visit);
   };
   const auto of_component = [](auto& of, const auto& visit) {
-    desk::ForComponentOptions(of, visit);
+    study_setup::ForComponentOptions(of, visit);
   };
   Override(arguments.given, of_study, flags, &config);
   if (config.components.size() != 1) {
-    for (const std::string& flag : GivenOfFewer(arguments, desk::Reach::kAll)) {
+    for (const std::string& flag :
+         GivenOfFewer(arguments, study_setup::Reach::kAll)) {
       throw UsageError(
           fmt::format("{} is for one component, and {} has {}; write --set "
                       "component.0.KEY=VALUE",
@@ -171,10 +174,10 @@ desk::StudyFile ConfigOfFile(const CompareArguments& arguments) {
                       config.components.size()));
     }
   }
-  desk::ComponentConfig from = flags.components.front();
+  study_setup::ComponentConfig from = flags.components.front();
   from.goal = flags.goal;
   from.indifference = flags.indifference;
-  for (desk::ComponentConfig& component : config.components) {
+  for (study_setup::ComponentConfig& component : config.components) {
     Override(arguments.given, of_component, from, &component);
     if (given("--split")) component.split = from.split;
     if (given("--save-split")) component.save_split = from.save_split;
@@ -183,12 +186,12 @@ desk::StudyFile ConfigOfFile(const CompareArguments& arguments) {
   return file;
 }
 
-desk::StudyPlan PlanOf(const CompareArguments& arguments,
-                       const desk::MakeOwnRecipes& own) {
+study_setup::StudyPlan PlanOf(const CompareArguments& arguments,
+                              const study_setup::MakeOwnRecipes& own) {
   for (const auto& mode : arguments.modes) {
     if (auto plan = mode->Plan(arguments, own)) return *std::move(plan);
   }
-  const desk::Remark remark = Sayer(arguments.data.quiet);
+  const study_setup::Remark remark = Sayer(arguments.data.quiet);
   if (arguments.config.empty()) {
     if (!arguments.given.contains("DATA")) {
       throw UsageError("DATA is required; see errmap compare --help");
@@ -196,9 +199,9 @@ desk::StudyPlan PlanOf(const CompareArguments& arguments,
     if (!arguments.changes.empty()) {
       throw UsageError("--set changes a study file; name it with --config");
     }
-    return desk::PlanStudy(ConfigOf(arguments), remark, own);
+    return study_setup::PlanStudy(ConfigOf(arguments), remark, own);
   }
-  return desk::PlanStudy(ConfigOfFile(arguments), remark, own);
+  return study_setup::PlanStudy(ConfigOfFile(arguments), remark, own);
 }
 
 }  // namespace errmap::cli

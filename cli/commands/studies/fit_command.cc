@@ -11,13 +11,13 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/desk/plan/component_names.h"
-#include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/documents/fit_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/study_setup/plan/component_names.h"
+#include "cli/study_setup/provenance.h"
 #include "data/files/shown_path.h"
 #include "data/measurements/axis/directions.h"
 #include "data/measurements/joined_tables.h"
@@ -29,9 +29,9 @@
 #include "models/record_json.h"
 #include "models/sensors/sensitivity.h"
 #include "models/study/fold_pool.h"
-#include "models/study/record/making/parts.h"
+#include "models/study/record/builders/parts.h"
 #include "models/study/study_defaults.h"
-#include "models/uncertainty/promise.h"
+#include "models/uncertainty/add_uncertainty.h"
 
 namespace errmap::cli {
 namespace {
@@ -150,9 +150,9 @@ void AddInterval(const data::Dataset& dataset,
                  const models::StudyOptions& options,
                  models::FittedModel* fitted) {
   try {
-    models::AddPromise(dataset, std::move(recipe), options, fitted);
+    models::AddUncertainty(dataset, std::move(recipe), options, fitted);
   } catch (const std::invalid_argument& error) {
-    Say(fmt::format("no interval: {}", error.what()));
+    Warn(fmt::format("no interval: {}", error.what()));
   }
 }
 
@@ -191,16 +191,16 @@ int FitOne(const FitArguments& arguments, const std::string& command_line) {
     fit = FitTimed(*recipe, dataset, context);
   } catch (const std::invalid_argument& error) {
     if (stop.load()) {
-      Say("interrupted before there was a map; nothing written");
+      Warn("interrupted before there was a map; nothing written");
       return kInterrupted;
     }
-    Say(fmt::format("{} failed: {}", arguments.model, error.what()));
+    Warn(fmt::format("{} failed: {}", arguments.model, error.what()));
     return kEveryFitFailed;
   }
   models::FittedModel& fitted = fit.map;
   const VectorXd predicted = fitted.Predict(dataset);
   if (const auto why = WhyFailed(fitted, predicted)) {
-    Say(fmt::format("{} failed: {}; nothing written", arguments.model, *why));
+    Warn(fmt::format("{} failed: {}; nothing written", arguments.model, *why));
     return kEveryFitFailed;
   }
   const Json configuration = ConfigurationJson(*recipe, dataset, arguments);
@@ -216,11 +216,11 @@ int FitOne(const FitArguments& arguments, const std::string& command_line) {
                  .indifference = context.indifference},
                 &fitted);
   }
-  const std::vector<desk::InputFile> inputs =
-      desk::HashInputs(arguments.data.files);
+  const std::vector<study_setup::InputFile> inputs =
+      study_setup::HashInputs(arguments.data.files);
   models::SaveModel(
       fitted,
-      desk::ModelProvenance(
+      study_setup::ModelProvenance(
           command_line, inputs, dataset.num_rows(), arguments.seed),
       arguments.out);
   const models::Sensitivity sensitivity =
@@ -243,7 +243,7 @@ int FitOne(const FitArguments& arguments, const std::string& command_line) {
                                  .terminal = OutputTerminal()}));
   }
   if (stop.load()) {
-    Say("interrupted; the best map so far was written");
+    Warn("interrupted; the best map so far was written");
     return kInterrupted;
   }
   return kDone;
@@ -263,7 +263,7 @@ std::vector<std::pair<std::string, std::string>> MapsOfWays(
   for (const std::string& way : ways) {
     selections.emplace_back(arguments.selection).direction = way;
   }
-  const std::vector<std::string> names = desk::NamesByFile(
+  const std::vector<std::string> names = study_setup::NamesByFile(
       data::ReadTables(arguments.files, arguments.selection).table, selections);
   std::vector<std::pair<std::string, std::string>> maps;
   for (std::size_t i = 0; i < ways.size(); ++i) {

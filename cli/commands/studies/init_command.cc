@@ -5,12 +5,12 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/desk/plan/study_plan.h"
-#include "cli/desk/toml/study_file_text.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/slice.h"
+#include "cli/study_setup/plan/study_plan.h"
+#include "cli/study_setup/toml/study_file_text.h"
 #include "data/files/atomic_file.h"
 #include "data/text.h"
 
@@ -52,16 +52,18 @@ int RunInit(const InitArguments& arguments) {
       return kDone;
     }
   }
-  desk::StudyConfig config = desk::ProposeStudy(data::ReadCsv(arguments.data));
-  for (desk::ComponentConfig& component : config.components) {
+  study_setup::StudyConfig config =
+      study_setup::ProposeStudy(data::ReadCsv(arguments.data));
+  for (study_setup::ComponentConfig& component : config.components) {
     component.selection.target = arguments.target;
   }
-  const desk::StudyPlan plan = desk::PlanStudy(config);
+  const study_setup::StudyPlan plan = study_setup::PlanStudy(config);
   data::WriteFileAtomically(
       arguments.out,
-      desk::StudyFileText(plan,
-                          PathFrom(arguments.out, arguments.data),
-                          "errmap compare --config THIS_FILE [--out DIR]"));
+      study_setup::StudyFileText(
+          plan,
+          PathFrom(arguments.out, arguments.data),
+          "errmap compare --config THIS_FILE [--out DIR]"));
   PrintFitted(fmt::format(
       "{}: {} component{}; look it over, then\nerrmap compare --config {}\n",
       data::PrintablePath(arguments.out),

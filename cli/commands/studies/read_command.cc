@@ -7,7 +7,7 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/report/words/commands/fault_text.h"
+#include "cli/report/text/commands/fault_text.h"
 #include "cli/report/wrap_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
@@ -216,7 +216,7 @@ int RunRead(const ReadArguments& arguments) {
     return kWrongCommandLine;
   } catch (const data::InputError& error) {
     if (reading.rows == 0) throw;
-    Say(error.what());
+    Warn(error.what());
     reading.remarks.emplace_back(error.what());
     Print(reading, arguments.format);
     return kUnusableInput;

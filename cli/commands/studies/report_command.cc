@@ -5,16 +5,16 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
-#include "cli/desk/plan/component_names.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/output/report_files.h"
 #include "cli/report/documents/report_html.h"
 #include "cli/report/figures/figures.h"
 #include "cli/report/report.h"
-#include "cli/report/words/answers/data_words.h"
+#include "cli/report/text/answers/data_words.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/slice.h"
+#include "cli/study_setup/plan/component_names.h"
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
@@ -79,7 +79,7 @@ int RunReport(const ReportArguments& arguments) {
     if (const auto status = slice.report(arguments)) return *status;
   }
   models::StudyRecord results = ReadResults(arguments.folder);
-  if (results.doubt) Say("warning: " + report::DoubtText(results));
+  if (results.doubt) Warn("warning: " + report::DoubtText(results));
   const std::string& component = arguments.component;
   std::string written;  // told once all is
   if (!component.empty()) results = OfComponent(std::move(results), component);
@@ -90,7 +90,7 @@ int RunReport(const ReportArguments& arguments) {
                                    FiguresInFolder(results, arguments.folder)));
   } else if (!component.empty()) {
     const std::string page =
-        "components/" + desk::PlainOrHashedName(component) + ".html";
+        "components/" + study_setup::PlainOrHashedName(component) + ".html";
     ClaimedFolder folder(arguments.folder,
                          {page},
                          {ResultsPath(arguments.folder)},
@@ -127,9 +127,9 @@ int RunReport(const ReportArguments& arguments) {
   }
   folder.Finish();
   PrintResult(written);
-  Say(fmt::format("{} figures as svg in {}",
-                  figures.size(),
-                  data::PrintablePath(arguments.figures)));
+  Warn(fmt::format("{} figures as svg in {}",
+                   figures.size(),
+                   data::PrintablePath(arguments.figures)));
   return kDone;
 }
 

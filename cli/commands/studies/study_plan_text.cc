@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "cli/commands/studies/compare_arguments.h"
-#include "cli/desk/plan/study_forecast.h"
 #include "cli/report/number_text.h"
-#include "cli/report/words/answers/data_words.h"
+#include "cli/report/text/answers/data_words.h"
 #include "cli/report/wrap_text.h"
+#include "cli/study_setup/plan/study_forecast.h"
 #include "data/text.h"
 
 namespace errmap::cli {
@@ -36,7 +36,7 @@ std::string ListLine(const char* what, const std::string& list) {
 }
 
 std::string ComponentText(const models::ComponentPlan& component,
-                          const desk::ComponentConfig& config) {
+                          const study_setup::ComponentConfig& config) {
   const data::Dataset& dataset = component.comparison.data.dataset;
   std::vector<std::string> models;
   for (const auto& recipe : component.recipes) {
@@ -44,7 +44,8 @@ std::string ComponentText(const models::ComponentPlan& component,
   }
   std::string text =
       fmt::format("component {}\n", data::Printable(config.name));
-  text += "  data      " + data::Printable(desk::ShownNames(config.AllData()));
+  text += "  data      " +
+          data::Printable(study_setup::ShownNames(config.AllData()));
   for (const data::ColumnFilter& filter : config.selection.where) {
     text += fmt::format(" where {} = {}",
                         data::Printable(filter.column),
@@ -67,17 +68,17 @@ std::string ComponentText(const models::ComponentPlan& component,
   return text;
 }
 
-double SecondsOf(const desk::StudyPlan& plan, int jobs) {
+double SecondsOf(const study_setup::StudyPlan& plan, int jobs) {
   double seconds = 0.0;
   for (const models::ComponentPlan& component : plan.components) {
-    seconds += desk::RoughSeconds(component, jobs);
+    seconds += study_setup::RoughSeconds(component, jobs);
   }
   return seconds;
 }
 
 }  // namespace
 
-std::string PlanText(const desk::StudyPlan& plan,
+std::string PlanText(const study_setup::StudyPlan& plan,
                      int jobs,
                      const std::string& out) {
   std::string text;
@@ -87,7 +88,7 @@ std::string PlanText(const desk::StudyPlan& plan,
   text += fmt::format("{} in all, seed {}; roughly {} on {}\n",
                       report::Count(plan.num_fits(), "fit"),
                       plan.config.seed,
-                      desk::RoughTimeText(SecondsOf(plan, jobs)),
+                      study_setup::RoughTimeText(SecondsOf(plan, jobs)),
                       report::Count(jobs, "job"));
   if (out.empty()) {
     text += "no files (give --out DIR for them)\n";
@@ -102,20 +103,21 @@ std::string PlanText(const desk::StudyPlan& plan,
   return text + "Nothing was fitted or written (--dry-run).\n";
 }
 
-std::vector<std::string> LongRunLines(const desk::StudyPlan& plan,
+std::vector<std::string> LongRunLines(const study_setup::StudyPlan& plan,
                                       int jobs,
                                       bool chosen) {
   constexpr double kLong = 30.0;
   const double seconds = SecondsOf(plan, jobs);
   if (seconds < kLong) return {};
-  std::vector<std::string> lines = {fmt::format("this takes about {} on {}",
-                                                desk::RoughTimeText(seconds),
-                                                report::Count(jobs, "job"))};
-  const desk::FasterModels faster = desk::FasterModelsOf(plan);
+  std::vector<std::string> lines = {
+      fmt::format("this takes about {} on {}",
+                  study_setup::RoughTimeText(seconds),
+                  report::Count(jobs, "job"))};
+  const study_setup::FasterModels faster = study_setup::FasterModelsOf(plan);
   if (!chosen && !faster.names.empty()) {
     lines.push_back(
         fmt::format("about {} without the slowest: --models {}",
-                    desk::RoughTimeText(faster.seconds / jobs),
+                    study_setup::RoughTimeText(faster.seconds / jobs),
                     data::Printable(data::JoinWords(faster.names, ","))));
   }
   return lines;

@@ -12,13 +12,13 @@
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/progress.h"
 #include "cli/commands/studies/compare_arguments.h"
-#include "cli/desk/plan/study_forecast.h"
 #include "cli/fleet/commands/launcher.h"
 #include "cli/fleet/run/fleet_run.h"
 #include "cli/fleet/store/merge.h"
 #include "cli/report/number_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/study_setup/plan/study_forecast.h"
 #include "data/files/prepare_folder.h"
 #include "data/text.h"
 
@@ -51,7 +51,8 @@ std::string PlanText(const fleet::FleetPlan& plan,
       report::Count(plan.components, "component"),
       plan.looked_at,
       plan.fits,
-      desk::RoughTimeText(plan.seconds / static_cast<double>(tasks * jobs)),
+      study_setup::RoughTimeText(plan.seconds /
+                                 static_cast<double>(tasks * jobs)),
       report::Count(tasks, "task"),
       report::Count(jobs, "job"));
   for (const std::string& line : plan.unusable) {
@@ -66,7 +67,7 @@ std::string PlanText(const fleet::FleetPlan& plan,
 }
 
 void CheckWords(const CompareArguments& arguments,
-                const desk::StudyConfig& config) {
+                const study_setup::StudyConfig& config) {
   if (!arguments.page.empty()) {
     throw UsageError(
         "-o writes the page of one study, and this is one of many components; "
@@ -77,7 +78,7 @@ void CheckWords(const CompareArguments& arguments,
     throw UsageError(
         "a study of files by pattern, or a share of one, needs --out STORE");
   }
-  for (const desk::ComponentConfig& component : config.components) {
+  for (const study_setup::ComponentConfig& component : config.components) {
     if (component.save_split.empty() && component.split.empty() &&
         component.predictions.empty()) {
       continue;
@@ -94,7 +95,7 @@ int StatusOf(const fleet::FleetSummaries& found) {
         return summary.status == models::ModelStatus::kOk;
       });
   if (any) return kDone;
-  Say("every component failed");
+  Warn("every component failed");
   return kEveryFitFailed;
 }
 
@@ -131,15 +132,15 @@ class FleetMode : public CompareMode {
   }
 
   // Where it is not begun: every file that a pattern matches is a component.
-  std::optional<desk::StudyPlan> Plan(
+  std::optional<study_setup::StudyPlan> Plan(
       const CompareArguments& arguments,
-      const desk::MakeOwnRecipes& own) override {
+      const study_setup::MakeOwnRecipes& own) override {
     if (arguments.config.empty()) return std::nullopt;
-    desk::StudyFile file = ConfigOfFile(arguments);
+    study_setup::StudyFile file = ConfigOfFile(arguments);
     const fleet::FleetStudy study = fleet::WithPatterns(file);
     if (!study.has_patterns()) return std::nullopt;
     file.config = fleet::Expanded(study).config;
-    return desk::PlanStudy(file, Sayer(arguments.data.quiet), own);
+    return study_setup::PlanStudy(file, Sayer(arguments.data.quiet), own);
   }
 
  private:
@@ -180,7 +181,7 @@ class FleetMode : public CompareMode {
     if (result.interrupted) return kInterrupted;
     if (shard_) return kDone;
     const fleet::FleetSummaries found = fleet::MergeStore(store);
-    if (!found.missing.empty()) Say(fleet::MissingWords(found));
+    if (!found.missing.empty()) Warn(fleet::MissingWords(found));
     PrintResult(fleet::FormattedFleet(
         found.summaries, arguments.format, OutputTerminal().columns));
     return StatusOf(found);
@@ -188,7 +189,7 @@ class FleetMode : public CompareMode {
 
   void SayResult(const fleet::FleetRunResult& result,
                  const fleet::Share& share) const {
-    Say(fmt::format(
+    Warn(fmt::format(
         "{}{}: {} fitted, {} unchanged, {} failed{}",
         shard_
             ? fmt::format("share {} of 0 to {}, ", share.index, share.count - 1)

@@ -219,10 +219,10 @@ void SayNotWatched(const std::vector<Deployed>& all) {
   }
   if (unwatched.empty()) return;
   const auto others = unwatched.size() - 1;
-  Say(fmt::format("errmap watch will not judge {}{}: {}",
-                  data::QuotedName(unwatched[0]->deployment.component),
-                  others > 0 ? fmt::format(" and {} more", others) : "",
-                  unwatched[0]->why_not_watched));
+  Warn(fmt::format("errmap watch will not judge {}{}: {}",
+                   data::QuotedName(unwatched[0]->deployment.component),
+                   others > 0 ? fmt::format(" and {} more", others) : "",
+                   unwatched[0]->why_not_watched));
 }
 
 int RunDeploy(const DeployArguments& arguments) {

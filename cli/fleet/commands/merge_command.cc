@@ -21,13 +21,13 @@ int RunMerge(const MergeArguments& arguments) {
   const fleet::FleetSummaries found =
       fleet::MergeStore(fleet::StorePaths{arguments.store});
   if (!found.damaged.empty()) {
-    Say(fmt::format(
+    Warn(fmt::format(
         "errmap.sqlite was damaged: it is rewritten, without deployments "
         "and what was watched, and the old one is {}; errmap deploy STORE "
         "deploys maps again",
         data::PrintablePath(found.damaged)));
   }
-  if (!found.missing.empty()) Say(fleet::MissingWords(found));
+  if (!found.missing.empty()) Warn(fleet::MissingWords(found));
   PrintResult(fleet::FormattedFleet(
       found.summaries, arguments.format, OutputTerminal().columns));
   return found.missing.empty() ? kDone : kEveryFitFailed;

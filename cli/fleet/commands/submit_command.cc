@@ -150,7 +150,7 @@ int RunScript(const std::string& path) {
 int RunSubmit(const SubmitArguments& arguments,
               const std::string& command_line) {
   const fleet::FleetStudy study = fleet::Expanded(
-      fleet::WithPatterns(desk::ReadStudyFile(arguments.config)));
+      fleet::WithPatterns(study_setup::ReadStudyFile(arguments.config)));
   const fleet::StorePaths store{arguments.store};
   ClaimStore(store, arguments.force);
   const std::string folder = (fs::absolute(arguments.store) / "slurm").string();
@@ -166,7 +166,7 @@ int RunSubmit(const SubmitArguments& arguments,
   data::WriteFileAtomically(folder + "/shards.sh", ShardsScript(job));
   data::WriteFileAtomically(folder + "/merge.sh", MergeScript(job));
   data::WriteFileAtomically(folder + "/submit.sh", SubmitScript(job));
-  for (const std::string& line : job.plan.unusable) Say("unusable: " + line);
+  for (const std::string& line : job.plan.unusable) Warn("unusable: " + line);
   if (arguments.now) {
     return RunScript(folder + "/submit.sh") == 0 ? kDone : kOtherFailure;
   }

@@ -43,14 +43,14 @@ fleet::WatchedFiles FilesOf(const WatchArguments& arguments,
   constexpr std::size_t kMostTold = 5;
   for (std::size_t i = 0; i < files.remarks.size(); ++i) {
     if (i == kMostTold) {
-      Say(fmt::format("likewise {} more", files.remarks.size() - i));
+      Warn(fmt::format("likewise {} more", files.remarks.size() - i));
       break;
     }
-    Say(files.remarks[i]);
+    Warn(files.remarks[i]);
   }
   if (!files.unknown.empty() && !arguments.quiet) {
-    Say(fmt::format("{} of no component with a map deployed",
-                    report::Count(std::ssize(files.unknown), "file")));
+    Warn(fmt::format("{} of no component with a map deployed",
+                     report::Count(std::ssize(files.unknown), "file")));
   }
   if (files.files.empty()) {
     throw data::InputError(
@@ -145,7 +145,7 @@ int RunWatch(const WatchArguments& arguments) {
   const fleet::WatchedMaps watched = fleet::WatchMaps(
       paths, &store, FilesOf(arguments, study, deployments).files);
   if (watched.as_studied > 0 && !arguments.quiet) {
-    Say(fmt::format(
+    Warn(fmt::format(
         "{} from the study itself: they say nothing about another day",
         report::Count(watched.as_studied, "file")));
   }
@@ -175,7 +175,7 @@ int RunWatch(const WatchArguments& arguments) {
       std::ranges::none_of(components, [](const auto& component) {
         return component.status == WatchStatus::kDoubtful;
       })) {
-    Say("none of the maps could be judged: what is said of each tells why");
+    Warn("none of the maps could be judged: what is said of each tells why");
   }
   return status;
 }

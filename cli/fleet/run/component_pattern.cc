@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/desk/plan/component_names.h"
+#include "cli/study_setup/plan/component_names.h"
 #include "data/input_error.h"
 #include "data/text.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using desk::ComponentConfig;
+using study_setup::ComponentConfig;
 
 bool HasFields(std::string_view text) { return text.find('{') != text.npos; }
 
@@ -246,12 +246,12 @@ std::string FillIn(std::string_view text, const PathFields& fields) {
   return filled;
 }
 
-FleetStudy WithPatterns(desk::StudyFile study) {
+FleetStudy WithPatterns(study_setup::StudyFile study) {
   FleetStudy fleet{.config = std::move(study.config),
                    .file = std::move(study.file),
                    .sources = {}};
   for (std::size_t i = 0; i < study.components.size(); ++i) {
-    const desk::ComponentInFile& in_file = study.components[i];
+    const study_setup::ComponentInFile& in_file = study.components[i];
     ComponentConfig& component = fleet.config.components[i];
     ComponentSource& source = fleet.sources.emplace_back();
     source.path = in_file.data;
@@ -309,7 +309,7 @@ FleetStudy Expanded(const FleetStudy& study) {
     if (missing.name.empty()) missing.name = source.path;
     add(std::move(missing), {.path = source.path, .fields = {}});
   }
-  desk::NameComponents(&expanded.config);
+  study_setup::NameComponents(&expanded.config);
   return expanded;
 }
 

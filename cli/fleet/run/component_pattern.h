@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/desk/toml/study_file.h"
+#include "cli/study_setup/toml/study_file.h"
 
 namespace errmap::fleet {
 
@@ -25,8 +25,8 @@ struct ComponentSource {
 /// A study file whose components may come from files that match a pattern. Each
 /// component is a separate study, and a failed one does not stop the others.
 struct FleetStudy {
-  desk::StudyConfig config;
-  desk::InputFile file;
+  study_setup::StudyConfig config;
+  study_setup::InputFile file;
   std::vector<ComponentSource> sources;  // one per component
 
   bool has_patterns() const {
@@ -36,7 +36,7 @@ struct FleetStudy {
 
 /// A path with fields in it is a pattern, unless a file has exactly that name.
 /// Throws data::InputError, naming the place, if a pattern is malformed.
-FleetStudy WithPatterns(desk::StudyFile study);
+FleetStudy WithPatterns(study_setup::StudyFile study);
 
 /// A path with fields in place of the parts that differ between files:
 /// "{machine}/{component}_{direction:down|up}.csv". A field is part of one

@@ -2,9 +2,9 @@
 #include <exception>
 #include <new>
 
-#include "cli/desk/plan/study_forecast.h"
-#include "cli/desk/plan/study_plan.h"
 #include "cli/fleet/run/fleet_run.h"
+#include "cli/study_setup/plan/study_forecast.h"
+#include "cli/study_setup/plan/study_plan.h"
 #include "data/text.h"
 
 namespace errmap::fleet {
@@ -25,23 +25,23 @@ double MebibytesOf(const models::ComponentPlan& component) {
 
 }  // namespace
 
-FleetPlan PlanFleet(const desk::StudyConfig& config) {
+FleetPlan PlanFleet(const study_setup::StudyConfig& config) {
   constexpr std::size_t kMostLookedAt = 24;
   FleetPlan plan;
   const std::size_t count = config.components.size();
   plan.components = static_cast<std::int64_t>(count);
   const std::size_t sample = std::min(count, kMostLookedAt);
   for (std::size_t i = 0; i < sample; ++i) {
-    const desk::ComponentConfig& component =
+    const study_setup::ComponentConfig& component =
         config.components[i * count / sample];
-    desk::StudyConfig study = config;
+    study_setup::StudyConfig study = config;
     study.components = {component};
     ++plan.looked_at;
     try {
-      const desk::StudyPlan one = desk::PlanStudy(study);
+      const study_setup::StudyPlan one = study_setup::PlanStudy(study);
       plan.fits += one.num_fits();
       for (const models::ComponentPlan& way : one.components) {
-        plan.seconds += desk::RoughSeconds(way, 1);
+        plan.seconds += study_setup::RoughSeconds(way, 1);
         plan.largest_mib = std::max(plan.largest_mib, MebibytesOf(way));
       }
     } catch (const std::bad_alloc&) {

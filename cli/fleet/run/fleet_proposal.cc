@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/desk/plan/study_plan.h"
-#include "cli/desk/toml/toml_text.h"
 #include "cli/fleet/run/fleet_run.h"
+#include "cli/study_setup/plan/study_plan.h"
+#include "cli/study_setup/toml/toml_text.h"
 #include "data/argument_name.h"
 #include "data/input_error.h"
 #include "data/measurements/measured_files.h"
@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using desk::TomlText;
+using study_setup::TomlText;
 
 constexpr int kDeepest = 6;
 
@@ -92,14 +92,14 @@ std::map<std::size_t, Level> LevelsOf(const std::string& folder) {
 }
 
 bool CanBeMapped(const std::string& file, const std::string& target) {
-  desk::ComponentConfig component;
+  study_setup::ComponentConfig component;
   component.data = file;
   component.selection.target = target;
-  desk::StudyConfig study;
+  study_setup::StudyConfig study;
   study.models = {"mean"};
   study.components = {component};
   try {
-    desk::PlanStudy(study);
+    study_setup::PlanStudy(study);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {

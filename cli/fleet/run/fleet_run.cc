@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/desk/plan/run_files.h"
-#include "cli/desk/plan/study_run.h"
-#include "cli/desk/provenance.h"
+#include "cli/study_setup/plan/run_files.h"
+#include "cli/study_setup/plan/study_run.h"
+#include "cli/study_setup/provenance.h"
 #include "data/files/atomic_file.h"
 #include "data/files/prepare_folder.h"
 #include "data/files/shown_path.h"
@@ -29,9 +29,9 @@
 
 namespace errmap::fleet {
 
-using desk::ComponentConfig;
-using desk::StudyConfig;
-using desk::StudyRun;
+using study_setup::ComponentConfig;
+using study_setup::StudyConfig;
+using study_setup::StudyRun;
 
 namespace {
 
@@ -55,8 +55,8 @@ std::string AskedOf(const StudyConfig& fleet,
   component.data = source.path;
   return HashOf(
       std::string(models::Version()) + "\n" +
-      models::JsonText(desk::EffectiveConfiguration(StudyOf(fleet, component)),
-                       -1));
+      models::JsonText(
+          study_setup::EffectiveConfiguration(StudyOf(fleet, component)), -1));
 }
 
 std::string Replaced(std::string text,
@@ -78,7 +78,7 @@ void NameDataAsAsked(const std::string& path,
   run->components.front().data.reading.files.front() =
       data::ShownPath(source.path);
   run->config.components.front().data = source.path;
-  for (desk::InputFile& input : run->inputs) {
+  for (study_setup::InputFile& input : run->inputs) {
     if (input.file == path) input.file = source.path;
   }
 }
@@ -99,7 +99,7 @@ std::string KeyOf(const std::string& asked,
   for (const std::string& file : files) {
     if (file.empty()) continue;
     try {
-      text += "\n" + desk::HashInput(file).sha256;
+      text += "\n" + study_setup::HashInput(file).sha256;
     } catch (const data::InputError&) {
       text += "\nnone";
     }
@@ -114,7 +114,7 @@ std::string MapOf(const StudyRun& run) {
   const auto& model =
       component.study.models[component.judgement.recommendation->model];
   if (!model.final_fit) return "";
-  return desk::MapFileText(run, component, model);
+  return study_setup::MapFileText(run, component, model);
 }
 
 class FleetRunner {
@@ -203,7 +203,7 @@ class FleetRunner {
     summary.key = KeyOf(summary.asked, config_, component);
     if (IsKept(component.name, summary.key)) return &FleetRunResult::kept;
     std::vector<ComponentConfig> ways =
-        desk::PartedByDirection(StudyOf(config_, component)).components;
+        study_setup::PartedByDirection(StudyOf(config_, component)).components;
     if (ways.size() == 1) {
       return StudyWay(component, source, summary.asked, summary.key);
     }
@@ -235,13 +235,14 @@ class FleetRunner {
     ComponentSummary summary;
     bool is_final = true;
     try {
-      StudyRun run = desk::RunPlan(desk::PlanStudy(StudyOf(config_, component)),
-                                   options_.command_line,
-                                   {.jobs = jobs_each_, .stop = options_.stop});
+      StudyRun run = study_setup::RunPlan(
+          study_setup::PlanStudy(StudyOf(config_, component)),
+          options_.command_line,
+          {.jobs = jobs_each_, .stop = options_.stop});
       if (run.interrupted) return nullptr;  // begun anew by the next run
       is_final = run.components.front().study.short_of_memory == 0;
       NameDataAsAsked(component.data, source, &run);
-      models::StudyRecord record = desk::RecordOf(run, jobs_each_);
+      models::StudyRecord record = study_setup::RecordOf(run, jobs_each_);
       for (auto& table : record.components.front().figures.tables) {
         if (table.file == data::ShownPath(component.data)) {
           table.file = data::ShownPath(source.path);

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/desk/plan/study_plan.h"
-#include "cli/desk/study_config.h"
 #include "cli/fleet/run/component_pattern.h"
 #include "cli/fleet/store/store_folder.h"
+#include "cli/study_setup/plan/study_plan.h"
+#include "cli/study_setup/study_config.h"
 
 namespace errmap::fleet {
 
@@ -34,7 +34,7 @@ struct FleetRunOptions {
   const std::atomic<bool>* stop = nullptr;
   Share share = {};
   std::string command_line;
-  desk::Remark remark =
+  study_setup::Remark remark =
       {};  // told of each component that failed, one at a time
   /// Called with (components done, components in the share), by one thread at a
   /// time; may be empty.
@@ -69,7 +69,7 @@ struct FleetPlan {
 };
 
 /// Estimates the cost of an expanded study.
-FleetPlan PlanFleet(const desk::StudyConfig& config);
+FleetPlan PlanFleet(const study_setup::StudyConfig& config);
 
 /// Returns a commented study file whose components are patterns for the CSV
 /// files below a folder. Differing folder names and file names become fields.

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/desk/plan/component_names.h"
+#include "cli/study_setup/plan/component_names.h"
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
@@ -52,16 +52,17 @@ std::string StorePaths::In(const std::string& name) const {
 }
 
 std::string StorePaths::FolderOf(const std::string& component) const {
-  std::string flat = "components/" + desk::PlainOrHashedName(component);
+  std::string flat = "components/" + study_setup::PlainOrHashedName(component);
   const std::size_t slash = component.find('/');
   const std::string machine = component.substr(0, slash);
   std::error_code ignored;
-  if (slash == component.npos || desk::PlainOrHashedName(machine) != machine ||
+  if (slash == component.npos ||
+      study_setup::PlainOrHashedName(machine) != machine ||
       fs::exists(fs::path(store) / flat, ignored)) {
     return flat;
   }
   return "components/" + machine + "/" +
-         desk::HashedName(component.substr(slash + 1), component);
+         study_setup::HashedName(component.substr(slash + 1), component);
 }
 
 bool IsStore(const std::string& folder) {

@@ -7,7 +7,6 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/maps/map_warnings.h"
-#include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/figures/svg.h"
@@ -16,6 +15,7 @@
 #include "cli/report/table.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/study_setup/provenance.h"
 #include "data/files/atomic_file.h"
 #include "data/files/shown_path.h"
 #include "data/input_error.h"
@@ -319,13 +319,13 @@ Json TestJson(const Iso230Arguments& arguments,
               const Judged& judged,
               const std::string& command_line) {
   Json files = Json::array();
-  std::vector<desk::InputFile> inputs;
+  std::vector<study_setup::InputFile> inputs;
   for (const std::string& file : arguments.files) {
     files.push_back(data::ShownPath(file));
-    inputs.push_back(desk::HashInput(file));
+    inputs.push_back(study_setup::HashInput(file));
   }
   for (const std::string& map : arguments.maps) {
-    inputs.push_back(desk::HashInput(map));
+    inputs.push_back(study_setup::HashInput(map));
   }
   return {{"schema", "errmap-iso230-1"},
           {"files", std::move(files)},

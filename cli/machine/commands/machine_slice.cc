@@ -47,7 +47,7 @@ class CompareMachine : public CompareMode {
       return std::nullopt;
     }
     std::vector<std::string> of_one =
-        GivenOfFewer(arguments, desk::Reach::kAlike);
+        GivenOfFewer(arguments, study_setup::Reach::kAlike);
     for (const char* flag : {"--rezero", "--config"}) {
       if (arguments.given.contains(flag)) of_one.insert(of_one.begin(), flag);
     }
@@ -70,16 +70,16 @@ class CompareMachine : public CompareMode {
     return std::nullopt;
   }
 
-  std::optional<desk::StudyPlan> Plan(
+  std::optional<study_setup::StudyPlan> Plan(
       const CompareArguments& arguments,
-      const desk::MakeOwnRecipes& /*own*/) override {
+      const study_setup::MakeOwnRecipes& /*own*/) override {
     if (!study_) return std::nullopt;
     return machine::PlanOfMachine(
         *study_, ConfigOf(arguments), Sayer(arguments.data.quiet));
   }
 
   bool Judges() const override { return study_.has_value(); }
-  void Judge(const desk::StudyRun& run,
+  void Judge(const study_setup::StudyRun& run,
              models::StudyRecord* record) const override {
     machine::AddMachine(machine::JudgeMachine(*study_, run), record);
   }

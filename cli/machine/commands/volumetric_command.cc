@@ -140,7 +140,7 @@ std::string SensitiveText(const Machine& machine) {
 void SayErrors(const Synthesis& s) {
   const double most = s.sensitive.maxCoeff();
   const report::ErrorText text(s.machine.length, most);
-  Say(fmt::format(
+  Warn(fmt::format(
       "{} of {}: tool minus work, in {} at most {}, 95 % within {}. "
       "Compensate by minus that",
       report::Count(s.sensitive.size(), "point"),
@@ -149,7 +149,7 @@ void SayErrors(const Synthesis& s) {
       text.WithUnit(most),
       text.WithUnit(Quantile95(s.sensitive))));
   const double difference = s.errors.LargestDifference();
-  Say(fmt::format(
+  Warn(fmt::format(
       "exact and first order differ by at most {}",
       report::ErrorText(s.machine.length, difference).WithUnit(difference)));
 }
@@ -172,9 +172,9 @@ void SayContributions(const Synthesis& s) {
   for (const auto& [size, name] : sizes) {
     parts.push_back(fmt::format("{} {}", name, text(size)));
   }
-  Say(fmt::format("RMS of what each adds, {}: {}",
-                  text.symbol(),
-                  data::JoinWords(parts, ", ")));
+  Warn(fmt::format("RMS of what each adds, {}: {}",
+                   text.symbol(),
+                   data::JoinWords(parts, ", ")));
 }
 
 // Where the points have true errors, what compensation would leave of them.
@@ -184,9 +184,9 @@ void SayRest(const Synthesis& s, const MatrixX3d& truth) {
   };
   const double before = rms(truth);
   const report::ErrorText text(s.machine.length, before);
-  Say(fmt::format("measured there {} RMS, {} less what the maps say",
-                  text.WithUnit(before),
-                  text.WithUnit(rms(truth - s.errors.exact))));
+  Warn(fmt::format("measured there {} RMS, {} less what the maps say",
+                   text.WithUnit(before),
+                   text.WithUnit(rms(truth - s.errors.exact))));
 }
 
 // "ppp 12.1, pnp 3.0 um"
@@ -242,7 +242,7 @@ void SayOutsidePoints(const Synthesis& s) {
         "{} at {}", s.machine.errors[k].name, report::Count(count, "point")));
   }
   if (parts.empty()) return;
-  Say(fmt::format(
+  Warn(fmt::format(
       "warning: maps extrapolate (inside = 0): {}: outside a trained "
       "range, or in a session whose first rows are missing",
       data::JoinWords(parts, ", ")));
@@ -294,13 +294,13 @@ int RunVolumetric(const VolumetricArguments& arguments) {
                                     data::AllRows(points.num_rows),
                                     arguments.points);
   if (!arguments.quiet) {
-    for (const std::string& line : file.warnings) Say(line);
-    for (const std::string& line : maps.remarks) Say(line);
+    for (const std::string& line : file.warnings) Warn(line);
+    for (const std::string& line : maps.remarks) Warn(line);
     if (finite) {
       SayErrors(synthesis);
       SayContributions(synthesis);
       if (truth) SayRest(synthesis, *truth);
-      for (const std::string& line : diagonals) Say(line);
+      for (const std::string& line : diagonals) Warn(line);
     }
     SayOutsidePoints(synthesis);
   }

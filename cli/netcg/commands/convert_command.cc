@@ -27,11 +27,11 @@ int RunConvert(const ConvertArguments& arguments) {
       arguments.out,
       data::PatternText(table, data::PatternFormOf(arguments.out)));
   if (!arguments.quiet) {
-    Say(fmt::format("{} of {} and {} in {}",
-                    report::Count(table.input_values.rows(), "pattern"),
-                    report::Count(table.input_values.cols(), "input"),
-                    report::Count(table.target_values.cols(), "target"),
-                    data::PrintablePath(arguments.out)));
+    Warn(fmt::format("{} of {} and {} in {}",
+                     report::Count(table.input_values.rows(), "pattern"),
+                     report::Count(table.input_values.cols(), "input"),
+                     report::Count(table.target_values.cols(), "target"),
+                     data::PrintablePath(arguments.out)));
   }
   return kDone;
 }

@@ -178,10 +178,10 @@ int RunFile(const NetcgArguments& arguments, const std::string& command_line) {
           std::size_t count) {
         if (arguments.quiet || count == 1) return;
         constexpr std::size_t kTitle = 80;
-        Say(fmt::format("run {} of {}: {}",
-                        number + 1,
-                        count,
-                        data::Printable(run.title, kTitle)));
+        Warn(fmt::format("run {} of {}: {}",
+                         number + 1,
+                         count,
+                         data::Printable(run.title, kTitle)));
       });
   std::vector<netcg::NetcgOutputFile> files;
   for (const netcg::NetcgRecord& record : records) {
@@ -206,7 +206,7 @@ int RunStudy(const NetcgArguments& arguments, const std::string& command_line) {
         {(std::filesystem::path(out) / "table4.txt").string(), text});
     WriteFiles(study.files, arguments, {});
     if (!arguments.quiet) {
-      Say(
+      Warn(
           fmt::format("reports, weights, patterns and netcg.in, which runs "
                       "them again, are in {}",
                       data::PrintablePath(out)));

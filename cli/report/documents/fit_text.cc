@@ -10,11 +10,11 @@
 #include "cli/report/number_text.h"
 #include "cli/report/table.h"
 #include "cli/report/tables/report_tables.h"
-#include "cli/report/words/answers/interval_text.h"
-#include "cli/report/words/commands/kept_promise_text.h"
+#include "cli/report/text/answers/interval_text.h"
+#include "cli/report/text/commands/calibration_check_text.h"
 #include "cli/report/wrap_text.h"
 #include "data/text.h"
-#include "models/study/record/making/parts.h"
+#include "models/study/record/builders/parts.h"
 
 namespace errmap::report {
 namespace {

@@ -9,9 +9,9 @@
 #include "cli/report/number_text.h"
 #include "cli/report/shell_word.h"
 #include "cli/report/tables/report_tables.h"
-#include "cli/report/words/answers/data_words.h"
-#include "cli/report/words/answers/next_steps.h"
-#include "cli/report/words/answers/verdict_text.h"
+#include "cli/report/text/answers/data_words.h"
+#include "cli/report/text/answers/next_steps.h"
+#include "cli/report/text/answers/verdict_text.h"
 
 namespace errmap::report {
 namespace {
@@ -318,7 +318,7 @@ std::string Evidence(const ReportView& view) {
                       HtmlTable(ComparisonTable(view, holdout)));
   }
   return html + HtmlTable(GapTable(view)) + HtmlTable(StabilityTable(view)) +
-         HtmlTable(MemorisationTable(view));
+         HtmlTable(ShuffledTargetTable(view));
 }
 
 std::string Residuals(const ReportView& view, const ComponentFigures& figures) {

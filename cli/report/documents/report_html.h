@@ -5,7 +5,7 @@
 
 #include "cli/report/figures/figures.h"
 #include "cli/report/report_view.h"
-#include "cli/report/words/answers/first_answer.h"
+#include "cli/report/text/answers/first_answer.h"
 
 namespace errmap::report {
 

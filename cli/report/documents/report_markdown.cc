@@ -3,7 +3,7 @@
 #include "cli/report/html.h"
 #include "cli/report/report.h"
 #include "cli/report/tables/report_tables.h"
-#include "cli/report/words/answers/data_words.h"
+#include "cli/report/text/answers/data_words.h"
 
 namespace errmap::report {
 namespace {

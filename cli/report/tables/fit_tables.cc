@@ -168,14 +168,14 @@ Table StartTable(const ReportView& view) {
   return table;
 }
 
-Table MemorisationTable(const ReportView& view) {
+Table ShuffledTargetTable(const ReportView& view) {
   Table table{.title = "Can the nets learn noise?"};
   table.note =
       "The same fit to shuffled targets: what it explains there is memorised "
       "noise.";
   for (const ModelRecord* model : view.models) {
     if (!model->memorisation) continue;
-    const models::MemorisationRecord& check = *model->memorisation;
+    const models::ShuffledTargetRecord& check = *model->memorisation;
     table.Add(
         {{{"model", false}, model->name},
          {{"R2 on shuffled targets"}, Number{check.shuffled_r2, 3}},

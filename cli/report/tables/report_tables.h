@@ -83,7 +83,7 @@ Table FoldTable(const ReportView& view);
 Table StartTable(const ReportView& view);
 
 /// Nets fitted to shuffled targets, to show whether they learn noise.
-Table MemorisationTable(const ReportView& view);
+Table ShuffledTargetTable(const ReportView& view);
 
 /// Options and choices of every model.
 Table OptionTable(const ReportView& view);

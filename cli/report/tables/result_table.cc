@@ -5,7 +5,7 @@
 
 #include "cli/report/plot.h"
 #include "cli/report/tables/report_tables.h"
-#include "cli/report/words/answers/verdict_text.h"
+#include "cli/report/text/answers/verdict_text.h"
 #include "data/text.h"
 #include "stats/comparison/paired_comparison.h"
 #include "stats/error_metrics.h"

@@ -44,11 +44,11 @@ int RunSimulate(const SimulateArguments& arguments) {
   }
   folder.Finish();
   if (!arguments.quiet) {
-    Say(fmt::format("{} of {}, {} in {}; README.md there says what they are",
-                    report::Count(options.days, "day"),
-                    report::Count(options.cycles, "cycle"),
-                    report::Count(std::ssize(names), "file"),
-                    arguments.folder));
+    Warn(fmt::format("{} of {}, {} in {}; README.md there says what they are",
+                     report::Count(options.days, "day"),
+                     report::Count(options.cycles, "cycle"),
+                     report::Count(std::ssize(names), "file"),
+                     arguments.folder));
   }
   return kDone;
 }

@@ -100,7 +100,7 @@ bool IsPeriodic(const MapProgram& program, int index) {
 
 void SetBounds(const FittedModel& fitted, MapProgram* program) {
   const double margin =
-      fitted.guards ? fitted.guards->input_margin : Guards{}.input_margin;
+      fitted.guards ? fitted.guards->input_margin : ClampLimits{}.input_margin;
   int index = -1;
   for (ProgramReading& reading : program->readings) {
     ++index;

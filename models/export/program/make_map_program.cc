@@ -280,7 +280,7 @@ class FormWriter {
   explicit FormWriter(MapProgram* program) : program_(program) {}
 
   // Guards of the inputs; `inputs` become the places of what they let through.
-  void ClipInputs(const Guards& guards, std::vector<Operand>* inputs) {
+  void ClipInputs(const ClampLimits& guards, std::vector<Operand>* inputs) {
     for (std::size_t i = 0; i < inputs->size(); ++i) {
       const Operand to{Space::kForm, AsInt(i)};
       const auto at = static_cast<Index>(i);
@@ -290,7 +290,7 @@ class FormWriter {
     }
   }
 
-  void ClipError(const Guards& guards) {
+  void ClipError(const ClampLimits& guards) {
     Clip(kError, guards.ErrorBounds(), true);
   }
 

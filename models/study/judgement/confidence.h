@@ -59,7 +59,7 @@ Obstacle FindObstacle(const stats::Comparison& tests, bool separate_sessions);
 /// Checks whether the models of `pair`, one of tests.pairs, differ. Established
 /// requires all of these. p is at most 5 % when its turn comes
 /// (stats::ComparisonOptions::first), also for the t test with the memory that
-/// cannot be excluded (memory_bounds.h). The interval of the RMSE difference,
+/// cannot be excluded (ar1_t_test.h). The interval of the RMSE difference,
 /// or its one-sided bound, excludes 0. Neighbours do not resemble each other,
 /// and there are enough units. If they may be of one session, the corrected
 /// resampled t on runs of neighbouring units must agree.

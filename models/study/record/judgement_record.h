@@ -27,7 +27,7 @@ struct MeanTestRecord {
 };
 
 /// Allows for memory between units that the data do not exclude
-/// (memory_bounds.h).
+/// (ar1_t_test.h).
 struct MemoryTestRecord {
   double statistic = kNotKnown;
   double df = kNotKnown;

@@ -13,7 +13,7 @@
 #include "models/regression_record.h"
 #include "models/study/judgement/choice.h"
 #include "models/study/judgement/goal.h"
-#include "models/study/memorisation.h"
+#include "models/study/shuffled_target_fit.h"
 #include "stats/error_metrics.h"
 #include "stats/normality/normality.h"
 #include "stats/randomness.h"
@@ -182,7 +182,7 @@ struct FoldRecord {
   Inline<FitRecord> fit;
 };
 
-struct MemorisationRecord {
+struct ShuffledTargetRecord {
   double train_r2 = kNotKnown;
   double shuffled_r2 = kNotKnown;
   double weights_per_row = kNotKnown;
@@ -240,7 +240,7 @@ struct ModelRecord {
   LeftOut<bool> counts_rows;       // true if memory counts rows, not seconds
   std::optional<FitRecord> final;  // the fit to all rows
   std::optional<RegressionRecord> regression;
-  std::optional<MemorisationRecord> memorisation;
+  std::optional<ShuffledTargetRecord> memorisation;
   ModelStatus status = ModelStatus::kFailed;
   std::optional<std::string> why;  // reason for the failure
   ByName<ResultRecord> results;    // by hold-out

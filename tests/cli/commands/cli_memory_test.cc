@@ -69,7 +69,8 @@ class CliMemory : public CliTest {
     models::FittedModel fitted =
         models::MakeRecipe("poly:formula=\"ema(t1_degC,600s)\"")
             ->Fit(models::DeriveDataset(dataset, history), {});
-    fitted.guards = models::MakeGuards(fitted.inputs, dataset.target_values());
+    fitted.guards =
+        models::MakeClampLimits(fitted.inputs, dataset.target_values());
     models::SaveModel(models::WithHistory(std::move(fitted), dataset, history),
                       {},
                       (scratch_ / name).string());

@@ -1,4 +1,4 @@
-#include "cli/desk/provenance.h"
+#include "cli/study_setup/provenance.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ constexpr const char* kEmptySha256 =
     "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855";
 
 TEST_F(Provenance, NamesEveryLibraryOnceWithAVersion) {
-  const auto libraries = desk::MakeProvenance("", {}).libraries;
+  const auto libraries = study_setup::MakeProvenance("", {}).libraries;
   for (const char* name : {"Boost",
                            "Ceres",
                            "Eigen",
@@ -48,7 +48,7 @@ TEST_F(Provenance, HoldsWhatItIsGivenBesideCompilerLibrariesAndPlatform) {
   Write("empty.csv", "");
   const std::string path = (scratch_ / "empty.csv").string();
   const cli::Json block = cli::ProvenanceJson(
-      "errmap fit empty.csv", {{"seed", 7}}, {desk::HashInput(path)});
+      "errmap fit empty.csv", {{"seed", 7}}, {study_setup::HashInput(path)});
   EXPECT_EQ(block["command_line"], "errmap fit empty.csv");
   EXPECT_EQ(block["configuration"]["seed"], 7);
   EXPECT_EQ(
@@ -57,22 +57,22 @@ TEST_F(Provenance, HoldsWhatItIsGivenBesideCompilerLibrariesAndPlatform) {
   EXPECT_THAT(block["compiler"].get<std::string>(), HasSubstr("++ "));
   EXPECT_THAT(block["platform"].get<std::string>(), HasSubstr(" kernels"));
   EXPECT_EQ(block["libraries"].size(),
-            desk::MakeProvenance("", {}).libraries.size());
+            study_setup::MakeProvenance("", {}).libraries.size());
 }
 
 TEST_F(Provenance, RefusesAnInputThatIsNotThere) {
-  EXPECT_THROW(desk::HashInput("no such file.csv"), data::InputError);
+  EXPECT_THROW(study_setup::HashInput("no such file.csv"), data::InputError);
 }
 
 TEST_F(Provenance, OfAModelFileIsPlainTexts) {
-  const models::Provenance provenance = desk::ModelProvenance(
+  const models::Provenance provenance = study_setup::ModelProvenance(
       "errmap fit a.csv", {{"a.csv", "5a"}, {"b.csv", "6b"}}, 397, 12);
   EXPECT_THAT(provenance, Contains(std::pair("data_sha256", "5a")));
   EXPECT_THAT(provenance, Contains(std::pair("data_2", "b.csv")));
-  EXPECT_THAT(desk::DataOf(provenance),
-              ElementsAre(desk::InputFile{"a.csv", "5a"},
-                          desk::InputFile{"b.csv", "6b"}));
-  EXPECT_THAT(desk::DataOf({{"seed", "1"}}), IsEmpty());
+  EXPECT_THAT(study_setup::DataOf(provenance),
+              ElementsAre(study_setup::InputFile{"a.csv", "5a"},
+                          study_setup::InputFile{"b.csv", "6b"}));
+  EXPECT_THAT(study_setup::DataOf({{"seed", "1"}}), IsEmpty());
   EXPECT_THAT(provenance, Contains(std::pair("rows", "397")));
   EXPECT_THAT(provenance, Contains(std::pair("seed", "12")));
   for (const auto& [key, text] : provenance) EXPECT_NE(text, "") << key;

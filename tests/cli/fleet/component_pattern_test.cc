@@ -80,7 +80,8 @@ class ExpandedPatterns : public ::testing::Test {
       const std::vector<std::pair<std::string, std::string>>& patterns) const {
     FleetStudy study;
     for (const auto& [name, path] : patterns) {
-      desk::ComponentConfig& component = study.config.components.emplace_back();
+      study_setup::ComponentConfig& component =
+          study.config.components.emplace_back();
       component.name = name;
       component.data = scratch_.path().string();
       study.sources.push_back({.path = path, .is_pattern = true, .fields = {}});
@@ -88,7 +89,8 @@ class ExpandedPatterns : public ::testing::Test {
     study = Expanded(study);
     EXPECT_EQ(study.sources.size(), study.config.components.size());
     std::vector<std::string> names;
-    for (const desk::ComponentConfig& component : study.config.components) {
+    for (const study_setup::ComponentConfig& component :
+         study.config.components) {
       names.push_back(component.name);
     }
     return names;
@@ -142,9 +144,10 @@ class PlannedStudy : public ::testing::Test {
 
 TEST_F(PlannedStudy, HasEveryFileThatAPatternMatchesAndTheStudyFileFirst) {
   std::vector<std::string> remarks;
-  desk::StudyFile file = desk::ReadStudyFile(folder_ + "/study.toml");
+  study_setup::StudyFile file =
+      study_setup::ReadStudyFile(folder_ + "/study.toml");
   file.config = Expanded(WithPatterns(file)).config;
-  const desk::StudyPlan plan = desk::PlanStudy(
+  const study_setup::StudyPlan plan = study_setup::PlanStudy(
       file, [&](const std::string& line) { remarks.push_back(line); });
   ASSERT_EQ(plan.components.size(), 2U);
   EXPECT_EQ(plan.config.components[0].name, "m1 down");

@@ -9,7 +9,7 @@
 
 #include "data/csv.h"
 #include "models/recipe_catalog.h"
-#include "models/uncertainty/promise.h"
+#include "models/uncertainty/add_uncertainty.h"
 
 namespace errmap::models {
 namespace {
@@ -48,7 +48,7 @@ FittedModel MapOf(int days, const std::string& spec) {
   std::vector<std::unique_ptr<ModelRecipe>> recipes;
   recipes.push_back(MakeRecipe("poly:full:degree=1"));
   const StudyResult study = RunStudy(dataset, {holdout}, recipes, {});
-  AddPromise(dataset, holdout, study.models[0].holdouts[0], &fitted);
+  AddUncertainty(dataset, holdout, study.models[0].holdouts[0], &fitted);
   return fitted;
 }
 

@@ -10,7 +10,7 @@
 #include "models/history/with_history.h"
 #include "models/model_file.h"
 #include "models/recipe_catalog.h"
-#include "models/uncertainty/promise.h"
+#include "models/uncertainty/add_uncertainty.h"
 #include "stats/random.h"
 #include "tests/models/history/history_data.h"
 #include "tests/models/model_test_data.h"

@@ -13,7 +13,7 @@
 #include "data/measurements/dataset.h"
 #include "models/map_experience.h"
 #include "models/recipe_catalog.h"
-#include "models/uncertainty/promise.h"
+#include "models/uncertainty/add_uncertainty.h"
 #include "stats/random.h"
 #include "tests/models/simulated_days.h"
 

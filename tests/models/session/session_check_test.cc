@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "models/recipe_catalog.h"
-#include "models/session/kept_promise.h"
+#include "models/session/calibration_check.h"
 #include "models/session/session_offset.h"
 #include "stats/distributions.h"
 #include "stats/random.h"
@@ -550,30 +550,31 @@ TEST(OffsetExplains, NearlyAllOfTheMeanSquare) {
     HeldOutErrors::Unit day = Day(&random);
     // 99 % of the mean square, and more scatter than was promised.
     day.residuals = 1.6 * day.residuals.array() + 20.0;
-    const KeptPromise kept =
-        HoldToPromise(fitted, day.residuals, VectorXd::Zero(kRows));
+    const CalibrationCheck kept =
+        CheckCalibration(fitted, day.residuals, VectorXd::Zero(kRows));
     EXPECT_GT(kept.offset_share, 0.97);
     EXPECT_EQ(kept.shape, ErrorShape::kOffset);
   }
 }
 
-TEST(HoldToPromise, TellsAnOffsetFromAWrongShape) {
+TEST(CheckCalibration, TellsAnOffsetFromAWrongShape) {
   FittedModel fitted =
       MakeRecipe("mean")->Fit(errmap::testing::ShippedMeasurements(), {});
   fitted.held_out = std::make_shared<HeldOutErrors>(
       HeldOutErrors{.time_unit = "", .position = "", .rmse = 1.0, .units = {}});
   const VectorXd predicted = VectorXd::Zero(4);
   const VectorXd small{{0.5, -0.5, 0.5, -0.5}};
-  EXPECT_EQ(HoldToPromise(fitted, small, predicted).shape, ErrorShape::kWithin);
+  EXPECT_EQ(CheckCalibration(fitted, small, predicted).shape,
+            ErrorShape::kWithin);
   const VectorXd offset = small.array() + 5.0;
-  const KeptPromise kept = HoldToPromise(fitted, offset, predicted);
+  const CalibrationCheck kept = CheckCalibration(fitted, offset, predicted);
   EXPECT_EQ(kept.shape, ErrorShape::kOffset);
   EXPECT_NEAR(kept.offset_share, 25.0 / 25.25, 1e-12);
   EXPECT_FALSE(kept.better_than_nothing());
-  EXPECT_EQ(HoldToPromise(fitted, 8.0 * small, predicted).shape,
+  EXPECT_EQ(CheckCalibration(fitted, 8.0 * small, predicted).shape,
             ErrorShape::kShape);
   fitted.held_out = nullptr;
-  EXPECT_FALSE(HoldToPromise(fitted, small, predicted).shape.has_value());
+  EXPECT_FALSE(CheckCalibration(fitted, small, predicted).shape.has_value());
 }
 
 }  // namespace

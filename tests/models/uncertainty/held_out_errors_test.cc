@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "models/recipe_catalog.h"
-#include "models/uncertainty/promise.h"
+#include "models/uncertainty/add_uncertainty.h"
 #include "tests/models/history/history_data.h"
 
 namespace errmap::models {
@@ -14,7 +14,7 @@ namespace {
 
 HeldOutErrors ErrorsOf(const std::string& recipe, const data::Dataset& days) {
   FittedModel fitted = MakeRecipe(recipe)->Fit(days, {});
-  AddPromise(days, MakeRecipe(recipe), {}, &fitted);
+  AddUncertainty(days, MakeRecipe(recipe), {}, &fitted);
   return *fitted.held_out;
 }
 

@@ -15,7 +15,7 @@
 #include "models/recipe_catalog.h"
 #include "models/study/judgement/units_of_analysis.h"
 #include "models/study/study_defaults.h"
-#include "models/uncertainty/promise.h"
+#include "models/uncertainty/add_uncertainty.h"
 #include "stats/distributions.h"
 #include "stats/random.h"
 #include "tests/models/model_test_data.h"
@@ -207,7 +207,7 @@ Fitted FitSessions(Index known,
   const data::Dataset first = errmap::testing::FirstSessions(all, known);
   Fitted fitted{MakeRecipe("mean")->Fit(first, {}),
                 errmap::testing::FirstSessions(all, known, false)};
-  AddPromise(first, MakeRecipe("mean"), {}, &fitted.map);
+  AddUncertainty(first, MakeRecipe("mean"), {}, &fitted.map);
   return fitted;
 }
 
@@ -215,7 +215,7 @@ Fitted FitSessions(Index known,
 // 35 sessions of memory 0.9 hold .64 and .79 of the errors of the next 30. Of
 // 2000 runs each it is reported in 83, 91 and 99 % from 6, 10 and 35 sessions,
 // and holds .92, .90 and .91 of the errors.
-TEST(PromiseOf, SaysForHowLongWhereNeighbouringSessionsErrAlike) {
+TEST(PredictionIntervalOf, SaysForHowLongWhereNeighbouringSessionsErrAlike) {
   constexpr int kRuns = 400;
   constexpr Index kLater = 30;
   stats::Random random(5);
@@ -264,11 +264,11 @@ data::Dataset GroupedQuadratic(Index groups) {
   return data::Dataset(std::move(parts));
 }
 
-TEST(PromiseOf, ComesFromWholeUnitsAndTellsWhich) {
+TEST(PredictionIntervalOf, ComesFromWholeUnitsAndTellsWhich) {
   const data::Dataset dataset = GroupedQuadratic(12);
   EXPECT_EQ(StrictestDefaultHoldout(dataset), "groups:5");
   FittedModel fitted = MakeRecipe("mean")->Fit(dataset, {});
-  AddPromise(dataset, MakeRecipe("mean"), {}, &fitted);
+  AddUncertainty(dataset, MakeRecipe("mean"), {}, &fitted);
   const auto& promise = fitted.interval;
   ASSERT_TRUE(promise.has_value());
   ASSERT_NE(fitted.held_out, nullptr);
@@ -295,7 +295,7 @@ TEST(PromiseOf, ComesFromWholeUnitsAndTellsWhich) {
       1e-12);
 }
 
-TEST(PromiseOf, TellsRowsInsideAndOutsideOfWhatWasTrainedApart) {
+TEST(PredictionIntervalOf, TellsRowsInsideAndOutsideOfWhatWasTrainedApart) {
   const data::Dataset dataset = GroupedQuadratic(12);
   const Holdout holdout =
       MakeHoldout(stats::ParseHoldout("groups:5"), dataset, 1);
@@ -318,8 +318,9 @@ TEST(PromiseOf, TellsRowsInsideAndOutsideOfWhatWasTrainedApart) {
     groups.push_back(dataset.groups().codes[static_cast<std::size_t>(
         held.rows[static_cast<std::size_t>(i)])]);
   }
-  const auto level =
-      PromiseOf(dataset, holdout, result, [&] { return small; })->levels[0];
+  const auto level = PredictionIntervalOf(dataset, holdout, result, [&] {
+                       return small;
+                     })->levels[0];
   EXPECT_EQ(level.inside,
             std::min(UnitIntervalLevel(residuals(rows), groups, 0.9).half_width,
                      level.half_width));
@@ -328,41 +329,42 @@ TEST(PromiseOf, TellsRowsInsideAndOutsideOfWhatWasTrainedApart) {
   // No row inside, and rows inside that err more than those outside.
   const std::vector<bool> none(small.size(), false);
   for (const std::vector<bool>& inside : {none, large, {}}) {
-    const auto same =
-        PromiseOf(dataset, holdout, result, [&] { return inside; })->levels[0];
+    const auto same = PredictionIntervalOf(dataset, holdout, result, [&] {
+                        return inside;
+                      })->levels[0];
     EXPECT_EQ(same.half_width, level.half_width);
     EXPECT_EQ(same.inside, level.half_width);
     EXPECT_EQ(same.outside, level.half_width);
   }
 }
 
-TEST(PromiseOf, MakesNoneFromNeighbouringRowsOrAFitThatFails) {
+TEST(PredictionIntervalOf, MakesNoneFromNeighbouringRowsOrAFitThatFails) {
   const data::Dataset dataset = GroupedQuadratic(12);
   const Holdout rows = MakeHoldout(stats::ParseHoldout("every:3"), dataset, 1);
   std::vector<std::unique_ptr<ModelRecipe>> recipes;
   recipes.push_back(MakeRecipe("mean"));
   const StudyResult study = RunStudy(dataset, {rows}, recipes, {});
-  EXPECT_FALSE(
-      PromiseOf(dataset, rows, study.models[0].holdouts[0]).has_value());
+  EXPECT_FALSE(PredictionIntervalOf(dataset, rows, study.models[0].holdouts[0])
+                   .has_value());
   FittedModel fitted = MakeRecipe("mean")->Fit(dataset, {});
-  AddPromise(dataset, MakeRecipe("poly:full:degree=12"), {}, &fitted);
+  AddUncertainty(dataset, MakeRecipe("poly:full:degree=12"), {}, &fitted);
   EXPECT_FALSE(fitted.interval.has_value());
   EXPECT_EQ(fitted.held_out, nullptr);
 }
 
 // Else a map would be written without the interval that it can have.
-TEST(PromiseOf, IsNotGivenUpWhereAFoldFindsNotEnoughMemory) {
+TEST(PredictionIntervalOf, IsNotGivenUpWhereAFoldFindsNotEnoughMemory) {
   const data::Dataset dataset = GroupedQuadratic(12);
   FittedModel fitted = MakeRecipe("mean")->Fit(dataset, {});
   int fits = 0;
-  EXPECT_THROW(AddPromise(dataset,
-                          std::make_unique<errmap::testing::CountingRecipe>(
-                              "mean",
-                              [&fits] {
-                                if (++fits == 2) throw std::bad_alloc();
-                              }),
-                          {},
-                          &fitted),
+  EXPECT_THROW(AddUncertainty(dataset,
+                              std::make_unique<errmap::testing::CountingRecipe>(
+                                  "mean",
+                                  [&fits] {
+                                    if (++fits == 2) throw std::bad_alloc();
+                                  }),
+                              {},
+                              &fitted),
                std::bad_alloc);
 }
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "stats/comparison/memory_bounds.h"
+#include "stats/comparison/ar1_t_test.h"
 #include "stats/random.h"
 
 namespace errmap::stats {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/commands/studies/compare_arguments.h"
-#include "cli/desk/study_config.h"
+#include "cli/study_setup/study_config.h"
 #include "tests/places.h"
 
 namespace errmap::cli {
@@ -16,18 +16,18 @@ using ::testing::Not;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 
-desk::StudyPlan PlanOf(const std::vector<std::string>& models) {
-  desk::StudyConfig config;
+study_setup::StudyPlan PlanOf(const std::vector<std::string>& models) {
+  study_setup::StudyConfig config;
   config.models = models;
-  desk::ComponentConfig component;
+  study_setup::ComponentConfig component;
   component.data =
       tests::SourceDir() + "/data/sets/turning_centre/x_displacement_down.csv";
   config.components = {component};
-  return desk::PlanStudy(config);
+  return study_setup::PlanStudy(config);
 }
 
 TEST(LongRun, IsAnnouncedWithTheModelsThatAreFast) {
-  const desk::StudyPlan plan =
+  const study_setup::StudyPlan plan =
       PlanOf({"mean", "poly:eq8", "net:scg:hidden=90:iterations=100000"});
   EXPECT_THAT(LongRunLines(plan, 2, false),
               ElementsAre(AllOf(StartsWith("this takes about "),
@@ -37,7 +37,7 @@ TEST(LongRun, IsAnnouncedWithTheModelsThatAreFast) {
 }
 
 TEST(LongRun, NamesNoOtherModelsThanThoseAskedFor) {
-  const desk::StudyPlan plan =
+  const study_setup::StudyPlan plan =
       PlanOf({"mean", "net:scg:hidden=90:iterations=100000"});
   EXPECT_THAT(LongRunLines(plan, 1, true), SizeIs(1));
 }

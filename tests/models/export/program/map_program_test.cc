@@ -95,7 +95,7 @@ FittedModel PolynomialMap(std::size_t inputs) {
   return Map(std::make_shared<PolynomialModel>(std::move(form), parameters));
 }
 
-Guards Narrow(Index inputs) {
+ClampLimits Narrow(Index inputs) {
   return {.input_min = Eigen::VectorXd::Constant(inputs, 10.0),
           .input_max = Eigen::VectorXd::Constant(inputs, 20.0),
           .error_min = -0.5,

@@ -73,7 +73,7 @@ FitOutcome FullOutcome() {
               .session = "day",
               .derived = {Zeroed(fitted.inputs[0].column)},
               .form_inputs = {"zeroed()"}});
-  fitted.guards = MakeGuards(fitted.inputs, Eigen::Vector2d(-1.0, 2.0));
+  fitted.guards = MakeClampLimits(fitted.inputs, Eigen::Vector2d(-1.0, 2.0));
   outcome.fitted = std::move(fitted);
   outcome.train_predictions = Eigen::VectorXd::LinSpaced(5, 0.1, 0.7);
   return outcome;

@@ -1,0 +1,149 @@
+#include "data/measurements/builders/value_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "data/argument_name.h"
+#include "data/column_header.h"
+#include "data/column_words.h"
+#include "data/input_error.h"
+#include "data/measurements/column_checks.h"
+#include "data/measurements/reading/reading.h"
+#include "data/measurements/rounded.h"
+#include "data/text.h"
+#include "data/units.h"
+
+namespace errmap::data {
+
+std::optional<std::string> UnlikelySize(const ColumnInfo& target,
+                                        const Eigen::VectorXd& values) {
+  constexpr double kMost = 1000.0;  // um, RMS
+  constexpr double kLeast = 0.05;
+  const Unit um = UnitOfSymbol("um");
+  if (!AreConvertible(target.unit, um)) return std::nullopt;
+  const double rms =
+      values.norm() / std::sqrt(static_cast<double>(values.size()));
+  const double size = Converted(rms, target.unit, um);
+  if (size == 0.0 || (size >= kLeast && size <= kMost)) return std::nullopt;
+  return NameInRemark(target.name) + " is " + Rounded(rms) + " " +
+         target.unit.symbol + " RMS, " + (size > kMost ? "more" : "less") +
+         " than machine tools err by; if it is in another unit, write that "
+         "into its name: error_um, 'error [mm]'";
+}
+
+std::optional<std::string> LikelyFahrenheit(
+    const std::vector<ColumnInfo>& inputs, const Eigen::MatrixXd& values) {
+  constexpr double kColdShop = 59.0;  // degF, 15 degC
+  constexpr double kWarmShop = 95.0;
+  constexpr double kHotMachine = 150.0;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const std::string& name = inputs[i].name;
+    if (!NamesTemperature(name) ||
+        ReadHeader(name).source == UnitSource::kStated) {
+      continue;
+    }
+    const auto column = values.col(static_cast<Eigen::Index>(i));
+    const double coldest = column.minCoeff();
+    if (coldest < kColdShop || coldest > kWarmShop ||
+        column.maxCoeff() > kHotMachine) {
+      continue;
+    }
+    names.push_back(name);
+  }
+  if (names.empty()) return std::nullopt;
+  return ListOfNames(names) +
+         " read as in degF, but name no unit; if they are, write it: " +
+         QuotedText(names.front() + " [degF]");
+}
+
+void AskForUnit(const CsvTable& table,
+                const std::string& target,
+                const Eigen::VectorXd& values,
+                bool named) {
+  constexpr Eigen::Index kFewestRows = 12;
+  constexpr double kMost = 1.0;  // mm
+  const Header header = ReadHeader(target);
+  const bool in_inches =
+      std::ranges::any_of(table.columns, [](const CsvColumn& column) {
+        return IsOneOf(UnitOfColumn(column.name).symbol, "in degF");
+      });
+  const bool is_large =
+      !header.unit.symbol.empty() &&
+      values.squaredNorm() >= kMost * static_cast<double>(values.size());
+  const bool is_called =
+      !named && header.unit.symbol.empty() && ErrorSign(target) != 0;
+  if (header.unit.quantity == Quantity::kTime && !named) {
+    throw OpenQuestion(
+        PrintablePath(table.file),
+        {.topic = "unit",
+         .question = "is " + QuotedName(target) + " in seconds of arc?",
+         .answers = {{.option = ArgumentName("target", target + " [arcsec]"),
+                      .means = "yes"},
+                     {.option = ArgumentName("target", target),
+                      .means = "no, it is a time"}}});
+  }
+  if (header.source == UnitSource::kStated || values.size() < kFewestRows ||
+      !(is_large || is_called || (in_inches && !named))) {
+    return;
+  }
+  std::vector<Reading::Answer> answers;
+  const auto offer = [&](const std::string& unit) {
+    answers.push_back(
+        {.option = ArgumentName("target", target + " [" + unit + "]"),
+         .means = "in " + unit});
+  };
+  offer("um");
+  offer("mm");
+  if (in_inches) offer("in");
+  throw OpenQuestion(
+      PrintablePath(table.file),
+      {.topic = "unit",
+       .question = "in which unit is " + QuotedName(target) + "?",
+       .answers = std::move(answers)});
+}
+
+Eigen::VectorXd WeightsOf(const CsvTable& table,
+                          const CsvColumn& column,
+                          const std::vector<Eigen::Index>& rows) {
+  constexpr double kLeastShare = 1e-30;
+  Eigen::VectorXd weights = ValuesOfRows(column, rows);
+  Eigen::Index least = 0;
+  const double smallest = weights.minCoeff(&least);
+  const auto row =
+      static_cast<std::size_t>(rows[static_cast<std::size_t>(least)]);
+  const std::string weight =
+      table.Where(row, column.name) + ": weight " + CsvNumber(smallest);
+  if (!(smallest > 0.0)) {
+    throw InputError(weight + " is not positive; correct it or remove the row");
+  }
+  if (smallest < kLeastShare * weights.maxCoeff()) {
+    throw InputError(weight +
+                     " is less than 1e-30 of the largest; remove the row");
+  }
+  weights /= weights.maxCoeff();
+  return weights / weights.mean();
+}
+
+void RequireSquares(const CsvTable& table,
+                    const std::vector<Eigen::Index>& rows,
+                    const std::string& what,
+                    const std::string& column,
+                    const Eigen::Ref<const Eigen::VectorXd>& values) {
+  constexpr double kMost = 1e100;
+  constexpr double kLeast = 1e-100;
+  Eigen::Index row = 0;
+  const double largest = values.cwiseAbs().maxCoeff(&row);
+  if (largest == 0.0 || (largest >= kLeast && largest <= kMost)) return;
+  throw InputError(
+      table.Where(static_cast<std::size_t>(rows[static_cast<std::size_t>(row)]),
+                  column) +
+      ": the largest " + what + ", " + CsvNumber(values[row]) +
+      ", is no size between 1e-100 and 1e100, whose squares can be summed; "
+      "correct it or choose another unit");
+}
+
+}  // namespace errmap::data
