@@ -41,8 +41,8 @@ std::string SessionsText(const Reading& reading) {
 std::string WhatPartsThem(const Reading& reading) {
   const bool has_gap = reading.time.column && !reading.sessions.column;
   if (reading.sessions.by == "rest") {
-    return ArgumentName("session", "none") + " takes it, and a column of " +
-           "days that " + ArgumentName("session") + " names settles it.";
+    return ArgumentName("session", "none") + " takes it. If a column has " +
+           "the days, name it by " + ArgumentName("session") + ".";
   }
   return ArgumentName(has_gap ? "gap" : "session") + " parts them.";
 }

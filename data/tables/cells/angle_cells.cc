@@ -43,17 +43,19 @@ std::optional<double> TakePart(std::size_t part,
   return std::nullopt;
 }
 
-// Nothing unless each text is an angle or missing, and one is an angle.
+// Of each text; nothing unless most are angles.
 std::vector<std::optional<double>> AnglesOf(const CsvColumn& column,
                                             bool decimal_comma) {
   std::vector<std::optional<double>> angles;
-  bool any = false;
+  std::ptrdiff_t others = 0;
   for (const std::string& text : column.texts) {
     angles.push_back(ReadAngle(text, decimal_comma));
-    if (!angles.back() && !IsMissingNumber(text)) return {};
-    any = any || angles.back();
+    others += angles.back() || IsMissingNumber(text) ? 0 : 1;
   }
-  return any ? angles : std::vector<std::optional<double>>();
+  const auto found = std::ranges::count_if(
+      angles, [](const auto& angle) { return angle.has_value(); });
+  if (found <= others) angles.clear();
+  return angles;
 }
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace errmap::data {
 /// seconds ("-27°30'15.5"", "27° 30.5'"). Nothing for other cells.
 std::optional<double> ReadAngle(std::string_view cell, bool decimal_comma);
 
-/// Converts columns whose cells are all such angles, or missing, to degrees.
-/// Adds "[deg]" to their names.
+/// Converts the angles in columns that hold mostly these to degrees. Adds
+/// "[deg]" to their names.
 void TakeAngleCells(bool decimal_comma, CsvTable* table);
 
 }  // namespace errmap::data
