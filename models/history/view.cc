@@ -114,6 +114,34 @@ std::string WhyNot(const Dataset& training,
   return "";
 }
 
+// Returns true if the means of the sessions rise all the way, or fall, and
+// hardly a value lies in the range of the sessions before. Most columns turn
+// within the first sessions: the rest is not looked at then.
+bool OnlyGrows(Eigen::Ref<const VectorXd> column,
+               const std::vector<std::vector<Index>>& sessions) {
+  constexpr double kHardly = 0.1;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  double mean_before = stats::kNaN;
+  double returned = 0.0;  // shares of the later sessions
+  bool rises = true;
+  bool falls = true;
+  for (const std::vector<Index>& places : sessions) {
+    const Eigen::ArrayXd values = column(places);
+    const double mean = values.mean();
+    if (!std::isnan(mean_before)) {
+      rises = rises && mean > mean_before;
+      falls = falls && mean < mean_before;
+      if (!rises && !falls) return false;
+      returned += (values >= low && values <= high).cast<double>().mean();
+    }
+    mean_before = mean;
+    low = std::min(low, values.minCoeff());
+    high = std::max(high, values.maxCoeff());
+  }
+  return returned < kHardly * static_cast<double>(sessions.size() - 1);
+}
+
 }  // namespace
 
 const std::vector<std::string>& ViewWords() {
@@ -139,34 +167,14 @@ View ViewOf(std::string_view word) {
 
 std::vector<bool> ColumnsThatOnlyGrow(const Dataset& rows) {
   constexpr std::size_t kFewestSessions = 3;
-  constexpr double kHardly = 0.1;
   std::vector<bool> only_grow(static_cast<std::size_t>(rows.num_inputs()),
                               false);
   auto sessions = stats::IndicesByCode(rows.session_codes());
   std::erase_if(sessions, [](const auto& of_one) { return of_one.empty(); });
   if (sessions.size() < kFewestSessions) return only_grow;
   for (Index j = 0; j < rows.num_inputs(); ++j) {
-    const auto column = rows.input_values().col(j);
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    double mean_before = stats::kNaN;
-    double returned = 0.0;  // shares of the later sessions
-    bool rises = true;
-    bool falls = true;
-    for (const std::vector<Index>& places : sessions) {
-      const Eigen::ArrayXd values = column(places);
-      if (!std::isnan(mean_before)) {
-        rises = rises && values.mean() > mean_before;
-        falls = falls && values.mean() < mean_before;
-        returned += (values >= low && values <= high).cast<double>().mean();
-      }
-      mean_before = values.mean();
-      low = std::min(low, values.minCoeff());
-      high = std::max(high, values.maxCoeff());
-    }
     only_grow[static_cast<std::size_t>(j)] =
-        (rises || falls) &&
-        returned < kHardly * static_cast<double>(sessions.size() - 1);
+        OnlyGrows(rows.input_values().col(j), sessions);
   }
   return only_grow;
 }
