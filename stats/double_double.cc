@@ -184,7 +184,8 @@ DoubleDouble DecimalOf(double x) {
   for (const double power : {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
     const double digits = std::nearbyint(x * power);
     if (std::abs(digits) < kMost && digits / power == x) {
-      return DoubleDouble(digits) / power;
+      // What a rounded division leaves is a double.
+      return {x, std::fma(-x, power, digits) / power};
     }
   }
   // The longest is of the form -2.2250738585072014e-308.

@@ -309,6 +309,21 @@ struct Refined {
   DoubleDouble residual_sum_of_squares;
 };
 
+// A' r of the kept columns, summed in 106 bits.
+VectorXd Products(const ExtendedMatrix& design,
+                  const std::vector<Index>& kept,
+                  const ExtendedVector& residual) {
+  // Sums side by side: one after the other they would wait for each other.
+  ExtendedVector sums = ExtendedVector::Zero(std::ssize(kept));
+  for (Index i = 0; i < residual.size(); ++i) {
+    if (i % kRowsBetweenAsking == 0) ThrowIfInterrupted();
+    for (Index j = 0; j < sums.size(); ++j) {
+      sums[j] += design(i, kept[static_cast<std::size_t>(j)]) * residual[i];
+    }
+  }
+  return sums.cast<double>();
+}
+
 // Solves [I A; A' 0] [r; x] = [y; 0] for the exact numbers by corrections from
 // A = Q R in double (Bjorck 1967), which shrink by about epsilon times the
 // condition. Empty if they stop before double's last digit.
@@ -318,6 +333,7 @@ std::optional<Refined> Refine(Problem* problem,
   constexpr int kMostPasses = 30;
   constexpr double kStalled = 0.5;
   constexpr double kExtendedEpsilon = 1e-31;
+  constexpr double kMargin = 10.0;  // of the next step, over what is foreseen
   const auto& [design, response] = problem->exact();
   const Index n = response.size();
   const auto k = std::ssize(parts.kept);
@@ -334,16 +350,8 @@ std::optional<Refined> Refine(Problem* problem,
   VectorXd rest = response.cast<double>();  // y - r - A x
   double before = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < kMostPasses; ++pass) {
-    // Sums side by side: one after the other they would wait for each other.
-    ExtendedVector sums = ExtendedVector::Zero(k);  // A' r
-    for (Index i = 0; i < n; ++i) {
-      if (i % kRowsBetweenAsking == 0) ThrowIfInterrupted();
-      for (Index j = 0; j < k; ++j) {
-        sums[j] +=
-            design(i, parts.kept[static_cast<std::size_t>(j)]) * residual[i];
-      }
-    }
-    const VectorXd across = -sums.cast<double>();
+    VectorXd across = VectorXd::Zero(k);  // - A' r
+    if (pass > 0) across = -Products(design, parts.kept, residual);
     const VectorXd along = parts.basis.transpose() * rest;
     const VectorXd turned = r.transpose().solve(across);
     const VectorXd step = r.solve(along - turned);
@@ -352,11 +360,16 @@ std::optional<Refined> Refine(Problem* problem,
     for (Index i = 0; i < n; ++i) residual[i] += moved[i];
     if (!x.cast<double>().allFinite()) return std::nullopt;
 
+    // Steps shrink by about the same factor each time: the next one says what
+    // this one has left.
+    const double length = step.norm();
+    const double next = pass > 0 ? kMargin * length / before * length : length;
     const double floor = unresolved * x.cast<double>().norm();
     bool all_digits = true;
     for (Index j = 0; j < k; ++j) {
       const double enough = 0.25 * kEpsilon * std::abs(x[j].hi);
-      all_digits = all_digits && std::abs(step[j]) <= std::max(enough, floor);
+      all_digits = all_digits &&
+                   std::min(next, std::abs(step[j])) <= std::max(enough, floor);
     }
     ExtendedVector left = response;
     for (Index j = 0; j < k; ++j) {
@@ -365,8 +378,8 @@ std::optional<Refined> Refine(Problem* problem,
       for (Index i = 0; i < n; ++i) left[i] -= column[i] * x[j];
     }
     if (all_digits) return Refined{std::move(x), left.squaredNorm()};
-    if (step.norm() > kStalled * before) return std::nullopt;
-    before = step.norm();
+    if (length > kStalled * before) return std::nullopt;
+    before = length;
     rest = (left - residual).cast<double>();
   }
   return std::nullopt;

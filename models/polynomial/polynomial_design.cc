@@ -126,28 +126,30 @@ MatrixXd PolynomialDesign::Rows(Index first, Index count) const {
 
 fitting::ExtendedSystem PolynomialDesign::Exact() const {
   using stats::DoubleDouble;
+  const auto decimal = [](double value) { return stats::DecimalOf(value); };
+  const auto scaled = [&](Index k) -> fitting::ExtendedVector {
+    fitting::ThrowIfInterrupted();
+    const DoubleDouble offset = scaling_.offset[k];
+    const DoubleDouble scale = scaling_.scale[k];
+    return dataset_.input_values()
+        .col(inputs_[static_cast<std::size_t>(k)])
+        .unaryExpr([&](double value) -> DoubleDouble {
+          return (stats::DecimalOf(value) - offset) * scale;
+        });
+  };
   fitting::ExtendedMatrix inputs(rows(), std::ssize(inputs_));
+  for (Index k = 0; k < inputs.cols(); ++k) inputs.col(k) = scaled(k);
   fitting::ExtendedSystem system{
       fitting::ExtendedMatrix::Constant(rows(), num_terms() + 1, 1.0),
-      fitting::ExtendedVector(rows())};
-  for (Index i = 0; i < rows(); ++i) {
-    constexpr Index kRowsBetweenAsking = 256;
-    if (i % kRowsBetweenAsking == 0) fitting::ThrowIfInterrupted();
-    system.response[i] = stats::DecimalOf(dataset_.target_values()[i]);
+      dataset_.target_values().unaryExpr(decimal)};
+  for (Index j = 0; j < num_terms(); ++j) {
+    fitting::ThrowIfInterrupted();
+    auto product = system.design.col(j + 1);
+    const TermPowers& powers = terms_[static_cast<std::size_t>(j)];
     for (Index k = 0; k < inputs.cols(); ++k) {
-      const double value =
-          dataset_.input_values()(i, inputs_[static_cast<std::size_t>(k)]);
-      inputs(i, k) =
-          (stats::DecimalOf(value) - scaling_.offset[k]) * scaling_.scale[k];
-    }
-    for (Index j = 0; j < num_terms(); ++j) {
-      DoubleDouble& product = system.design(i, j + 1);
-      const TermPowers& powers = terms_[static_cast<std::size_t>(j)];
-      for (Index k = 0; k < inputs.cols(); ++k) {
-        for (int power = powers[static_cast<std::size_t>(k)]; power > 0;
-             --power) {
-          product *= inputs(i, k);
-        }
+      for (int power = powers[static_cast<std::size_t>(k)]; power > 0;
+           --power) {
+        product = product.cwiseProduct(inputs.col(k));
       }
     }
   }
