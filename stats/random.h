@@ -58,4 +58,8 @@ class Random {
 /// Returns n independent standard normal values.
 VectorXd NormalSample(Index n, Random* random);
 
+/// Returns n values of mean 0 and variance 1 of a stationary first-order
+/// autoregression with coefficient `memory`, between -1 and 1.
+VectorXd AutoregressionSample(Index n, double memory, Random* random);
+
 }  // namespace errmap::stats

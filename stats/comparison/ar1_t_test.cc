@@ -80,11 +80,13 @@ MeanWithMemory OfMean(Index units, double memory) {
           .degrees_of_freedom = trace * trace / of_square};
 }
 
-Ar1TTest::Ar1TTest(const UnitLosses& losses) : means_(losses.means) {
+Ar1TTest::Ar1TTest(const UnitLosses& losses) {
   losses.Validate();
   if (losses.num_units() == 0) return;
   rmse_ = PooledRmse(losses);
   influence_ = InfluenceOnRmse(losses, rmse_);
+  within_ = losses.mean_squares;
+  if (losses.means.size() > 0) within_ -= losses.means.cwiseAbs2();
 }
 
 double Ar1TTest::InDifference(Index a, Index b, double margin) const {
@@ -99,18 +101,18 @@ double Ar1TTest::ShownInDifference(Index a, Index b) const {
              : ShownMemory(influence_.col(a) - influence_.col(b));
 }
 
-double Ar1TTest::ShownInLosses(Index model) const {
-  // In fewer, losses seem to have memory as often without it as with it.
+double Ar1TTest::Worth(Index model) const {
   constexpr Index kFewestForLosses = 20;
-  const Index units = influence_.rows();
-  if (units < kFewestUnits) return 0.0;
-  const bool has_means = means_.size() > 0;
-  const double of_means =
-      has_means ? ShownMemory(means_.col(model), kSuspected) : 0.0;
-  return has_means && units < kFewestForLosses
-             ? of_means
-             : std::max(of_means,
-                        ShownMemory(influence_.col(model), kSuspected));
+  const Index units = within_.rows();
+  if (units < kFewestForLosses) return 1.0;
+  const VectorXd within =
+      within_.col(model).array() - within_.col(model).mean();
+  const double all = 2.0 * rmse_[model] * influence_.col(model).norm();
+  const double share = all > 0.0 ? std::min(1.0, within.norm() / all) : 0.0;
+  const double effective =
+      EffectiveUnits(units, ShownMemory(within_.col(model), kSuspected));
+  return 1.0 /
+         (1.0 + share * share * (static_cast<double>(units) / effective - 1.0));
 }
 
 MemoryTest Ar1TTest::OfDifference(Index a, Index b, double memory) const {

@@ -80,15 +80,16 @@ class Ar1TTest {
   /// difference; 0 below 4 units.
   double InDifference(Index a, Index b, double margin) const;
   double ShownInDifference(Index a, Index b) const;
-  /// Returns ShownMemory, with kSuspected, of the model's mean errors. Uses its
-  /// losses instead if the mean errors are unknown, or if at least 20 units
-  /// show more memory in them. 0 below 4 units.
-  double ShownInLosses(Index model) const;
+  /// Returns effective units over units for the model's RMSE: below 1 if the
+  /// losses within units (about their means, if known) show memory, by
+  /// kSuspected. These are a share of the scatter of all losses. 1 below 20
+  /// units, where losses seem to have memory as often without it as with it.
+  double Worth(Index model) const;
 
  private:
   VectorXd rmse_;       // (models)
   MatrixXd influence_;  // (units x models)
-  MatrixXd means_;      // (units x models), or empty
+  MatrixXd within_;     // (units x models) mean squares
 };
 
 }  // namespace errmap::stats

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "stats/comparison/holm.h"
+#include "stats/comparison/mean_square_bounds.h"
 #include "stats/comparison/point_optimal.h"
 #include "stats/not_a_number.h"
 #include "stats/randomness.h"
@@ -277,11 +278,18 @@ MatrixXd ExcessBounds(const Comparison& comparison) {
   return bounds;
 }
 
-Bounds95 Wider(const Bounds95& one, const Bounds95& other) {
-  return {.lower = std::min(one.lower, other.lower),
-          .upper = std::max(one.upper, other.upper),
-          .at_least = std::min(one.at_least, other.at_least),
-          .at_most = std::max(one.at_most, other.at_most)};
+// Widens bounds of an RMSE to those of the units to come, if those measured may
+// be alike by chance. Units differ in their means; what is within them adds.
+Bounds95 WidenForMemory(const Bounds95& bounds,
+                        double rmse,
+                        const VectorXd& means,
+                        const VectorXd& rows,
+                        MeanSquareBounds* to_come) {
+  const double memory = to_come->LargestMemory(means);
+  if (!(memory > 0.0)) return bounds;
+  const double between = rows.dot(means.cwiseAbs2()) / rows.sum();
+  const double within = std::max(0.0, rmse * rmse - between);
+  return Wider(bounds, to_come->OfRoot(means, memory, within));
 }
 
 void BoundErrors(const UnitLosses& losses,
@@ -289,17 +297,22 @@ void BoundErrors(const UnitLosses& losses,
                  Comparison* comparison) {
   // Different from the draws of the sign flips.
   constexpr std::uint64_t kOwnSequence = 0x9e3779b97f4a7c15U;
+  constexpr std::uint64_t kSequenceToCome = 0xbf58476d1ce4e5b9U;
   const UnitBootstrap bootstrap(
       losses, options.resamples, options.seed ^ kOwnSequence);
   const Ar1TTest with_memory(losses);
-  const double units = static_cast<double>(losses.num_units());
+  // From so much upwards the units tell nothing of the error.
+  constexpr double kMostTimes = 10.0;
+  MeanSquareBounds to_come(losses.num_units(), options.seed ^ kSequenceToCome);
   for (Index model = 0; model < losses.num_models(); ++model) {
-    const double shown = with_memory.ShownInLosses(model);
-    const double worth = EffectiveUnits(losses.num_units(), shown);
-    comparison->rmse_bounds.push_back(
-        shown > 0.0 && worth < kFewestForBounds
-            ? Bounds95{}
-            : bootstrap.OfRmse(model, shown > 0.0 ? worth / units : 1.0));
+    const double rmse = comparison->rmse[model];
+    Bounds95 bounds = bootstrap.OfRmse(model, with_memory.Worth(model));
+    if (bounds.exist() && losses.means.size() > 0) {
+      bounds = WidenForMemory(
+          bounds, rmse, losses.means.col(model), losses.rows, &to_come);
+    }
+    if (bounds.upper > kMostTimes * rmse) bounds = {};
+    comparison->rmse_bounds.push_back(bounds);
   }
   for (PairComparison& pair : comparison->pairs) {
     pair.difference = comparison->rmse[pair.a] - comparison->rmse[pair.b];

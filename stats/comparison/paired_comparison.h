@@ -22,9 +22,6 @@ inline constexpr double kSignificance = 0.05;
 /// first.
 inline constexpr Index kBlocksOfUnits = 5;
 
-/// With fewer effective units, an RMSE has no bounds.
-inline constexpr double kFewestForBounds = 4.0;
-
 /// Mean held-out losses by fold, for the corrected resampled t.
 struct FoldLosses {
   MatrixXd mean_squares;  // (folds, of all repeats, x models)
@@ -112,8 +109,9 @@ struct PairComparison {
 struct Comparison {
   Index num_units = 0;
   VectorXd rmse;  // (models) pooled over rows
-  /// (models) NaN if the units measured are too few: neighbours resemble each
-  /// other so much that they count for fewer than kFewestForBounds.
+  /// (models) By the UnitBootstrap, and at least those of MeanSquareBounds for
+  /// the units' mean errors, since what is measured may vary less than what is
+  /// to come. NaN if the upper one is above ten times the RMSE.
   std::vector<Bounds95> rmse_bounds;
   std::vector<PairComparison> pairs;      // (0,1), (0,2), ..., (1,2), ...
   std::vector<std::vector<Index>> tiers;  // see FormTiers

@@ -26,13 +26,6 @@ double Statistic(const VectorXd& series, double memory) {
          (0.5 * squares / scale - shift) / scale;
 }
 
-VectorXd DrawWithMemory(Index size, double memory, Random* random) {
-  VectorXd x = NormalSample(size, random);
-  const double fresh = std::sqrt(1.0 - memory * memory);
-  for (Index i = 1; i < size; ++i) x[i] = memory * x[i - 1] + fresh * x[i];
-  return x;
-}
-
 }  // namespace
 
 PointOptimalTest::PointOptimalTest(Index size,
@@ -42,7 +35,8 @@ PointOptimalTest::PointOptimalTest(Index size,
     : memory_(memory) {
   Random random(seed);
   for (Index draw = 0; draw < draws; ++draw) {
-    drawn_.push_back(Statistic(DrawWithMemory(size, memory, &random), memory));
+    drawn_.push_back(
+        Statistic(AutoregressionSample(size, memory, &random), memory));
   }
 }
 

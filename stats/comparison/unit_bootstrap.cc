@@ -109,6 +109,13 @@ double StandardError(const VectorXd& influence) {
 
 }  // namespace
 
+Bounds95 Wider(const Bounds95& one, const Bounds95& other) {
+  return {.lower = std::min(one.lower, other.lower),
+          .upper = std::max(one.upper, other.upper),
+          .at_least = std::min(one.at_least, other.at_least),
+          .at_most = std::max(one.at_most, other.at_most)};
+}
+
 UnitBootstrap::UnitBootstrap(const UnitLosses& losses,
                              Index resamples,
                              std::uint64_t seed)

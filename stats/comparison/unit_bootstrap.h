@@ -26,6 +26,9 @@ struct Bounds95 {
   }
 };
 
+/// Returns the wider of both at each end.
+Bounds95 Wider(const Bounds95& one, const Bounds95& other);
+
 /// Bootstrap over units. Units are drawn with replacement, each with all its
 /// rows and the same for every model; the pooled RMSE is then recomputed.
 ///

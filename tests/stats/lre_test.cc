@@ -1,16 +1,13 @@
 #include "stats/lre.h"
 
-#include <limits>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "stats/not_a_number.h"
 #include "tests/numbers.h"
 
 namespace errmap::stats {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(LogRelativeError, CountsAgreeingDigits) {
   EXPECT_NEAR(LogRelativeError(1.001, 1.0, 11.0), 3.0, 1e-9);

@@ -342,14 +342,43 @@ TEST(CompareModels, AllowsForTheMemoryThatUnitsShow) {
             1.5 * (of_mixed.bounds.upper - of_mixed.bounds.lower));
 }
 
-// Of units that wander off, those measured are too few of what there is.
-TEST(CompareModels, BoundsNoErrorWhereUnitsResembleTheirNeighbours) {
-  UnitLosses losses = MakeLossesInPairedComparison(12, VectorXd{{1.0, 1.0}});
-  losses.means = MatrixXd::Zero(12, 2);
-  for (Index unit = 0; unit < 12; ++unit) {
-    losses.means(unit, 0) = static_cast<double>(unit);
-    losses.means(unit, 1) = unit % 2 == 0 ? 1.0 : -1.0;
+// Units that wander off: those measured vary less than what is to come. What
+// independent ones show must not be lost for it.
+TEST(CompareModels, BoundsTheErrorToComeWhateverTheMemoryOfUnits) {
+  constexpr int kSets = 1000;
+  constexpr Index kUnits = 10;
+  constexpr double kWithin = 0.25;  // mean square
+  for (const double memory : {0.0, 0.9}) {
+    Random random(1);
+    int shown = 0;
+    int held = 0;
+    for (int set = 0; set < kSets; ++set) {
+      const VectorXd x = AutoregressionSample(kUnits, memory, &random);
+      // What the mean of all others leaves of each.
+      const double n = kUnits;
+      const VectorXd left = (x.array() - x.mean()) * n / (n - 1.0);
+      const Bounds95 bounds =
+          CompareModels({.mean_squares = left.array().square() + kWithin,
+                         .rows = VectorXd::Ones(kUnits),
+                         .means = left},
+                        nullptr,
+                        {.flips = 99, .resamples = 199})
+              .rmse_bounds[0];
+      const double truth = std::sqrt(1.0 + kWithin + x.mean() * x.mean());
+      shown += bounds.exist();
+      held += bounds.lower <= truth && truth <= bounds.upper;
+    }
+    EXPECT_GE(shown, 0.95 * kSets) << memory;
+    EXPECT_GE(held, 0.9 * shown) << memory;
   }
+}
+
+// Far apart and few: a bound of ten times the error is none.
+TEST(CompareModels, BoundsNoErrorByThreeUnitsFarApart) {
+  UnitLosses losses = MakeLossesInPairedComparison(3, VectorXd{{1.0, 1.0}});
+  losses.means = MatrixXd::Zero(3, 2);
+  losses.means.col(0) << 3.0, -3.0, 0.0;
+  losses.mean_squares = losses.means.cwiseAbs2().array() + 1.0;
   const Comparison found = CompareModels(losses, nullptr, {});
   EXPECT_FALSE(found.rmse_bounds[0].exist());
   EXPECT_TRUE(found.rmse_bounds[1].exist());

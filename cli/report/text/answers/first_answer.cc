@@ -46,7 +46,7 @@ std::string WhyNoRange(const ComponentNumbers& of,
       });
   if (others_have_one) {
     return fmt::format(
-        " (no 95 % range: its errors on neighbouring {} are alike)",
+        " (no 95 % range: its errors on neighbouring {} may be alike)",
         PluralOfUnit(holdout));
   }
   return fmt::format(" ({} are too few or too alike for a range)",
