@@ -217,7 +217,7 @@ bool IsWorse(const MapJudgement& judgement, double indifference) {
 }
 
 bool IsDoubtful(const MapJudgement& judgement, double indifference) {
-  constexpr double kFarAbove = 3.0;
+  constexpr double kFarAbove = 2.0;
   return !IsWorse(judgement, indifference) &&
          IsAbove(judgement, indifference) &&
          (judgement.p < kDoubtful ||

@@ -144,7 +144,7 @@ inline constexpr double kLeastWorse = 0.2;
 bool IsWorse(const MapJudgement& judgement, double indifference);
 /// If p is below this and the error exceeds the promise as above, the map is
 /// doubtful until one more session decides. It is also doubtful if the error is
-/// three times the promise, since few sessions do not show how rare that is.
+/// twice the promise, since few sessions do not show how rare that is.
 inline constexpr double kDoubtful = 0.02;
 bool IsDoubtful(const MapJudgement& judgement, double indifference);
 

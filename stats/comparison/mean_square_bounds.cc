@@ -17,7 +17,7 @@ struct Estimate {
 };
 
 // Generalised least squares of a constant: each value is taken for what its
-// neighbour does not foretell, the first as it is (Prais & Winsten 1954).
+// neighbour does not predict, the first as it is (Prais & Winsten 1954).
 Estimate EstimateFor(double memory, const VectorXd& x) {
   const Index rest = x.size() - 1;
   const double weight = 1.0 / (1.0 + memory);

@@ -203,7 +203,7 @@ void AddWatchCommand(CLI::App* app, Run* run) {
       R"(Compares offset and RMS of each session with the sessions held out when the
 map was made, by t statistics. Compares each sensor with the others. A map
 is worse if p is below 0.0025 and it errs 20 % more than promised. It is
-doubtful if p is below 0.02 or it errs 3 times as much: measure one more
+doubtful if p is below 0.02 or it errs twice as much: measure one more
 session. The store keeps the sessions, and watch.html draws them. A file
 belongs to the component whose data file has its name and most of its
 folders.

@@ -97,7 +97,7 @@ TEST(IsWorse, NeedsAnEffectThatMatters) {
   judgement.p = 0.3;
   EXPECT_FALSE(IsDoubtful(judgement, 0.0));
   // Far above the promise: 10 um are never as promised.
-  judgement.found = 2.0;
+  judgement.found = 1.1;
   EXPECT_TRUE(IsDoubtful(judgement, 0.0));
   // An offset of two thirds of the promise adds a fifth to it.
   judgement = {.p = 1e-6, .found = 0.6, .offset = 0.4, .promised = 0.534};
