@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "data/column_header.h"
 #include "data/tables/cells/csv_cells.h"
 #include "data/tables/cells/missing_cells.h"
 #include "data/tables/cells/unit_cells.h"
@@ -43,18 +44,48 @@ std::optional<double> TakePart(std::size_t part,
   return std::nullopt;
 }
 
+// "27°30'15"" for "27:30:15".
+std::string WithSigns(std::string text) {
+  const std::size_t first = text.find(':');
+  if (first == text.npos) return text;
+  const std::size_t second = text.find(':', first + 1);
+  if (second != text.npos) text.replace(second, 1, "'");
+  text.replace(first, 1, kSigns[0][0]);
+  return text + (second == text.npos ? "'" : "\"");
+}
+
+// Colons part times, too: angles have the unit, or they are positions, which
+// come again, below 0 or beyond all hours of a clock.
+bool MayBeAngles(const CsvColumn& column,
+                 const std::vector<std::optional<double>>& angles) {
+  constexpr double kMostHours = 48.0;
+  constexpr std::size_t kFewestTimes = 3;
+  const auto colons = [](const std::string& text) {
+    return std::ranges::count(text, ':');
+  };
+  if (UnitOfColumn(column.name).symbol == "deg" ||
+      std::ranges::max(column.texts, {}, colons).find(':') ==
+          std::string::npos) {
+    return true;
+  }
+  return kFewestTimes * column.texts.size() <= column.values.size() &&
+         std::ranges::any_of(angles, [](const auto& angle) {
+           return angle && (*angle < 0.0 || *angle > kMostHours);
+         });
+}
+
 // Of each text; nothing unless most are angles.
 std::vector<std::optional<double>> AnglesOf(const CsvColumn& column,
                                             bool decimal_comma) {
   std::vector<std::optional<double>> angles;
   std::ptrdiff_t others = 0;
   for (const std::string& text : column.texts) {
-    angles.push_back(ReadAngle(text, decimal_comma));
+    angles.push_back(ReadAngle(WithSigns(text), decimal_comma));
     others += angles.back() || IsMissingNumber(text) ? 0 : 1;
   }
   const auto found = std::ranges::count_if(
       angles, [](const auto& angle) { return angle.has_value(); });
-  if (found <= others) angles.clear();
+  if (found <= others || !MayBeAngles(column, angles)) angles.clear();
   return angles;
 }
 

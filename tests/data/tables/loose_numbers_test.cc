@@ -94,6 +94,46 @@ TEST(AngleCells, AreDegrees) {
               ElementsAre(HasSubstr("'Angle [deg]' are angles in degrees")));
 }
 
+std::string ColonColumn(const std::string& name,
+                        const std::vector<std::string>& cells) {
+  std::string text = name + ";error_arcsec\n";
+  for (int pass = 0; pass < 3; ++pass) {
+    for (const std::string& cell : cells) text += cell + ";1\n";
+  }
+  return text;
+}
+
+TEST(AngleCells, AreDegreesBetweenColonsWhereNoTimeIsLikeThat) {
+  for (const std::string name : {"B", "Table"}) {
+    const CsvTable negative = ParseCsv(
+        ColonColumn(name, {"-27:30:00", "0:00:00", "27:30:36.5"}), "f.csv");
+    EXPECT_EQ(negative.columns[0].name, name + " [deg]");
+    EXPECT_DOUBLE_EQ(negative.columns[0].values[0], -27.5);
+    EXPECT_DOUBLE_EQ(negative.columns[0].values[2], 27.5 + 36.5 / 3600.0);
+    const CsvTable wide = ParseCsv(
+        ColonColumn(name, {"0:00:00", "90:00:00", "180:00:00"}), "f.csv");
+    EXPECT_EQ(wide.columns[0].name, name + " [deg]");
+  }
+  // The unit says it of fewer.
+  const CsvTable named = ParseCsv("B [deg];e_um\n1:30:00;1\n2:15;2\n", "f.csv");
+  EXPECT_THAT(named.columns[0].values, ElementsAre(1.5, 2.25));
+}
+
+TEST(AngleCells, AreTimesBetweenColonsElsewhere) {
+  std::string elapsed = "Elapsed;error_um\n";
+  for (int hour = 40; hour < 60; ++hour) {
+    elapsed += std::to_string(hour) + ":30:00;1\n";
+  }
+  for (const std::string& text :
+       {elapsed,
+        ColonColumn("time", {"08:00:00", "12:00:00", "23:59:00", "24:30:00"}),
+        ColonColumn("time", {"8:00", "9:00"})}) {
+    const CsvTable table = ParseCsv(text, "f.csv");
+    EXPECT_TRUE(table.columns[0].is_text()) << text;
+    EXPECT_THAT(table.remarks, IsEmpty());
+  }
+}
+
 // One that is mistyped does not make a column of words of them.
 TEST(AngleCells, AreAnglesInMostRowsOrText) {
   for (const char* cell : {"27°60'00\"", "north", "27°30'10\" x", "27'30°"}) {
