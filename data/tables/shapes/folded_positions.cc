@@ -14,6 +14,7 @@
 #include "data/column_header.h"
 #include "data/column_words.h"
 #include "data/columns.h"
+#include "data/tables/shapes/input_rows.h"
 #include "data/tables/shapes/numbered_names.h"
 #include "data/tables/shapes/row_figures.h"
 #include "data/text.h"
@@ -376,6 +377,32 @@ CsvColumn Folded(const CsvTable& table,
   return TakeRows(all, at);
 }
 
+std::optional<Fold> FindFold(const CsvTable& table) {
+  std::optional<Fold> fold = FindPositions(table);
+  if (!fold) fold = FindRuns(table, true);
+  return fold ? fold : FindRuns(table, false);
+}
+
+// Gives each row of errors the cells of the rows of inputs that belong to it,
+// as more columns to be folded.
+void TakeInputRows(CsvTable* table, std::optional<Fold>* fold) {
+  const InputRows found = FindInputRows(*table, (*fold)->kept);
+  if (found.inputs.empty()) return;
+  CsvTable errors = TakeRows(*table, found.errors);
+  std::optional<Fold> of_errors = FindFold(errors);
+  if (!of_errors) return;
+  const std::vector<std::size_t> sources =
+      of_errors->quantities.begin()->second;
+  for (const auto& [name, rows] : found.inputs) {
+    for (const std::size_t source : sources) {
+      of_errors->quantities[name].push_back(errors.columns.size());
+      errors.columns.push_back(TakeRows(table->columns[source], rows));
+    }
+  }
+  *table = std::move(errors);
+  *fold = std::move(of_errors);
+}
+
 // Says how to name columns that are errors and differ by a number.
 void MentionNumbered(CsvTable* table) {
   std::map<std::string, std::vector<std::string>> numbered;
@@ -409,10 +436,9 @@ bool AreSpacedPositions(const std::vector<double>& numbers) {
 }
 
 void FoldPositions(CsvTable* table) {
-  std::optional<Fold> fold = FindPositions(*table);
-  if (!fold) fold = FindRuns(*table, true);
-  if (!fold) fold = FindRuns(*table, false);
+  std::optional<Fold> fold = FindFold(*table);
   if (!fold) return MentionNumbered(table);
+  TakeInputRows(table, &fold);
   LeaveOutFigures(*table, &*fold);
   const Places places = PlacesOf(*fold, table->num_rows);
   const std::size_t rows = places.rows.size();

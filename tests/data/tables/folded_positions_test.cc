@@ -62,6 +62,32 @@ TEST(FoldedRuns, GoTheirWayWhateverTheOrderOfTheTargets) {
   }
 }
 
+TEST(FoldedPositions, HaveTheTemperaturesOfTheRowsBelow) {
+  const std::string heads = "Run,0 mm,50 mm,125 mm\n";
+  const CsvTable each = ParseCsv(
+      heads + "1,1,2,3\nT1,20.1,20.2,20.3\n2,4,5,6\nT1,21.1,21.2,21.3\n",
+      "f.csv");
+  EXPECT_THAT(NamesIn(each), ElementsAre("Run", "position_mm", "T1", "error"));
+  EXPECT_THAT(each.columns[0].values, ElementsAre(1, 1, 1, 2, 2, 2));
+  EXPECT_THAT(each.columns[2].values,
+              ElementsAre(20.1, 20.2, 20.3, 21.1, 21.2, 21.3));
+  EXPECT_THAT(each.columns[3].values, ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(each.remarks,
+              ElementsAre(HasSubstr("2 rows with a column for each of 3 "
+                                    "positions (0 to 125 mm) are read as 6 "
+                                    "rows, of 'T1', 'error'")));
+  const CsvTable once = ParseCsv(
+      heads + "1,1,2,3\n2,4,5,6\nAir [degC],20.1,20.2,20.3\n", "f.csv");
+  EXPECT_THAT(once.At(once.Find("Air [degC]")).values,
+              ElementsAre(20.1, 20.2, 20.3, 20.1, 20.2, 20.3));
+  const CsvTable above = ParseCsv(
+      "x [mm],Run 1 [um],Run 2 [um],Run 3 [um]\nT1 [degC],20,21,22\n"
+      "0,1,2,3\n50,4,5,6\n",
+      "f.csv");
+  EXPECT_THAT(above.At(above.Find("T1 [degC]")).values,
+              ElementsAre(20, 20, 21, 21, 22, 22));
+}
+
 TEST(FoldedRuns, OrderOfOursDoesNotOverruleTheWords) {
   // Targets in no order: of each run as many steps go up as down.
   const CsvTable table = ParseCsv(
