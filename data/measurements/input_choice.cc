@@ -200,10 +200,15 @@ class InputChooser {
 
   // Why a column in a unit of time, or of hours by its name
   // ("Betriebsstunden"), is no sensor. Another clock goes mostly not back: rows
-  // may be many in its step, and it may begin anew with each pass.
+  // may be many in its step, and it may begin anew with each pass. "Giri/min"
+  // is a rate.
   static std::string_view WhatItTimes(const CsvColumn& column) {
     if (UnitOfColumn(column.name).quantity != Quantity::kTime &&
         StatedUnit(column.name) != FindTimeUnit("h")) {
+      return "";
+    }
+    const std::string per_unit = "/" + ReadHeader(column.name).unit_text;
+    if (column.name.ends_with(per_unit) && !Says(column.name, Word::kTime)) {
       return "";
     }
     const Steps steps = StepsOf(column.values);

@@ -395,9 +395,10 @@ std::optional<DateTime> ReadWithoutDate(Scanner text, bool points) {
 }
 
 // "2024/3/4 8:41:39" of "2024\u5e743\u67084\u65e5 8\u664241\u520639\u79d2",
-// its year perhaps of the era Reiwa; else "".
+// its year perhaps of the era Reiwa, or of one of its two halves; else "".
 std::string WithoutCharacters(std::string_view text) {
   constexpr std::string_view kYear = "\u5e74";
+  constexpr std::string_view kMinute = "\u5206";
   constexpr std::string_view kReiwa = "\u4ee4\u548c";
   constexpr auto kMarks =
       std::to_array<std::pair<std::string_view, std::string_view>>(
@@ -406,10 +407,10 @@ std::string WithoutCharacters(std::string_view text) {
            {"\u65e5", " "},
            {"\u6642", ":"},
            {"\u65f6", ":"},
-           {"\u5206", ":"},
+           {kMinute, ":"},
            {"\u79d2", ""}});
   const std::size_t year = text.find(kYear);
-  if (year == text.npos) return "";
+  if (year == text.npos && text.find(kMinute) == text.npos) return "";
   std::string plain(text);
   if (text.starts_with(kReiwa)) {
     double number = 0.0;
@@ -425,6 +426,7 @@ std::string WithoutCharacters(std::string_view text) {
       plain.replace(at, character.size(), mark);
     }
   }
+  if (plain.ends_with(':')) plain.pop_back();  // no seconds
   return plain;
 }
 

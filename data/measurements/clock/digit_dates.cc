@@ -124,7 +124,7 @@ class DateParts {
                               {"month monat mois mese mes mm", ""},
                               {"day tag jour giorno dia dd", ""},
                               {"ora hh", "h"},
-                              {"", "min"},
+                              {"mm", "min"},
                               {"ss", "s"}});
     for (const Names& names : kNames) columns_.push_back(Find(names));
   }
@@ -168,7 +168,8 @@ class DateParts {
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       const CsvColumn& column = table_.columns[i];
       const std::vector<std::string> words = WordsOf(column.name);
-      if (words.size() != 1 || column.is_text() || !column.exceptions.empty()) {
+      if (words.size() != 1 || column.is_text() || !column.exceptions.empty() ||
+          IsFound(i)) {
         continue;
       }
       const TimeUnit* const unit = StatedUnit(words[0]);
@@ -178,6 +179,11 @@ class DateParts {
       }
     }
     return std::nullopt;
+  }
+
+  // "MM" is the month, the next one the minute.
+  bool IsFound(std::size_t column) const {
+    return std::ranges::count(columns_, std::optional(column)) > 0;
   }
 
   bool FromTo(std::size_t part, double least, double most) const {

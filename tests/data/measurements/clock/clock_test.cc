@@ -169,6 +169,18 @@ TEST(Clock, IsWhatHoursByTheirNameAre) {
   EXPECT_THAT(made.reading.sensors, ElementsAre("T1 [degC]"));
 }
 
+TEST(Clock, IsNotWhatCountsPerMinute) {
+  for (const std::string name : {"Giri/min", "U/min", "tr/min"}) {
+    const PreparedDataset made =
+        MadeOf(Days("Zeit," + name, [](int i, double /*warm*/) {
+          return "2024-03-1" + std::to_string(i / 40) + " " +
+                 HourOf(5 * (i % 40)) + ":00," +
+                 std::to_string(2000 * (i / 7 % 3));
+        }));
+    EXPECT_THAT(made.reading.sensors, ElementsAre(name));
+  }
+}
+
 // Whole seconds with nights between them are a clock; numbers of rows have no
 // pauses.
 TEST(Clock, HasPausesWhateverItIsCalled) {
@@ -422,6 +434,17 @@ TEST(Clock, KnowsTicksFromTheYearOneHoursInCompoundsAndPackedHours) {
       })).reading;
   EXPECT_EQ(packed.time.column, "hhmmss");
   EXPECT_EQ(packed.time.step_s, 60.0);
+}
+
+TEST(Clock, TakesTheSecondColumnCalledMmForMinutes) {
+  const PreparedDataset prepared =
+      MadeOf(Days("YYYY,MM,DD,hh,mm,ss", [](int i, double) {
+        return "2026,3,2," + std::to_string(8 + i / 60) + "," +
+               std::to_string(i % 60) + ",7";
+      }));
+  EXPECT_EQ(prepared.reading.time.column, "YYYY + MM + DD + hh + mm + ss");
+  EXPECT_EQ(prepared.reading.time.step_s, 60.0);
+  EXPECT_THAT(prepared.reading.sensors, Not(Contains("mm")));
 }
 
 TEST(Clock, KnowsHoursAndMinutesWithoutAMarkBetween) {

@@ -166,6 +166,10 @@ TEST(DateTime, ReadsWeeksAndCharactersForTheParts) {
                            "\u4ee4\u548c6\u5e744\u67083\u65e5 8:41:39"}) {
     EXPECT_EQ(seconds(text), seconds("2024-04-03 08:41:39")) << text;
   }
+  EXPECT_EQ(Seconds("8\u664241\u520639\u79d2"), Seconds("08:41:39"));
+  EXPECT_EQ(Seconds("08\u65f641\u5206"), Seconds("08:41"));
+  EXPECT_EQ(seconds("2024\u5e744\u67083\u65e5 8\u664241\u5206"),
+            seconds("2024-04-03 08:41"));
   EXPECT_EQ(seconds("2024-W54-1"), -1.0);
 }
 
