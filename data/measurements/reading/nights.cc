@@ -47,12 +47,16 @@ Nights FindNights(const Eigen::VectorXd& time,
   Nights nights{.gap = INFINITY};
   if (between.empty()) return nights;
   std::ranges::sort(between);
+  const double longest_within =
+      within.empty() ? 0.0 : *std::ranges::max_element(within);
   for (std::size_t i = 1; i < between.size(); ++i) {
     const double low = between[i - 1];
     const double high = between[i];
     if (high < kOtherOrder * low) continue;
     if (high >= kShortestNight) {
-      nights.gap = std::sqrt(low * high);
+      // A break that parts no pass is no night.
+      nights.gap = std::sqrt(
+          (longest_within < high ? std::max(low, longest_within) : low) * high);
       return nights;
     }
     // A break, yet no night: lunch, or sessions by the hour.
@@ -61,8 +65,6 @@ Nights FindNights(const Eigen::VectorXd& time,
   nights.sure = nights.other == 0.0;
   if (!by_passes || between.front() < kShortestNight) return nights;
   // Every pass hours after the one before: days of one pass, or a slow run.
-  const double longest_within =
-      within.empty() ? 0.0 : *std::ranges::max_element(within);
   if (longest_within * kOtherOrder > between.front()) return nights;
   const double gap = longest_within > 0.0
                          ? std::sqrt(longest_within * between.front())

@@ -34,6 +34,16 @@ TEST(Evidence, HasNoNameBeyondTheLast) {
   }
 }
 
+TEST(Reading, PartsNoPassByABreakOfHours) {
+  std::vector<Log::Row> rows = Log().Rows();
+  // In the second day's last pass the logger stood, or its clock was set.
+  for (std::size_t i = 57; i < rows.size(); ++i) rows[i].time += 3.0 * 3600.0;
+  const Reading reading = Read(
+      Text("time_s,position_mm,t1_degC,error_um", rows, TimePositionTempError));
+  EXPECT_EQ(reading.sessions.count, 4);
+  EXPECT_EQ(reading.cycles.count, 20);
+}
+
 TEST(Reading, PartsSessionsByNightsAndNotByPausesOfOneOrder) {
   for (const double pause : {60.0, 300.0, 1200.0, 3600.0}) {
     for (const double night : {15000.0, 50000.0, 200000.0}) {
