@@ -21,12 +21,13 @@ std::vector<Eigen::Index> LeaveOutRowsOfWords(
     std::vector<bool>* passing);
 
 /// Returns, in ascending order, the rows that pass and repeat an earlier row in
-/// all named columns, if a neighbour also repeats that row's neighbour. Returns
-/// none if the target has so few distinct values that rows may be equal by
-/// chance.
+/// all named columns. Where this may be chance, a neighbour must also repeat
+/// that row's neighbour; returns none if the target has so few distinct values
+/// that rows may be equal.
 std::vector<Eigen::Index> RepeatedRows(const CsvTable& table,
                                        std::size_t target,
-                                       const std::vector<bool>& passes);
+                                       const std::vector<bool>& passes,
+                                       bool may_be_chance = true);
 
 /// Finds targets that look like measurements but are not. These are zeros while
 /// all other rows have an error (kZero, a lost beam), and runs of rows in

@@ -1,5 +1,7 @@
 #include "data/measurements/reading/base_rows.h"
 
+#include <algorithm>
+#include <set>
 #include <string>
 
 #include "data/column_words.h"
@@ -8,6 +10,7 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/faults/row_faults.h"
+#include "data/text.h"
 
 namespace errmap::data {
 
@@ -18,6 +21,13 @@ namespace {
 // A way that the positions are to tell.
 bool IsDerived(const CsvTable& given, const ColumnFilter& filter) {
   return filter.column == kDirectionColumn && given.Find(kDirectionColumn) < 0;
+}
+
+// Rows with the time of another; -1 where some have none.
+Index NumTimesAgain(const Clock& clock) {
+  if (std::ranges::count(clock.known, false) > 0) return -1;
+  const std::set<double> times(clock.time.begin(), clock.time.end());
+  return clock.time.size() - std::ssize(times);
 }
 
 void LeaveOutWords(TableInReading* in, std::vector<bool>* passes) {
@@ -66,8 +76,13 @@ void ChooseBaseRows(TableInReading* in) {
 bool LeaveOutSavedTwice(TableInReading* in) {
   if (!in->clock.dated || in->clock.DatesRise()) return false;
   std::vector<bool> is_kept = in->IsBaseRow();
-  const std::vector<Index> again =
-      RepeatedRows(in->table(), in->read.roles.target, is_kept);
+  const auto repeated = [&](bool may_be_chance) {
+    return RepeatedRows(
+        in->table(), in->read.roles.target, is_kept, may_be_chance);
+  };
+  // If no other rows share a time, it is no chance.
+  std::vector<Index> again = repeated(false);
+  if (std::ssize(again) != NumTimesAgain(in->clock)) again = repeated(true);
   if (again.empty()) return false;
   for (const Index row : again) {
     is_kept[static_cast<std::size_t>(row)] = false;
@@ -78,8 +93,10 @@ bool LeaveOutSavedTwice(TableInReading* in) {
     return !is_kept[static_cast<std::size_t>(row)];
   });
   in->read.table.Remark(
-      std::to_string(again.size()) +
-      " rows stand twice, with their times; each is read once");
+      CountText(again.size(), "row") +
+      (again.size() == 1
+           ? " stands twice, with its time; it is read once"
+           : " stand twice, with their times; each is read once"));
   return true;
 }
 

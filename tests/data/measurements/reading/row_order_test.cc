@@ -122,6 +122,22 @@ TEST(Reading, ReadsOnceWhatWasSavedTwiceWithItsDate) {
               Contains(HasSubstr("15 rows stand twice, with their times")));
 }
 
+TEST(Reading, ReadsOnceASingleRowWhoseTimeNoOtherHas) {
+  const std::vector<Log::Row> rows = Log().Rows();
+  std::vector<Log::Row> again = rows;
+  again.insert(again.begin() + 70, rows[69]);
+  again.insert(again.begin() + 26, rows[25]);
+  const auto make = [](const std::vector<Log::Row>& of) {
+    return MakeDataset(ParseCsv(WithDates(of), "log.csv"), {});
+  };
+  const PreparedDataset twice = make(again);
+  EXPECT_EQ(twice.dataset.target_values(), make(rows).dataset.target_values());
+  EXPECT_EQ(twice.reading.rows_left_out.size(), 2U);
+  // A clock that shows several readings alike tells none from another.
+  again[80].time = again[79].time;
+  EXPECT_EQ(make(again).reading.rows_left_out.size(), 0U);
+}
+
 TEST(Reading, TakesNoHistoryFromRowsThatWereSortedWithoutAClock) {
   std::vector<Log::Row> rows = Log().Rows();
   std::ranges::stable_sort(rows, {}, &Log::Row::position);
