@@ -513,7 +513,7 @@ class Parser {
                loose != Loose::kNone) {
       is_number = true;
       loose_.Add(loose, cells_.line());
-      rows_->AddValue(column_, form);
+      rows_->AddValue(column_, text, form);
     } else {
       rows_->AddText(column_, AsUtf8(TextOf(text)));
     }

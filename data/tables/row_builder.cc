@@ -32,8 +32,16 @@ void RowBuilder::AddNumber(std::size_t column,
   cells.values.push_back(form.value);
 }
 
-void RowBuilder::AddValue(std::size_t column, const NumberForm& form) {
+void RowBuilder::AddValue(std::size_t column,
+                          std::string_view text,
+                          const NumberForm& form) {
   CsvColumn& cells = table_.columns[column];
+  const bool is_plain = text.find_first_not_of("+-0123456789.,") == text.npos;
+  for (const char mark : {'.', ','}) {
+    if (is_plain && std::ranges::count(text, mark) > 1) {
+      shapes_[column].groups_mark = mark;
+    }
+  }
   cells.NoteMarks(table_.num_rows, form.decimal_comma, form.decimal_point);
   cells.values.push_back(form.value);
 }

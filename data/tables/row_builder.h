@@ -28,7 +28,9 @@ class RowBuilder {
                  std::string_view text,
                  const NumberForm& form);
   /// Adds a number that was read from text of another form.
-  void AddValue(std::size_t column, const NumberForm& form);
+  void AddValue(std::size_t column,
+                std::string_view text,
+                const NumberForm& form);
   void AddText(std::size_t column, std::string_view text);
   /// Completes the row of these cells, which began on this line.
   void End(std::size_t line);

@@ -112,6 +112,12 @@ Loose ReadLooseNumber(std::string_view cell,
                ? Loose::kUncertainty
                : Loose::kNone;
   }
+  if (cell.starts_with('(') && cell.ends_with(')') &&
+      cell.find_first_of(".,") != cell.npos &&
+      ReadNumberForm(cell.substr(1, cell.size() - 2), decimal_comma, form)) {
+    form->value = -form->value;  // as accountants and Excel write it
+    return Loose::kParentheses;
+  }
   Loose kind = Loose::kDash;
   std::string sign;
   for (const std::string_view dash :
@@ -196,7 +202,8 @@ std::vector<std::string> LooseNumbers::Remarks() const {
        " without the remark after it",
        " with the minus that stands behind, which changes the sign",
        " with D for the exponent",
-       " without the uncertainty behind them"});
+       " without the uncertainty behind them",
+       " whose parentheses are a minus"});
   static_assert(kHow.size() == std::tuple_size_v<decltype(seen_)>);
   std::vector<std::string> remarks;
   for (std::size_t i = 1; i < kHow.size(); ++i) {

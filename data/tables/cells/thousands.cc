@@ -30,13 +30,15 @@ bool PartThousands(std::vector<ColumnShape>* shapes, CsvTable* table) {
     constexpr double kThreeDigits = 100.0;
     constexpr double kFourDigits = 1000.0;
     constexpr double kNext = 10.0;
+    const CsvColumn& column = table->columns[i];
+    const char mark = column.first_decimal_comma >= 0 ? ',' : '.';
+    const bool has_groups = shape.groups_mark == mark;
     if (!shape.any_parted || !shape.all_threes ||
-        shape.most_whole <= shape.most_parted) {
+        !(has_groups || shape.most_whole > shape.most_parted)) {
       continue;
     }
     const bool go_on =
         kFourDigits * shape.least_parted <= kNext * shape.most_whole;
-    const CsvColumn& column = table->columns[i];
     const auto first =
         std::max(column.first_decimal_comma, column.first_decimal_point);
     const double value = column.values[static_cast<std::size_t>(first)];
@@ -45,12 +47,13 @@ bool PartThousands(std::vector<ColumnShape>* shapes, CsvTable* table) {
     const auto line = table->LineOfRow(static_cast<std::size_t>(first));
     std::string where = " (line ";
     where.append(std::to_string(line)).append(")");
-    if (go_on && shape.most_whole >= kThreeDigits &&
-        shape.most_whole < kFourDigits) {
+    if (has_groups || (go_on && shape.most_whole >= kThreeDigits &&
+                       shape.most_whole < kFourDigits)) {
       shape.by_thousands = true;
       any = true;
-      remark.append(" is read with marks between thousands, as its other ")
-          .append("numbers are whole: ")
+      remark.append(" is read with marks between thousands, as ")
+          .append(has_groups ? "others have two: "
+                             : "its other numbers are whole: ")
           .append(as_thousands)
           .append(where);
     } else {

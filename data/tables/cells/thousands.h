@@ -17,6 +17,7 @@ struct ColumnShape {
   double most_parted = 0.0;  // the largest of those, read as decimals
   double least_parted = std::numeric_limits<double>::infinity();
   double most_whole = 0.0;  // the largest number without
+  char groups_mark = 0;     // the '.' or ',' of "1.000.000"
   bool by_thousands = false;
 };
 

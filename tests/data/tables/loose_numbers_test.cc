@@ -16,6 +16,7 @@ namespace errmap::data {
 namespace {
 
 using namespace small_tables;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::Eq;
 using ::testing::HasSubstr;
@@ -72,6 +73,28 @@ TEST(LooseNumbers, StandBeforeTheirUncertainty) {
         ParseCsv("x_mm,label\n1," + std::string(label) + "\n", "f.csv");
     EXPECT_TRUE(table.columns[1].is_text()) << label;
   }
+}
+
+TEST(LooseNumbers, AreNegativeInParenthesesWithDecimals) {
+  const CsvTable table =
+      ParseCsv("x_mm,error_um\n1,(1.97)\n2,2.25\n3,(0.10)\n", "f.csv");
+  EXPECT_THAT(table.columns[1].values, ElementsAre(-1.97, 2.25, -0.1));
+  EXPECT_THAT(table.remarks,
+              ElementsAre(HasSubstr("2 cells are read as numbers whose "
+                                    "parentheses are a minus")));
+  EXPECT_TRUE(
+      ParseCsv("x_mm,no\n1,(1)\n2,(2)\n", "f.csv").columns[1].is_text());
+}
+
+TEST(LooseNumbers, HaveThousandsWhereOthersHaveTwoMarks) {
+  const CsvTable table =
+      ParseCsv("x_um;t_degC\n0;20,5\n250.000;20,6\n1.000.000;20,7\n", "f.csv");
+  EXPECT_THAT(table.columns[0].values, ElementsAre(0, 250000, 1000000));
+  EXPECT_THAT(table.remarks, Contains(HasSubstr("as others have two: 250000")));
+  // Another mark between the thousands leaves the point to the decimals.
+  EXPECT_THAT(
+      ParseCsv("x_um;e\n250.125;1\n1,000,000;2\n", "f.csv").columns[0].values,
+      ElementsAre(250.125, 1e6));
 }
 
 TEST(AngleCells, AreDegrees) {
