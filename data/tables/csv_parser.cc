@@ -336,6 +336,7 @@ class Parser {
     blank_ = {};
     while (!cells_.at_end()) {
       if (cells_.front() == '#') {
+        if (AtMarkedRow()) odd_rows_.AddMarked();
         title_lines_.push_back({.row = table_.num_rows, .text = TakeComment()});
       } else if (cells_.AtBlankLine()) {
         AddBlankLine(cells_.line());
@@ -355,6 +356,14 @@ class Parser {
                        std::to_string(layout_.header_line) +
                        ": a header without data; put rows of numbers below it");
     }
+  }
+
+  // A comment of as many cells as a row, the last of them a number.
+  bool AtMarkedRow() {
+    const std::vector<std::string> cells = PeekRecord(0);
+    NumberForm form;
+    return layout_.width > 1 && cells.size() == layout_.width &&
+           ReadNumberForm(cells.back(), dialect_.decimal_comma, &form);
   }
 
   void AddBlankLine(std::size_t line) {

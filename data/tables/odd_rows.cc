@@ -99,6 +99,10 @@ std::vector<std::string> OddRowList::PassedOver() const {
                     CountText(names_, "time") +
                     ": what is below them is read as the same table");
   }
+  if (marked_ > 0) {
+    lines.push_back("rows behind # are passed over: " +
+                    std::to_string(marked_));
+  }
   if (!words_.empty()) {
     lines.push_back(CountText(words_.size(), "line") +
                     " of words among the rows: " + QuotedText(words_.front()) +

@@ -19,10 +19,12 @@ class OddRowList {
   void AddBlank() { ++blank_; }
   void AddNames() { ++names_; }
   std::size_t num_names() const { return names_; }
+  /// A row of numbers that begins with #.
+  void AddMarked() { ++marked_; }
   /// A line of words in one cell.
   void AddWords(const std::string& text) { words_.push_back(text); }
 
-  /// Remarks on blank lines and on repeated names between the rows.
+  /// Remarks on blank lines, repeated names and comments between the rows.
   std::vector<std::string> PassedOver() const;
 
   /// "2 rows are left out for another number of cells than the header's 3:
@@ -50,6 +52,7 @@ class OddRowList {
   std::size_t count_ = 0;
   std::size_t blank_ = 0;
   std::size_t names_ = 0;
+  std::size_t marked_ = 0;
   std::vector<std::string> words_;
   std::size_t first_row_ = kNoRow;
 };

@@ -212,6 +212,17 @@ TEST(ParseCsv, PassesOverLinesOfWordsAmongTheRows) {
               Contains(HasSubstr("2 lines of words among the rows: 'Day 2")));
 }
 
+// Excel shows a date as ######## where the column is narrow.
+TEST(ParseCsv, CountsRowsThatAreComments) {
+  const CsvTable table = ParseCsv(
+      "time,x_mm,e_um\n# time,x_mm,e_um\n8:00,1,2\n# a cold start\n"
+      "########,3,4\n#8:02,5,6\n",
+      "f.csv");
+  EXPECT_EQ(table.num_rows, 1);
+  EXPECT_THAT(table.remarks,
+              ElementsAre("f.csv: rows behind # are passed over: 2"));
+}
+
 TEST(ParseCsv, NotesFirstDecimalPointAndComma) {
   const CsvTable table = ParseCsv("a;b\n1;2\n3,5;2\n1.234;2\n", "f.csv");
   EXPECT_EQ(table.columns[0].first_decimal_comma, 1);
