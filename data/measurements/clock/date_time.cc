@@ -201,10 +201,12 @@ std::optional<bool> TakeHalf(Scanner* text) {
 }
 
 // Of "8:05", "08:05:12.5", "08h05", "08h05m12s" and, elapsed, "29:05:12" or
-// "125:03.5" in minutes; with AM or PM, or "Uhr".
+// "125:03.5" in minutes; with AM or PM on either side, or "Uhr".
 // `points`: also "08.05.12", which may be a date, and behind one "08-05-12".
 std::optional<double> TakeTime(Scanner* text, bool points, DateTime* parsed) {
   constexpr std::size_t kMostDigits = 4;
+  std::optional<bool> afternoon = TakeHalf(text);
+  text->TakeBlanks();
   const auto number = text->TakeNumber(kMostDigits);
   const auto mark = text->TakeOneOf(parsed->has_date ? ":hH.-_"
                                     : points         ? ":hH."
@@ -226,7 +228,8 @@ std::optional<double> TakeTime(Scanner* text, bool points, DateTime* parsed) {
     }
   }
   text->TakeBlanks();
-  if (const std::optional<bool> afternoon = TakeHalf(text)) {
+  if (!afternoon) afternoon = TakeHalf(text);
+  if (afternoon) {
     hour = HourOf(*hour, *afternoon);
     parsed->in_halves = true;
   }
@@ -395,10 +398,9 @@ std::optional<DateTime> ReadWithoutDate(Scanner text, bool points) {
 }
 
 // "2024/3/4 8:41:39" of "2024\u5e743\u67084\u65e5 8\u664241\u520639\u79d2",
-// its year perhaps of the era Reiwa, or of one of its two halves; else "".
+// its year perhaps of the era Reiwa; "" for ASCII.
 std::string WithoutCharacters(std::string_view text) {
   constexpr std::string_view kYear = "\u5e74";
-  constexpr std::string_view kMinute = "\u5206";
   constexpr std::string_view kReiwa = "\u4ee4\u548c";
   constexpr auto kMarks =
       std::to_array<std::pair<std::string_view, std::string_view>>(
@@ -407,12 +409,16 @@ std::string WithoutCharacters(std::string_view text) {
            {"\u65e5", " "},
            {"\u6642", ":"},
            {"\u65f6", ":"},
-           {kMinute, ":"},
-           {"\u79d2", ""}});
+           {"\u5206", ":"},
+           {"\u79d2", ""},
+           {"\u4e0a\u5348", "AM "},
+           {"\uc624\uc804", "AM "},
+           {"\u4e0b\u5348", "PM "},
+           {"\uc624\ud6c4", "PM "}});
+  if (std::ranges::all_of(text, [](char c) { return c >= 0; })) return "";
   const std::size_t year = text.find(kYear);
-  if (year == text.npos && text.find(kMinute) == text.npos) return "";
   std::string plain(text);
-  if (text.starts_with(kReiwa)) {
+  if (text.starts_with(kReiwa) && year != text.npos) {
     double number = 0.0;
     if (!ParseNumber(text.substr(kReiwa.size(), year - kReiwa.size()),
                      &number)) {
@@ -451,7 +457,7 @@ std::optional<DateTime> ParseDateTime(std::string_view text, DateOrder order) {
   const std::optional<Scanner> behind = BehindWeekday(begin);
   if (!read && behind) read = ReadDateFirst(*behind, order);
   if (!read && behind) read = ReadMonthFirst(*behind);
-  return read;
+  return read ? read : ReadWithoutDate(begin, false);
 }
 
 }  // namespace errmap::data

@@ -168,6 +168,10 @@ TEST(DateTime, ReadsWeeksAndCharactersForTheParts) {
   }
   EXPECT_EQ(Seconds("8\u664241\u520639\u79d2"), Seconds("08:41:39"));
   EXPECT_EQ(Seconds("08\u65f641\u5206"), Seconds("08:41"));
+  EXPECT_EQ(Seconds("\uc624\uc804 08:41:39"), Seconds("08:41:39"));
+  EXPECT_EQ(Seconds("\u4e0b\u5348 08:41:39"), Seconds("20:41:39"));
+  EXPECT_EQ(seconds("2024/4/3 \u4e0b\u534812:41:39"),
+            seconds("2024-04-03 12:41:39"));
   EXPECT_EQ(seconds("2024\u5e744\u67083\u65e5 8\u664241\u5206"),
             seconds("2024-04-03 08:41"));
   EXPECT_EQ(seconds("2024-W54-1"), -1.0);
