@@ -9,6 +9,7 @@
 #include "data/column_words.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
+#include "data/text.h"
 #include "data/units.h"
 
 namespace errmap::data {
@@ -154,7 +155,8 @@ class AxisFinder {
       const bool may_err = IsInUnitOfErrors(Name(i));
       if (!IsFree(i) || (may_err && ErrorSign(Name(i)) != 0) ||
           IsCalledPosition(Name(i)) ||
-          !(IsLengthOrAngle(unit) || unit.symbol.empty()) ||
+          !(IsLengthOrAngle(unit) || IsOneOf(unit.symbol, "counts steps") ||
+            unit.symbol.empty()) ||
           Says(Name(i), Word::kTemperature) ||
           Says(Name(i), Word::kDirection) ||
           CountsCycles({.name = Name(i), .unit = unit}) ||

@@ -96,6 +96,12 @@ void AskForUnit(const CsvTable& table,
         {.option = ArgumentName("target", target + " [" + unit + "]"),
          .means = "in " + unit});
   };
+  // "Pitch error "": a sign that counts in brackets only.
+  const auto in_brackets = ReadUnit(target.substr(target.find_last_of(' ') + 1),
+                                    UnitPlace::kBracketed);
+  if (in_brackets && in_brackets->quantity == Quantity::kAngle) {
+    offer(in_brackets->symbol);
+  }
   offer("um");
   offer("mm");
   if (in_inches) offer("in");

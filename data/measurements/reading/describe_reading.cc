@@ -90,6 +90,7 @@ void DescribeSessions(const CsvTable& table,
     if (group != kNoColumn && have_target[row]) {
       const CsvColumn& column = table.At(group);
       const std::string* const text = column.TextAt(row);
+      if (text != nullptr && text->empty()) continue;
       cycles.emplace(code,
                      text == nullptr
                          ? column.values[row]

@@ -391,6 +391,12 @@ TEST(MessyFiles, AnErrorWithoutAUnitIsAskedAbout) {
   }
 }
 
+TEST(MessyFiles, AnErrorWithASignForSecondsOfArcIsOfferedInThem) {
+  Rows rows = Measured();
+  rows[0].back() = "Pitch error \"";
+  EXPECT_THAT(ErrorOf(Joined(rows)), HasSubstr("[arcsec]: in arcsec"));
+}
+
 TEST(MessyFiles, NumbersMayBeWrittenAsByFortranOrATypesetter) {
   const Dataset clean = Make(Joined(Measured())).dataset;
   const auto values = [](const char* unit, const char* minus, const char* e) {

@@ -34,6 +34,30 @@ TEST(Evidence, HasNoNameBeyondTheLast) {
   }
 }
 
+TEST(Reading, CountsNoCycleWithoutAName) {
+  std::string text = Text("day,cycle,position_mm,t1_degC,error_um",
+                          Log().Rows(),
+                          [](const Log::Row& row) -> std::vector<std::string> {
+                            return {std::to_string(row.day),
+                                    std::to_string(row.cycle),
+                                    Fixed(row.position),
+                                    Fixed(row.warm),
+                                    Fixed(row.error)};
+                          });
+  text += "3,,,22.1,1.5\n";  // the means of a sheet
+  EXPECT_EQ(Read(text, {.missing = MissingPolicy::kDropRows}).cycles.count, 20);
+}
+
+TEST(Reading, TakesCountsThatComeAgainForTheAxis) {
+  const auto read = [](const std::string& name) {
+    return Read(Text("time_s," + name + ",t1_degC,error_um",
+                     Log().Rows(),
+                     TimePositionTempError));
+  };
+  EXPECT_EQ(read("Encoder (counts)").position.column, "Encoder (counts)");
+  EXPECT_EQ(read("Load (N)").position.column, std::nullopt);
+}
+
 TEST(Reading, PartsNoPassByABreakOfHours) {
   std::vector<Log::Row> rows = Log().Rows();
   // In the second day's last pass the logger stood, or its clock was set.
