@@ -55,6 +55,7 @@ class DatasetBuilder {
       LeaveOutUseless(LeakingInputs(parts_));
       if (NumSessions() > 1) {
         LeaveOutUseless(CountingInputs(parts_, SessionOfRows(), NumSessions()));
+        RemarkOnUnits(RunStarts(SessionOfRows()));
       }
     }
     LookForFaults();
@@ -312,6 +313,15 @@ class DatasetBuilder {
           read_.log_rows.begin())]);
     }
     return sessions;
+  }
+
+  void RemarkOnUnits(const std::vector<Eigen::Index>& starts) {
+    for (std::size_t i = 0; i < parts_.inputs.size(); ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      auto remark = OtherUnitInSession(
+          parts_.inputs[i], parts_.input_values.col(column), starts);
+      if (remark) said_.remarks.push_back(*std::move(remark));
+    }
   }
 
   // Before anything is made of the rows.

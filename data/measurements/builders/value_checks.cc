@@ -60,6 +60,51 @@ std::optional<std::string> LikelyFahrenheit(
          QuotedText(names.front() + " [degF]");
 }
 
+std::optional<std::string> OtherUnitInSession(
+    const ColumnInfo& input,
+    const Eigen::Ref<const Eigen::VectorXd>& values,
+    const std::vector<Eigen::Index>& starts) {
+  constexpr double kNear = 10.0;  // degrees
+  constexpr double kOfTravel = 1e-3;
+  constexpr Eigen::Index kMostSessions = 1000;
+  const bool is_position =
+      input.role == Role::kPosition && IsLengthOrAngle(input.unit);
+  const auto n = std::ssize(starts);
+  if ((!is_position && input.unit.quantity != Quantity::kTemperature) ||
+      n < 2 || n > kMostSessions) {
+    return std::nullopt;
+  }
+  Eigen::Array2Xd ranges(2, n);  // least and most
+  for (std::size_t s = 0; s < starts.size(); ++s) {
+    const auto own = values(Eigen::seq(
+        starts[s],
+        (s + 1 < starts.size() ? starts[s + 1] : values.size()) - 1));
+    ranges.col(std::ptrdiff_t(s)) << own.minCoeff(), own.maxCoeff();
+  }
+  for (Eigen::Index s = 0; s < n; ++s) {
+    const Eigen::Array2d own = ranges.col(s);
+    Eigen::Array2Xd rest = ranges;
+    rest.col(s) = ranges.col(s == 0 ? 1 : 0);
+    const Eigen::Array2d others(rest.row(0).minCoeff(), rest.row(1).maxCoeff());
+    const auto are_near = [&](const Eigen::Array2d& range) {
+      const double near =
+          is_position ? kOfTravel * (others[1] - others[0]) : kNear;
+      return ((range - others).abs() < near).all();
+    };
+    for (const Unit& unit : UnitsOf(input.unit.quantity)) {
+      const Eigen::Array2d there(Converted(own[0], unit, input.unit),
+                                 Converted(own[1], unit, input.unit));
+      if (are_near(own) || !are_near(there)) continue;
+      return NameInRemark(input.name) + " is " + Rounded(own[0]) + " to " +
+             Rounded(own[1]) + " in session " + std::to_string(s + 1) +
+             ", as if its unit were " + QuotedText(unit.symbol) +
+             " there, and " + Rounded(others[0]) + " to " + Rounded(others[1]) +
+             " in the others";
+    }
+  }
+  return std::nullopt;
+}
+
 void AskForUnit(const CsvTable& table,
                 const std::string& target,
                 const Eigen::VectorXd& values,

@@ -21,6 +21,13 @@ std::optional<std::string> UnlikelySize(const ColumnInfo& target,
 std::optional<std::string> LikelyFahrenheit(
     const std::vector<ColumnInfo>& inputs, const Eigen::MatrixXd& values);
 
+/// Returns a remark if positions or temperatures of one session would be like
+/// those of the others in another unit. `starts`: the first row of each.
+std::optional<std::string> OtherUnitInSession(
+    const ColumnInfo& input,
+    const Eigen::Ref<const Eigen::VectorXd>& values,
+    const std::vector<Eigen::Index>& starts);
+
 /// Throws OpenQuestion if the target's unit is not stated, and the values (RMS
 /// above 1), or columns in inches and degF, contradict the assumed mm. Also if
 /// no unit can be assumed ("Abweichung") and the target was not `named`.

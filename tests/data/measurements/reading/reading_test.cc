@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using warming_log::Fixed;
 using warming_log::Log;
 using warming_log::Read;
@@ -31,6 +33,36 @@ TEST(Evidence, HasNoNameBeyondTheLast) {
   EXPECT_EQ(ToString(Evidence::kNameAndValues), "name+values");
   for (int i = 5; i < 256; ++i) {
     EXPECT_EQ(ToString(static_cast<Evidence>(i)), "");
+  }
+}
+
+// The remarks on a log of four days; `change` may alter a row.
+std::vector<std::string> RemarksOn(
+    const std::function<void(Log::Row*)>& change) {
+  std::vector<Log::Row> rows = Log().Rows();
+  for (Log::Row& row : rows) change(&row);
+  const std::string text =
+      Text("time_s,position_mm,t1_degC,error_um", rows, TimePositionTempError);
+  return MakeDataset(ParseCsv(text, "log.csv"), {}).remarks;
+}
+
+TEST(Reading, NamesASessionInAnotherUnit) {
+  EXPECT_THAT(RemarksOn([](Log::Row* row) {
+                if (row->day == 2) row->position /= 25.4;
+              }),
+              ElementsAre("position_mm is 0 to 9.84 in session 3, as if its "
+                          "unit were 'in' there, and 0 to 250 in the others"));
+  EXPECT_THAT(RemarksOn([](Log::Row* row) {
+                if (row->day == 1) row->warm = 1.8 * row->warm + 32.0;
+              }),
+              Contains(HasSubstr("in session 2, as if its unit were 'degF'")));
+  // A short travel and a hot day are none.
+  for (const double factor : {0.5, 0.8}) {
+    EXPECT_THAT(RemarksOn([&](Log::Row* row) {
+                  if (row->day == 2) row->position *= factor;
+                  if (row->day == 3) row->warm += 20.0;
+                }),
+                Not(Contains(HasSubstr("as if its unit"))));
   }
 }
 
