@@ -245,8 +245,8 @@ Remarks HeldAgainstGoal(const Numbers& of) {
   const models::DisplayRecord& display = of.record.display;
   const std::string wanted = WithSymbol(
       fmt::format("{:g}", of.record.goal * display.scale), display.unit);
-  const stats::ErrorMetrics& found =
-      of.Result(advice.model, advice.holdout).test;
+  const models::ResultRecord& result = of.Result(advice.model, advice.holdout);
+  const stats::ErrorMetrics& found = result.test;
   switch (advice.goal_standing) {
     case GoalStanding::kMet: {
       const HoldoutRecord* const later =
@@ -255,7 +255,11 @@ Remarks HeldAgainstGoal(const Numbers& of) {
           TestRmse(of.Model(advice.model), later->name) > of.record.goal) {
         return {{"goal", wanted + ": reached, but not later on", Tone::kBad}};
       }
-      return {{"goal", wanted + ": reached", Tone::kGood}};
+      return {{"goal",
+               wanted + (result.ci95[1] <= of.record.goal
+                             ? ": reached"
+                             : ": reached, but not proven"),
+               Tone::kGood}};
     }
     case GoalStanding::kMetAfterRezeroing:
       return {

@@ -151,6 +151,22 @@ TEST(Remarks, TellOffsetAndScatterOfAGoalThatAnOffsetHides) {
             "an offset of 0.190 um");
 }
 
+TEST(Remarks, CallAGoalProvenOnlyWhereTheWholeRangeIsBelowIt) {
+  ComponentRecord record = Base();
+  models::RecommendationRecord& advice = *record.recommendation;
+  advice.goal_standing = models::GoalStanding::kMet;
+  for (auto& [holdout, result] : record.models[1].results) {
+    result.ci95 = {0.0001, 0.9 * record.goal};
+  }
+  EXPECT_EQ(TextOf(record, "goal"), "0.5 um: reached");
+  for (const double upper : {1.1 * record.goal, models::kNotKnown}) {
+    for (auto& [holdout, result] : record.models[1].results) {
+      result.ci95 = {0.0001, upper};
+    }
+    EXPECT_EQ(TextOf(record, "goal"), "0.5 um: reached, but not proven");
+  }
+}
+
 TEST(Remarks, CallWhatShiftsWholeCyclesNoNoise) {
   ComponentRecord record = Base();
   for (auto& [holdout, result] : record.models[1].results) {
