@@ -20,7 +20,7 @@ bool LacksMemory(sqlite3* database) {
   return code == SQLITE_NOMEM || code == SQLITE_IOERR_NOMEM;
 }
 
-// Want of memory is no fault of the file.
+// Want of memory is not a fault of the file.
 [[noreturn]] void Throw(sqlite3* database) {
   if (LacksMemory(database)) throw std::bad_alloc();
   const int code = sqlite3_errcode(database) & kPrimary;

@@ -163,7 +163,7 @@ std::vector<std::string> TablesOf(const std::string& folder,
   }
   if (!others.empty()) {
     std::ranges::sort(others);
-    remarks->push_back(shown + ": left out, since they are no measurements: " +
+    remarks->push_back(shown + ": left out, since they are not measurements: " +
                        ListOfNames(others));
   }
   return tables;
@@ -198,7 +198,7 @@ MeasuredFiles FindFiles(const std::vector<std::string>& given) {
       }
       if (path.ends_with(".toml")) {
         throw InputError(PrintablePath(path) +
-                         ": is no table; errmap compare takes a study file "
+                         ": is not a table; errmap compare takes a study file "
                          "with " +
                          ArgumentName("config"));
       }

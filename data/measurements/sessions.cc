@@ -223,7 +223,7 @@ class SessionFinder : private RowColumns {
     const bool is_surely = Says(column.name, Word::kDay) ||
                            EqualsIgnoringCase(column.name, "session");
     if (!is_surely && !passes_.empty() && IsPassOfEach(codes)) {
-      return "numbers passes along the axis, which are no sessions";
+      return "numbers passes along the axis, which are not sessions";
     }
     if (come_again_ &&
         (found_.dated || ColumnOfDates(table_, selection_) >= 0)) {
@@ -292,7 +292,7 @@ class SessionFinder : private RowColumns {
                "column " + QuotedName(column.name) + " has " +
                    std::to_string(sessions.labels.size()) + " values in " +
                    std::to_string(rows_known.size()) +
-                   " rows, which are no sessions",
+                   " rows, which are not sessions",
                "",
                &found_.remarks);
       return false;
@@ -378,7 +378,7 @@ class SessionFinder : private RowColumns {
   void CutSessions() {
     const auto n = static_cast<Index>(rows_.size());
     const Index num_back = TimesBack(found_.time);
-    // Runs of fewer than four rows are no sessions but disorder.
+    // Runs of fewer than four rows are not sessions but disorder.
     constexpr Index kFewestRows = 4;
     if (num_back * kFewestRows > n) {
       PassOver(!selection_.time.empty(),

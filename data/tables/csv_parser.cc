@@ -119,7 +119,7 @@ class Parser {
     const std::size_t nul = text.find('\0');
     if (nul != std::string_view::npos) {
       ThrowAt(1 + CountLineEnds(text.substr(0, nul)),
-              "NUL byte; this is no text file: save it as CSV in UTF-8");
+              "NUL byte; this is not a text file: save it as CSV in UTF-8");
     }
     if (cells_.at_end()) {
       throw InputError(File() +

@@ -23,7 +23,7 @@ void RequireConvertible(const data::ColumnInfo& column,
                         const data::Unit& unit) {
   if (data::AreConvertible(column.unit, unit)) return;
   throw std::invalid_argument(
-      fmt::format("'{}' is no length that can be written in {}",
+      fmt::format("'{}' is not a length that can be written in {}",
                   CommentText(column.name),
                   unit.symbol));
 }

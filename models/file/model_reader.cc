@@ -182,7 +182,7 @@ std::vector<Index> ReadColumnsOf(const Node& node,
         inputs, name.Text(), [](const TrainedInput& input) -> const auto& {
           return input.column.name;
         });
-    if (found == inputs.end()) name.Refuse("is no input of the map");
+    if (found == inputs.end()) name.Refuse("is not an input of the map");
     columns.push_back(found - inputs.begin());
   }
   return columns;
@@ -201,7 +201,7 @@ Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
         std::ranges::find(fitted.history->form_inputs,
                           trained.derived[i].column.name) ==
             fitted.history->form_inputs.end()) {
-      node.At("derived").Elements()[i].Refuse("is no input of the form");
+      node.At("derived").Elements()[i].Refuse("is not an input of the form");
     }
   }
   trained.columns = ReadColumnsOf(node.At("columns"), fitted.inputs);
@@ -480,13 +480,14 @@ FittedModel ModelFromJson(const std::string& text, const std::string& source) {
     throw data::InputError(
         text.find('{') != text.find_first_not_of(" \t\r\n")
             ? source +
-                  ": is no map, which is JSON that errmap wrote; a map is "
+                  ": is not a map, which is JSON that errmap wrote; a map is "
                   "named first, its data after it"
-            : fmt::format("{}: is no whole map: its JSON breaks at byte {} of "
-                          "{}; take another copy, or errmap fit again",
-                          source,
-                          std::min(error.byte, text.size()),
-                          text.size()));
+            : fmt::format(
+                  "{}: is not a complete map: its JSON breaks at byte {} of "
+                  "{}; take another copy, or errmap fit again",
+                  source,
+                  std::min(error.byte, text.size()),
+                  text.size()));
   } catch (const Json::out_of_range&) {
     throw data::InputError(source + ": has a number that is too large");
   }

@@ -110,10 +110,11 @@ void LeaveOutSpikes(const FittedModel& fitted,
   }
 }
 
-// When the map was fitted, the rows that it is not made for were no part of its
-// log. A memory that counts rows must see the others only: what stands between
-// two of these lies on the line between them, which its filters take for
-// nothing new. Where no filter had left any out, they are not counted either.
+// When the map was fitted, the rows that it is not made for were not part of
+// its log. A memory that counts rows must see the others only: what stands
+// between two of these lies on the line between them, which its filters take
+// for nothing new. Where no filter had left any out, they are not counted
+// either.
 void PassOverRowsNotMadeFor(const FittedModel& fitted,
                             const data::CsvTable& table,
                             Index first_row,

@@ -87,14 +87,14 @@ Json LearntJson(const RowsLearnt& learnt) {
 
 std::string LearntText(const RowsLearnt& learnt) {
   if (learnt.file) {
-    return "The map was fitted to this file: what follows is no promise for "
+    return "The map was fitted to this file: what follows is not a promise for "
            "new rows.\n";
   }
   return learnt.rows == 0
              ? ""
              : fmt::format(
                    "{} of {} rows are ones that the map was trained on: what "
-                   "follows is no promise for new ones.\n",
+                   "follows is not a promise for new ones.\n",
                    learnt.rows,
                    learnt.of);
 }

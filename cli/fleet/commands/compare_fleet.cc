@@ -210,7 +210,7 @@ void ClaimStore(const fleet::StorePaths& paths, bool force) {
   // In this order: it may become a store meanwhile.
   if (!force && !IsFree(paths.store) && !fleet::IsStore(paths.store)) {
     throw UsageError(fmt::format(
-        "{} is no store and not empty; choose another folder with --out, or "
+        "{} is not a store and not empty; choose another folder with --out, or "
         "use it with --force",
         data::PrintablePath(paths.store)));
   }

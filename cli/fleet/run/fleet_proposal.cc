@@ -121,7 +121,7 @@ class LevelPatterns {
     };
     std::map<std::string, Looks> looks;
     for (std::size_t i = 0; i < level.stems.size(); ++i) {
-      // Names that are all different are no kinds of files.
+      // Names that are all different are not kinds of files.
       constexpr std::size_t kMostKinds = 60;
       constexpr int kMostOfAKind = 3;
       const std::string& stem = level.stems[i];

@@ -32,7 +32,7 @@ constexpr std::int64_t kApplication = 0x6572726d;
 std::int64_t VersionOf(Database* database, const std::string& path) {
   const std::string shown = data::PrintablePath(path);
   if (database->WholeOf("PRAGMA application_id") != kApplication) {
-    throw data::InputError(shown + " is no store of errmap's");
+    throw data::InputError(shown + " is not a store of errmap");
   }
   const std::int64_t version = database->WholeOf("PRAGMA user_version");
   if (version > kStoreVersion) {
@@ -285,7 +285,7 @@ Database OpenStore(const StorePaths& paths) {
   // A named pipe would be waited for.
   if (!fs::is_regular_file(path, ignored)) {
     throw data::InputError(
-        fmt::format("{}: is no plain file; move it away, and errmap merge "
+        fmt::format("{}: is not a plain file; move it away, and errmap merge "
                     "STORE makes another",
                     data::PrintablePath(path)));
   }

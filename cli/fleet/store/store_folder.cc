@@ -73,9 +73,10 @@ bool IsStore(const std::string& folder) {
 FleetRecord ReadFleet(const StorePaths& paths) {
   std::error_code ignored;
   if (!IsStore(paths.store)) {
-    throw data::InputError(fmt::format(
-        "{} is no store; errmap compare --config STUDY --out STORE makes one",
-        data::PrintablePath(paths.store)));
+    throw data::InputError(
+        fmt::format("{} is not a store; errmap compare --config STUDY --out "
+                    "STORE makes one",
+                    data::PrintablePath(paths.store)));
   }
   const std::string text =
       data::ReadFile(paths.Fleet(), data::kMostTextOfPrograms);

@@ -110,7 +110,7 @@ std::vector<bool> DirectionsOf(const data::CsvTable& table,
       upwards[i] = *up;
     } else if (named) {
       throw data::InputError(fmt::format(
-          "{}: {} is no direction: up or down, + or -, 1 or -1; without "
+          "{}: {} is not a direction: up or down, + or -, 1 or -1; without "
           "--direction the order of the positions tells",
           table.Where(row, words.name),
           data::QuotedName(word)));

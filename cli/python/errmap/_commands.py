@@ -29,7 +29,7 @@ def read_csv(path: str | os.PathLike[str]) -> Any:
     Raises
     ------
     ValueError
-        Where the file is no table; the message names line and column.
+        Where the file is not a table; the message names line and column.
     """
     name = os.fspath(path)
     file_name, colon, _ = name.rpartition(":")

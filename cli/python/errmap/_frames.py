@@ -70,7 +70,7 @@ def _add_column(table: _core.Table, name: str, column: Any) -> None:
     try:
         cells = [_cell(cell) for cell in column]
     except TypeError:
-        raise ValueError(f"{FRAME}: column '{name}' is no list of cells") from None
+        raise ValueError(f"{FRAME}: column '{name}' is not a list of cells") from None
     table.add_cells(name, cells)
 
 
@@ -78,7 +78,7 @@ def _name(label: Any) -> str:
     # Of several levels: "temperature t1".
     if isinstance(label, tuple):
         label = " ".join(str(part) for part in label if str(part))
-    # Half a surrogate pair is no character.
+    # Half a surrogate pair is not a character.
     return str(label).encode("utf-8", "replace").decode()
 
 

@@ -24,7 +24,7 @@ class MapFile:
     Raises
     ------
     ValueError
-        Where it is no model file.
+        Where it is not a model file.
     """
 
     _FILE = "map.json"
@@ -411,7 +411,7 @@ def load(path: str | os.PathLike[str]) -> MapFile:
     Raises
     ------
     ValueError
-        Where it is no model file; OSError where it cannot be read.
+        Where it is not a model file; OSError where it cannot be read.
     """
     with open(path, encoding="utf-8", newline="") as file:
         return MapFile(file.read())

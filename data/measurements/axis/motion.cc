@@ -127,7 +127,7 @@ void PartStandsAtTurns(const Levels& levels,
 }
 
 // Where all rows go one way: steps back to where the pass began begin the next
-// one, as after a pass that was broken off. They are no steps of the way.
+// one, as after a pass that was broken off. They are not steps of the way.
 void BeginAnew(const Levels& levels, int way, std::vector<int>* signs) {
   Index first = -1;
   Index last = -1;

@@ -142,7 +142,7 @@ void RequireSquares(const CsvTable& table,
       table.Where(static_cast<std::size_t>(rows[static_cast<std::size_t>(row)]),
                   column) +
       ": the largest " + what + ", " + CsvNumber(values[row]) +
-      ", is no size between 1e-100 and 1e100, whose squares can be summed; "
+      ", is not a size between 1e-100 and 1e100, whose squares can be summed; "
       "correct it or choose another unit");
 }
 

@@ -30,7 +30,7 @@ void LeaveOutWords(TableInReading* in, std::vector<bool>* passes) {
     in->read.reading.rows_left_out.push_back(
         {.row = row, .why = "holds words where the others have numbers"});
   }
-  // Their words are no times either.
+  // Their words are not times either.
   for (CsvColumn& column : in->read.table.columns) {
     if (column.is_text()) column = TakeRows(column, kept);
   }

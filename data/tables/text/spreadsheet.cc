@@ -50,7 +50,7 @@ ShownTime BuiltIn(std::size_t format) {
           .hours = within(18, 22) || within(45, 47)};
 }
 
-// By the letters that are no literal text: "yyyy-mm-dd", "[h]:mm", "0.00 \m".
+// By the letters that are not literal text: "yyyy-mm-dd", "[h]:mm", "0.00 \m".
 ShownTime ShownBy(std::string_view code) {
   ShownTime shown;
   bool months_or_minutes = false;

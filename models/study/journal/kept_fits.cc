@@ -59,9 +59,10 @@ void KeptFits::RequireNoOther(const std::string& folder, bool force) {
   const fs::file_status status = fs::status(path, absent);
   if (!fs::exists(status)) return;
   if (!fs::is_regular_file(status)) {
-    throw data::InputError(data::PrintablePath(path) +
-                           ": is no plain file; move it away or choose another "
-                           "folder");
+    throw data::InputError(
+        data::PrintablePath(path) +
+        ": is not a plain file; move it away or choose another "
+        "folder");
   }
   std::string begin(kOwnerAt + kOwner.size(), '\0');
   std::ifstream stream(path, std::ios::binary);

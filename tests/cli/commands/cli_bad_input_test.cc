@@ -62,10 +62,9 @@ TEST_F(CliBadInput, MissingTargetIsNotToBeExcluded) {
 }
 
 TEST_F(CliBadInput, NonNumericCellShowsItsText) {
-  EXPECT_THAT(
-      Refusal(kHeader + "1,20,0.1\n2,2o,0.3\n" + kRows),
-      HasSubstr(
-          "f.csv: line 3 (data row 1), column 't1_degC': '2o' is no number"));
+  EXPECT_THAT(Refusal(kHeader + "1,20,0.1\n2,2o,0.3\n" + kRows),
+              HasSubstr("f.csv: line 3 (data row 1), column 't1_degC': '2o' is "
+                        "not a number"));
 }
 
 TEST_F(CliBadInput, NaNIsAMissingValue) {

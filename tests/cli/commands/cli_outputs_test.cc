@@ -65,7 +65,7 @@ TEST_F(CliOutputs, OutputsThatAreInputsAreRefusedBeforeAnyWork) {
     EXPECT_EQ(Read("x.csv"), data);
     EXPECT_EQ(Read("m.json"), map);
   }
-  // What is no input is replaced, as ever.
+  // What is not an input is replaced, as ever.
   Write("old.json", "old");
   EXPECT_EQ(Run({"fit", "x.csv", "--model", "mean", "-o", "old.json"}).status,
             0);

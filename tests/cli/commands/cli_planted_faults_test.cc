@@ -180,7 +180,7 @@ TEST_F(CliPlantedFaults, AnUnknownUnitIsRefusedWithTheList) {
   file.header[kT1] = "t1 [brix]";
   EXPECT_THAT(
       Compare(file.Csv()).err,
-      HasSubstr("errmap: no unit is read from 't1 [brix]': 'brix' is no "
+      HasSubstr("errmap: no unit is read from 't1 [brix]': 'brix' is not a "
                 "unit known here\n"));
   file.header[kT1] = "travel_m";
   EXPECT_THAT(Compare(file.Csv()).err,
@@ -316,7 +316,7 @@ TEST_F(CliPlantedFaults, PositionsAsTextStopTheStudy) {
                                   return "left";
                                 }).Csv()),
                         kUnusable),
-              HasSubstr("column 'position_mm': 'left' is no number"));
+              HasSubstr("column 'position_mm': 'left' is not a number"));
 }
 
 TEST_F(CliPlantedFaults, APositionInAnyCaseIsThePosition) {

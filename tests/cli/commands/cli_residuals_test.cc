@@ -221,7 +221,7 @@ TEST_F(CliResiduals, FewOrEqualValuesAreAnsweredOrRefusedNeverNaN) {
       HasSubstr("r.csv: line 3 (data row 1), column 'r'"));
 }
 
-// An instrument of 1 um on a scatter of 1 um: ties are no modes.
+// An instrument of 1 um on a scatter of 1 um: ties are not modes.
 TEST_F(CliResiduals, RoundedReadingsAreComparedWithRoundedNormals) {
   std::vector<std::string> values;
   for (int i = 0; i < 400; ++i) {

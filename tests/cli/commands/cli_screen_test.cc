@@ -427,9 +427,10 @@ TEST_F(Screens, GuessWhatWasMeant) {
               HasSubstr("no option '--hlep'; did you mean '--help'?"));
   EXPECT_THAT(err({"compare", kDown, "-m", "mean"}),
               HasSubstr("no option '-m'; see errmap compare --help"));
-  EXPECT_THAT(RefusalOf(Run({"evaluate", kDown, "map.json"}), kUnusable),
-              HasSubstr("is no map, which is JSON that errmap wrote; a map is "
-                        "named first"));
+  EXPECT_THAT(
+      RefusalOf(Run({"evaluate", kDown, "map.json"}), kUnusable),
+      HasSubstr("is not a map, which is JSON that errmap wrote; a map is "
+                "named first"));
   EXPECT_THAT(err({"help", "comprae"}), HasSubstr("did you mean 'compare'?"));
   EXPECT_THAT(err({"compare", kDown, "--modles", "mean"}),
               HasSubstr("no option '--modles'; did you mean '--models'?"));
@@ -455,7 +456,7 @@ TEST_F(Screens, GuessWhatWasMeant) {
 }
 
 // A figure that stands in several places is written alike in all of them: no
-// length is another one rounded. The goal is no figure of the study.
+// length is another one rounded. The goal is not a figure of the study.
 TEST_F(Screens, SayEachFigureInOneWay) {
   const Outcome outcome = Run(
       With({"compare", kDown, "--details", "--goal", "7um", "--out", "study"},

@@ -126,7 +126,7 @@ TEST_F(Cli, TakesPredictionsFromElsewhereIntoTheTable) {
   EXPECT_EQ(theirs["results"]["groups:5"]["test"],
             ours["results"]["groups:5"]["test"]);
   EXPECT_EQ(theirs["parameters"], nullptr);
-  // Predictions alone are no map to compensate with.
+  // Predictions alone are not a map to compensate with.
   EXPECT_EQ(component["recommendation"]["model"], "poly:full:degree=3");
 }
 

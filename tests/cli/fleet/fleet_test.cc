@@ -172,12 +172,12 @@ TEST_F(Fleet, WrongCommandLinesGetOneLine) {
                 HasSubstr("give I/N"));
   }
   EXPECT_THAT(RefusalOf(Study("data"), kWrongCommandLine),
-              HasSubstr("is no store and not empty"));
+              HasSubstr("is not a store and not empty"));
   EXPECT_THAT(
       RefusalOf(Run({"compare", "x.csv", "--shard", "0/1"}), kWrongCommandLine),
       HasSubstr("--config"));
   EXPECT_THAT(RefusalOf(Run({"merge", "data"}), kUnusable),
-              HasSubstr("is no store"));
+              HasSubstr("is not a store"));
   Write("bad.toml", "[[component]]\nname = \"{a}\"\ndata = \"{b}.csv\"\n");
   EXPECT_THAT(RefusalOf(Run({"compare", "--config", "bad.toml", "--out", "s"}),
                         kUnusable),
@@ -269,7 +269,7 @@ TEST_F(FleetQuery, NewerSchemasAndOtherFilesAreRefusedByName) {
   // A pipe would be waited for.
   ASSERT_EQ(mkfifo((scratch_ / "store/errmap.sqlite").c_str(), 0600), 0);
   EXPECT_THAT(RefusalOf(Run({"deploy", "store", "--all"}), kUnusable),
-              HasSubstr("store/errmap.sqlite: is no plain file"));
+              HasSubstr("store/errmap.sqlite: is not a plain file"));
 }
 
 // Bytes that a disk lost, in any page: named, and merged anew.

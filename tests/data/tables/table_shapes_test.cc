@@ -241,7 +241,7 @@ TEST(TableShape, MakesAColumnOfLinesThatPartTheRows) {
       EXPECT_EQ(table.CellText(table.At(column), row), of.cells[row / 4]);
     }
   }
-  // What is no session and no date, or comes once.
+  // What is not a session and no date, or comes once.
   for (const std::vector<std::string>& titles :
        std::vector<std::vector<std::string>>{
            {"# zero 1", "# zero 2"},

@@ -351,7 +351,7 @@ TEST(DependentTerms, ASumRoundedInStepsIsStillOne) {
             kSame);
 }
 
-// Powers about a far centre all but depend on each other; they are no copies,
+// Powers about a far centre all but depend on each other; they are not copies,
 // and R's rule in double would drop some of them.
 TEST(DependentTerms, WhatOnly106BitsTellApartIsKept) {
   MatrixXd inputs(80, 1);

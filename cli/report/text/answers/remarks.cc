@@ -34,7 +34,7 @@ using Remarks = std::vector<Remark>;
 using Tone = Remark::Tone;
 
 // What the share removed is of: no compensation, or the mean of a target that
-// is no error and far from 0.
+// is not an error and far from 0.
 std::string WithoutName(const Numbers& of) {
   const RecommendationRecord& advice = of.Advice();
   const double without = advice.rmse / (1.0 - advice.removed_share);
@@ -149,7 +149,7 @@ Remarks Interrupted(const Numbers& of) {
   return {{"interrupted", "the fits are incomplete", Tone::kBad}};
 }
 
-// What is left is no noise where it shifts whole cycles, or repeats along the
+// What is left is not noise where it shifts whole cycles, or repeats along the
 // position.
 Remarks WhatIsLeft(const Numbers& of) {
   constexpr double kWorthSaying = 0.25;  // of the squared residuals

@@ -391,8 +391,9 @@ TEST_F(CliExportTables, RefusesWhatIsNoTable) {
   Json angle = Json::parse(Read("up.json"));
   angle["target"] = {{"name", "error_urad"}, {"unit", "urad"}};
   WriteMapFile("angle.json", angle);
-  EXPECT_THAT(RefusalOf(Linuxcnc({"angle.json"}), kUnusable),
-              HasSubstr("'error_urad' is no length that can be written in mm"));
+  EXPECT_THAT(
+      RefusalOf(Linuxcnc({"angle.json"}), kUnusable),
+      HasSubstr("'error_urad' is not a length that can be written in mm"));
 }
 
 }  // namespace
