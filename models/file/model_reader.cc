@@ -482,12 +482,12 @@ FittedModel ModelFromJson(const std::string& text, const std::string& source) {
             ? source +
                   ": is not a map, which is JSON that errmap wrote; a map is "
                   "named first, its data after it"
-            : fmt::format(
-                  "{}: is not a complete map: its JSON breaks at byte {} of "
-                  "{}; take another copy, or errmap fit again",
-                  source,
-                  std::min(error.byte, text.size()),
-                  text.size()));
+            : fmt::format("{}: is not a complete map: its JSON is invalid at "
+                          "byte {} of "
+                          "{}; use another copy, or run errmap fit again",
+                          source,
+                          std::min(error.byte, text.size()),
+                          text.size()));
   } catch (const Json::out_of_range&) {
     throw data::InputError(source + ": has a number that is too large");
   }

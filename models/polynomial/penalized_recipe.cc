@@ -84,7 +84,7 @@ class PenalizedRecipe final : public PolynomialRecipe {
     if (options_.basis.chooses_basis()) {
       fitted.choices.push_back({"terms", std::string(ToString(best.terms))});
       fitted.remarks.push_back(
-          fmt::format("{} by cross-validation over {} of {} bases",
+          fmt::format("{}: chosen by cross-validation over {} from {} bases",
                       best.label,
                       over,
                       candidates.size()));

@@ -298,8 +298,8 @@ TEST(ModelFile, SaysWhereAFileBreaks) {
   EXPECT_THAT(
       reading("{\"schema\": 1"),
       ::testing::ThrowsMessage<data::InputError>(
-          "map.json: is not a complete map: its JSON breaks at byte 12 of "
-          "12; take another copy, or errmap fit again"));
+          "map.json: is not a complete map: its JSON is invalid at byte 12 of "
+          "12; use another copy, or run errmap fit again"));
   EXPECT_THAT(reading("{\"schema\": 1e999}"),
               ::testing::ThrowsMessage<data::InputError>(
                   "map.json: has a number that is too large"));

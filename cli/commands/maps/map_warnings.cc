@@ -87,16 +87,15 @@ Json LearntJson(const RowsLearnt& learnt) {
 
 std::string LearntText(const RowsLearnt& learnt) {
   if (learnt.file) {
-    return "The map was fitted to this file: what follows is not a promise for "
-           "new rows.\n";
+    return "The map was fitted to this file: these figures do not apply to new "
+           "rows.\n";
   }
-  return learnt.rows == 0
-             ? ""
-             : fmt::format(
-                   "{} of {} rows are ones that the map was trained on: what "
-                   "follows is not a promise for new ones.\n",
-                   learnt.rows,
-                   learnt.of);
+  return learnt.rows == 0 ? ""
+                          : fmt::format(
+                                "The map was fitted to {} of {} rows: these "
+                                "figures do not apply to new ones.\n",
+                                learnt.rows,
+                                learnt.of);
 }
 
 void SayRead(const data::TableForMap& read, bool quiet) {

@@ -269,7 +269,7 @@ void SayWhatIsPredicted(const Predicted& found) {
   const models::FittedModel& fitted = found.fitted;
   const std::string& unit = fitted.target.unit.symbol;
   const bool aligned = fitted.align == data::Alignment::kFirst;
-  Warn(fmt::format("{} predicted as {}{}{}; compensate by minus that",
+  Warn(fmt::format("{} predicted as {}{}{}; the compensation is minus that",
                    report::Count(found.NumWhole(), "row"),
                    fitted.target.name,
                    unit.empty() ? "" : " in " + unit,

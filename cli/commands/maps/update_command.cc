@@ -195,9 +195,8 @@ models::FittedModel FitSuccessor(const models::FittedModel& old_map,
 std::string KnownRowsText(Index learnt, Index rows) {
   return learnt == 0 ? ""
                      : fmt::format(
-                           "{} of {} are ones that the old map was fitted to, "
-                           "so it looks better here than it is: give new "
-                           "sessions alone\n",
+                           "the old map was fitted to {} of {}, so it looks "
+                           "better here than it is: give only new sessions\n",
                            learnt,
                            report::Count(rows, "row"));
 }

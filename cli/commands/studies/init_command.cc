@@ -65,7 +65,7 @@ int RunInit(const InitArguments& arguments) {
           PathFrom(arguments.out, arguments.data),
           "errmap compare --config THIS_FILE [--out DIR]"));
   PrintFitted(fmt::format(
-      "{}: {} component{}; look it over, then\nerrmap compare --config {}\n",
+      "{}: {} component{}; check it, then\nerrmap compare --config {}\n",
       data::PrintablePath(arguments.out),
       plan.components.size(),
       plan.components.size() == 1 ? "" : "s",

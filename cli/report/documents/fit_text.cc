@@ -198,7 +198,7 @@ std::string FitText(const models::FittedModel& fitted,
   }
   say(SensitivityLine(sensitivity, error));
   say(fmt::format(
-      "written to {}; it predicts {}, compensate by minus that",
+      "written to {}; it predicts {}; the compensation is minus that",
       options.out,
       fitted.target.unit.symbol.empty()
           ? fitted.target.name

@@ -220,7 +220,7 @@ TEST_F(CliOutputs, AReportOfAResultThatWasChangedByHandSaysSo) {
   results["provenance"].erase("content_sha256");
   Write("study/results.json", results.dump(1));
   EXPECT_THAT(Run({"report", "study", "--force"}).err,
-              HasSubstr("holds no hash"));
+              HasSubstr("has no hash"));
 }
 
 // It was written for a single study only, and not at all here, with status 0.

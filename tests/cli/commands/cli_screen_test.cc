@@ -509,7 +509,7 @@ TEST_F(Screens, TakeAGoalWithItsUnit) {
                         "more than the error itself; write 20um if that was "
                         "meant"));
   EXPECT_THAT(RefusalOf(compare("2 arcsec"), kUnusable),
-              HasSubstr("goal is 2 arcsec, and the target is in mm"));
+              HasSubstr("goal is 2 arcsec, but the target is in mm"));
   EXPECT_THAT(Run({"compare",
                    kDown,
                    "--models",

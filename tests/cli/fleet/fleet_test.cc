@@ -64,7 +64,7 @@ TEST_F(Fleet, InitProposesAStudyOfAFolder) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out,
               HasSubstr("8 files; left out, since they cannot be mapped: "
-                        "'notes', 'yaw_up';\nlook it over"));
+                        "'notes', 'yaw_up';\ncheck it"));
   EXPECT_THAT(
       Read("study.toml"),
       AllOf(HasSubstr("name = \"{machine}/{component}, {direction}\""),

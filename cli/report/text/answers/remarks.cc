@@ -182,7 +182,7 @@ Remarks WhatIsLeft(const Numbers& of) {
     remarks.push_back(
         {"what is left",
          fmt::format(
-             "{:.0f} % of it repeats along {}: a finer curve would follow",
+             "{:.0f} % of it repeats along {}: a finer curve would remove it",
              kPercent * found.by_position->explained,
              found.by_position->column)});
   }
@@ -221,11 +221,11 @@ Remarks RowsLearnt(const Numbers& of) {
   Remarks remarks;
   for (const HoldoutRecord& holdout : of.record.holdouts) {
     if (!holdout.rows_of_training) continue;
-    remarks.push_back(
-        {"ignore " + holdout.name,
-         fmt::format("{} of its rows were learnt; give a file of another day",
-                     *holdout.rows_of_training),
-         Tone::kBad});
+    remarks.push_back({"ignore " + holdout.name,
+                       fmt::format("{} of its rows were used for training; "
+                                   "give a file of another day",
+                                   *holdout.rows_of_training),
+                       Tone::kBad});
   }
   return remarks;
 }
@@ -271,7 +271,7 @@ Remarks HeldAgainstGoal(const Numbers& of) {
     case GoalStanding::kNotJudged:
       return {{"goal",
                found.n < models::kFewestRowsForGoal
-                   ? fmt::format("{}: not judged on {} rows; it takes {}",
+                   ? fmt::format("{}: not judged on {} rows; {} are needed",
                                  wanted,
                                  found.n,
                                  models::kFewestRowsForGoal)

@@ -61,7 +61,7 @@ TEST_F(When, AnswersWithoutAGoal) {
   const Outcome found = Run({"when", "map.json"});
   EXPECT_EQ(found.status, 0) << found.err;
   const std::string text = OneLine(found.out);
-  EXPECT_THAT(text, HasSubstr("A probe every 20 min leaves least, "));
+  EXPECT_THAT(text, HasSubstr("A probe every 20 min gives the lowest error, "));
   EXPECT_THAT(text, HasSubstr(" RMSE; no probe "));
   EXPECT_THAT(found.out, Not(EndsWith("\n\n")));
 }
@@ -77,7 +77,7 @@ TEST_F(When, SaysThatNoProbeHelpsWhereNoneDoes) {
   Write("noise.csv", text);
   Run({"fit", "noise.csv", "--model", "poly:position", "-o", "noise.json"});
   EXPECT_THAT(OneLine(Run({"when", "noise.json"}).out),
-              HasSubstr("No probe helps: without one the map errs least, "));
+              HasSubstr("No probe helps: without one the error is lowest, "));
 }
 
 TEST_F(When, SaysWhenTheNextProbeIsDue) {
