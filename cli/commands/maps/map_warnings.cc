@@ -44,7 +44,7 @@ models::FittedModel LoadMap(const std::string& file, bool quiet) {
 void RequireAges(const models::FittedModel& fitted, const std::string& model) {
   if (!models::KnowsAges(fitted)) {
     throw data::InputError(fmt::format(
-        "{}: holds no errors of unseen sessions with times; fit the map to two "
+        "{}: has no held-out errors with times; fit the map to two "
         "sessions or more and a column of times (without --no-interval)",
         data::PrintablePath(model)));
   }
@@ -162,8 +162,8 @@ bool SayNotFinite(const VectorXd& predicted,
   }
   if (count == 0) return false;
   Warn(
-      fmt::format("{}: {} of {} not finite, the first in data row {}; the map "
-                  "does not serve there",
+      fmt::format("{}: {} of {} not finite, the first in data row {}; do not "
+                  "use the map there",
                   data::PrintablePath(file),
                   count,
                   report::Count(predicted.size(), "prediction"),

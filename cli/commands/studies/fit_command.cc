@@ -161,8 +161,8 @@ void RefuseBothWays(const data::Reading& reading,
                     const data::DatasetSelection& selection) {
   if (data::DirectionsOf(reading, selection).empty()) return;
   throw UsageError(fmt::format(
-      "rows go both ways along {}, which err differently; fit each way by "
-      "itself with --direction up and --direction down, or both into a folder: "
+      "rows go both ways along {}, and the error depends on the direction; fit "
+      "each with --direction up and --direction down, or both into a folder: "
       "-o FOLDER/",
       data::QuotedName(
           reading.position.column.value_or(*reading.direction.column))));
@@ -287,7 +287,7 @@ int FitIntoFolder(const FitArguments& arguments,
       !data::DirectionsOf(reading, arguments.data.selection).empty();
   if (both_ways && arguments.format == "json") {
     throw UsageError(
-        "--format json tells of one map; name the way with --direction up or "
+        "--format json describes one map; choose it with --direction up or "
         "--direction down");
   }
   std::filesystem::create_directories(folder);

@@ -37,10 +37,10 @@ std::string PathFrom(const std::string& study_file, const std::string& data) {
 int RunInit(const InitArguments& arguments) {
   CheckOutputName("-o", arguments.out, {arguments.data});
   if (!arguments.force && std::filesystem::exists(arguments.out)) {
-    throw UsageError(fmt::format(
-        "{} is there already; write another with -o, or replace it with "
-        "--force",
-        data::PrintablePath(arguments.out)));
+    throw UsageError(
+        fmt::format("{} exists; write another with -o, or replace it with "
+                    "--force",
+                    data::PrintablePath(arguments.out)));
   }
   if (std::filesystem::is_directory(arguments.data)) {
     for (const Slice& slice : Slices()) {

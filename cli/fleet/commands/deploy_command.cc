@@ -230,7 +230,7 @@ int RunDeploy(const DeployArguments& arguments) {
     throw UsageError("name components, or --all for every one with a map");
   }
   if (!arguments.model.empty() && arguments.components.size() != 1) {
-    throw UsageError("--model is of one component: name that alone");
+    throw UsageError("--model is for one component: name only that");
   }
   const fleet::StorePaths paths{arguments.store};
   fleet::ReadFleet(paths);

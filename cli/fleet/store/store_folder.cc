@@ -122,7 +122,7 @@ models::StudyRecord ReadResultsOf(const StorePaths& paths,
   }
   if (summary && summary->ways) {
     throw data::InputError(
-        fmt::format("{} was measured both ways; its components are {}",
+        fmt::format("{} was measured in both directions; its components are {}",
                     data::QuotedName(component),
                     data::ListOfNames(*summary->ways)));
   }

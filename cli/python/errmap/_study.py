@@ -334,5 +334,5 @@ def compare(frame: Measurements = None, *,
     finally:
         bar.close()
     if found.interrupted:
-        warn(["warning: interrupted; what was finished is shown"])
+        warn(["warning: interrupted; finished results are shown"])
     return Study(found)

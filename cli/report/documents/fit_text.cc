@@ -55,7 +55,7 @@ std::string StartsText(const std::vector<models::StartResult>& starts,
                        const ErrorText& error) {
   if (starts.empty()) return "";
   std::string text = fmt::format(
-      "{} starts, * the one taken: lowest cost\n"
+      "{} starts, * chosen: lowest cost\n"
       "{:>22}  {:>12}  {:>10}  {:>14}  stop\n",
       starts.size(),
       "seed",

@@ -180,7 +180,7 @@ std::string WhatDiffers(const ReportView& view,
     if (sums.size() <= kFewestOthers || !(beyond > most)) continue;
     most = beyond;
     const models::FigureInputRecord& input = view.component->figures.inputs[j];
-    words = fmt::format(" There {} is {} in the mean, elsewhere {} to {}{}{}.",
+    words = fmt::format(" There {} is {} on average, elsewhere {} to {}{}{}.",
                         data::ReadHeader(input.name).base,
                         Plain(here),
                         Plain(low),

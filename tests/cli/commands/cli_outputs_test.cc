@@ -100,7 +100,7 @@ TEST_F(CliOutputs, FitsThatAreRefusedLeaveNoFolder) {
                              "--format",
                              "json"}),
                         kWrongCommandLine),
-              HasSubstr("tells of one map"));
+              HasSubstr("describes one map"));
   EXPECT_FALSE(Exists("maps"));
 }
 

@@ -419,7 +419,7 @@ TEST_F(CliPromise, CheckKnowsNothingWhereReadingsBetweenProbesAreMissing) {
 TEST_F(CliPromise, CheckSaysWhichProbesTheMapLearntFrom) {
   Write("known.csv", DaysInCliPromise(10, 11, 0.0, 0.0, 13));
   EXPECT_THAT(OneLine(Run({"check", "map.json", "known.csv"}).out),
-              HasSubstr("4 of 8 rows are ones that the map was trained on"));
+              HasSubstr("The map was fitted to 4 of 8 rows"));
   Write("new.csv", DaysInCliPromise(11, 11, 0.0, 0.0, 13));
   EXPECT_THAT(Run({"check", "map.json", "new.csv"}).out,
               Not(HasSubstr("trained on")));
@@ -476,7 +476,7 @@ TEST_F(CliPromise, CheckNeedsHeldOutErrors) {
   Write("probes.csv", DaysInCliPromise(11, 11, 0.0, 0.0, 13));
   EXPECT_THAT(RefusalOf(Run({"check", "bare.json", "probes.csv", "--quiet"}),
                         kUnusable),
-              HasSubstr("holds no errors of unseen days"));
+              HasSubstr("has no held-out errors to judge probes by"));
 }
 
 TEST_F(CliPromise, ProbesMoveLaterRowsAndNarrowTheInterval) {

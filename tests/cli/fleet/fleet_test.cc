@@ -256,7 +256,7 @@ TEST_F(FleetQuery, NewerSchemasAndOtherFilesAreRefusedByName) {
   for (const Outcome& outcome :
        {Run({"deploy", "store", "--all"}), Run({"merge", "store"})}) {
     EXPECT_THAT(RefusalOf(outcome, kUnusable),
-                AllOf(HasSubstr("store/errmap.sqlite is of schema 99"),
+                AllOf(HasSubstr("store/errmap.sqlite has schema 99"),
                       HasSubstr("use the newer errmap")));
   }
   EXPECT_EQ(Read("store/errmap.sqlite"), store);
@@ -299,7 +299,7 @@ TEST_F(FleetQuery, AFullDiskIsOneLineAndTheStoreStaysAsItWas) {
   const std::string before = Read("store/errmap.sqlite");
   EXPECT_THAT(RefusalOf(RunWithFilesUpTo(40000, {"merge", "store"}), kFailure),
               AllOf(HasSubstr("cannot write store/errmap.sqlite"),
-                    HasSubstr("it is as it was")));
+                    HasSubstr("it is unchanged")));
   EXPECT_EQ(Read("store/errmap.sqlite"), before);
   EXPECT_FALSE(Exists("store/errmap.sqlite.new"));
 }

@@ -280,7 +280,7 @@ TEST_F(MachineStudy, StatesIntervalsByTheToolOnSessionsHeldOut) {
   EXPECT_THAT(OneLine(screen.out),
               AllOf(HasSubstr("Stated 90 % intervals of the error at the tool"),
                     HasSubstr("by the errors at the tool on 1, 2, 3, 4, each "
-                              "session held out of the fits in its turn")));
+                              "session held out in turn")));
 }
 
 // The folder by an absolute path, which the record does not keep.
@@ -363,7 +363,7 @@ TEST_F(MachineStudy, RefusesWhatCannotBeJudged) {
   const std::vector<Case> cases = {
       {{"compare", "s/x_yaw.csv", "--later", "2"},
        kWrongCommandLine,
-       "--later goes with --machine"},
+       "--later needs --machine"},
       {{"compare", "--machine", "s/machine.toml"},
        kWrongCommandLine,
        "--machine needs the folder"},

@@ -125,7 +125,7 @@ TEST_F(VolumetricCommand, TheLatheOfTheReportCutsTheErrorOfAnotherDay) {
   EXPECT_THAT(outcome.err,
               AllOf(HasSubstr("tool minus work, in X, Z at most"),
                     HasSubstr("exact and first order differ by at most"),
-                    HasSubstr("Compensate by minus that")));
+                    HasSubstr("The compensation is minus that")));
   const std::vector<Record> points = Records(Read("out.csv"));
   const std::vector<Record> truth = Records(Process::TextOf(file));
   ASSERT_EQ(points.size(), truth.size());
@@ -257,7 +257,7 @@ TEST_F(VolumetricCommand, SaysWhatIsLeftAlongTheDiagonals) {
                     HasSubstr("measured: ppp "),
                     HasSubstr("; minus the maps: ppp "),
                     HasSubstr("measured there 1"),
-                    HasSubstr(" less what the maps say")));
+                    HasSubstr(" after subtracting the maps")));
   EXPECT_EQ(Records(Read("out.csv"))[9].at("diagonal"), "ppp");
   EXPECT_EQ(Records(Read("out.csv"))[9].at("diagonal_direction"), "reverse");
 }

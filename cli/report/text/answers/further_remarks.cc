@@ -330,8 +330,8 @@ Remarks OtherCuts(const Numbers& of) {
           "{} {:.0f} %", cuts.wins[i].model, kPercent * cuts.wins[i].share));
     }
     remarks.push_back(
-        {"other cuts",
-         fmt::format("of {} cuts of {} the lowest error went to {}",
+        {"other splits",
+         fmt::format("in {} splits of {} the lowest error went to {}",
                      cuts.repeats,
                      cuts.holdout,
                      data::JoinWords(shares, ", "))});

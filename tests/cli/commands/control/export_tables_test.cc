@@ -176,7 +176,7 @@ TEST_F(CliExportTables, KeepsTheInterpolationErrorThatItPrints) {
   for (int i = 0; i <= 500; ++i) {
     positions.push_back(-215.9 + i * (215.9 - 12.7) / 500.0);
   }
-  const std::string before = "it errs by up to ";
+  const std::string before = "it is off by up to ";
   const double printed =
       std::stod(outcome.err.substr(outcome.err.find(before) + before.size())) /
       kUmPerMm;
@@ -341,7 +341,7 @@ TEST_F(CliExportTables, WritesAGridThatReducesTheError) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(Read("up.csv"),
               ::testing::StartsWith("# compensation = -error in mm"));
-  EXPECT_THAT(outcome.err, HasSubstr("between its points it errs by up to"));
+  EXPECT_THAT(outcome.err, HasSubstr("between its points it is off by up to"));
   const data::CsvTable grid = data::ReadCsv(Path("up.csv"));
   ASSERT_EQ(grid.num_rows, 33);
   ASSERT_EQ(grid.columns.size(), 10);

@@ -172,8 +172,7 @@ TEST_F(When, RefusesMapsOfOneSession) {
   const Outcome found = Run({"when", "one.json"});
   EXPECT_EQ(found.status, kUnusable);
   EXPECT_THAT(found.err,
-              HasSubstr("one.json: holds no errors of unseen sessions with "
-                        "times"));
+              HasSubstr("one.json: has no held-out errors with times"));
 }
 
 }  // namespace
