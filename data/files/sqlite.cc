@@ -56,8 +56,8 @@ std::string Escaped(const std::string& path) {
 DamagedDatabase::DamagedDatabase(const std::string& file,
                                  const std::string& why)
     : InputError(PrintablePath(file) + " is damaged (" + why +
-                 "); errmap merge STORE rewrites it, and deployed maps "
-                 "stand in its folder maps") {}
+                 "); errmap merge STORE rewrites it, and deployed maps are in "
+                 "its folder maps") {}
 
 bool SqliteError::is_busy() const { return (code_ & kPrimary) == SQLITE_BUSY; }
 

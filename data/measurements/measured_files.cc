@@ -143,7 +143,7 @@ std::vector<std::string> TablesOf(const std::string& folder,
   if (tables.empty()) {
     if (fs::exists(fs::path(folder) / kResults, error)) {
       throw InputError(shown +
-                       ": holds a comparison's results, no measurements; "
+                       ": holds a comparison's results, not measurements; "
                        "errmap report " +
                        shown + " draws its report");
     }
@@ -203,9 +203,9 @@ MeasuredFiles FindFiles(const std::vector<std::string>& given) {
                          ArgumentName("config"));
       }
       if (IsOfComparison(path)) {
-        throw InputError(PrintablePath(path) +
-                         ": holds the residuals of a comparison's maps, no "
-                         "measurements");
+        throw InputError(
+            PrintablePath(path) +
+            ": holds the residuals of a comparison's maps, not measurements");
       }
       found.paths.push_back(path);
       continue;

@@ -73,7 +73,7 @@ class SessionFinder : private RowColumns {
     PassOver(false,
              QuotedName(TimeColumn().name) + " restarts with each " +
                  (in_files ? "file, so it tells no time"
-                           : "pass along the axis, so it tells no pauses") +
+                           : "pass along the axis, so it shows no pauses") +
                  " between them",
              "",
              &found_.remarks);
@@ -243,8 +243,8 @@ class SessionFinder : private RowColumns {
       any = any || (now >= before &&
                     now - before <= std::min(nights_.gap, kShortestNight));
     }
-    return any ? "changes at midnight during a run; sessions are "
-                 "parted by " +
+    return any ? "changes at midnight during a run; sessions are separated "
+                 "by " +
                      QuotedName(TimeColumn().name)
                : "";
   }
@@ -369,7 +369,7 @@ class SessionFinder : private RowColumns {
                        QuotedText(found_.sessions.labels[session]) +
                        "; sort its rows by time, name the sessions with " +
                        ArgumentName("session") +
-                       ", or go by the numbers of the rows with " +
+                       ", or use the row numbers with " +
                        ArgumentName("time", "none"));
     }
   }

@@ -174,8 +174,7 @@ class Parser {
         "columns of one name: the later " +
         std::string(num == 1 ? "is" : "are") + " read as " +
         JoinWords(named.again, ", ") + (num > kMostShown ? ", ..." : "") +
-        (IsSideBySide() ? "; of tables side by side put one below the other"
-                        : ""));
+        (IsSideBySide() ? "; put side-by-side tables below each other" : ""));
   }
 
   // A column without a name parts names that come again.
@@ -248,7 +247,7 @@ class Parser {
           ThrowAt(cells_.line(),
                   "the unit " + QuotedText(units[i]) + " of column " +
                       QuotedName(column.name) +
-                      " is another than in its name; correct one of them");
+                      " differs from that in its name; correct one of them");
         }
         column.name = std::move(*name);
       }
@@ -306,7 +305,7 @@ class Parser {
         FindCutLine(cells_.rest(), cells_.delimiter);
     if (!cut) return;
     cells_.LeaveOutEnd(cut->start);
-    table_.Remark("the last line breaks off in mid number (" +
+    table_.Remark("the last line ends in the middle of a number (" +
                   QuotedText(cut->number) +
                   ") and is left out; complete it, or end it with a line end");
   }
@@ -448,11 +447,10 @@ class Parser {
 
   [[noreturn]] void ThrowAnotherTable(std::size_t line,
                                       std::size_t found) const {
-    throw InputError(File() + ": line " + std::to_string(line) +
-                     ": another table begins here (" +
-                     CountText(found, "field") +
-                     "); keep one table in a file, and the others in files of "
-                     "their own");
+    throw InputError(
+        File() + ": line " + std::to_string(line) +
+        ": another table begins here (" + CountText(found, "field") +
+        "); keep one table in a file, and put the others in separate files");
   }
 
   void TakeOddRow(std::size_t line, std::size_t found) {

@@ -74,8 +74,8 @@ std::vector<RowChange> ReadRowChanges(
     const auto at = static_cast<std::size_t>(found - names.begin());
     if (found == names.end() || columns[at].name != *found) {
       name.Refuse(
-          "must be a column of the history, and the inputs must stand "
-          "in its order");
+          "must be a column of the history, and the inputs must be in its "
+          "order");
     }
     changes.push_back({*found,
                        ReadPositive(element.At("largest")),
@@ -456,15 +456,15 @@ std::optional<std::string> CheckSum(const Node& root,
                                     const std::string& source) {
   const auto sum = root.Find(kChecksumKey);
   if (!sum) {
-    return fmt::format("{} has no checksum: a changed number would go unseen",
-                       source);
+    return fmt::format(
+        "{} has no checksum: a changed number would go unnoticed", source);
   }
   if (HasChecksum(text, sum->Text())) return std::nullopt;
-  throw data::InputError(fmt::format(
-      "{}: was changed after errmap wrote it; take another copy, or "
-      "remove its key '{}' if that was meant",
-      source,
-      kChecksumKey));
+  throw data::InputError(
+      fmt::format("{}: was changed after errmap wrote it; use another copy, or "
+                  "remove its key '{}' if that was meant",
+                  source,
+                  kChecksumKey));
 }
 
 }  // namespace
@@ -480,8 +480,8 @@ FittedModel ModelFromJson(const std::string& text, const std::string& source) {
     throw data::InputError(
         text.find('{') != text.find_first_not_of(" \t\r\n")
             ? source +
-                  ": is not a map, which is JSON that errmap wrote; a map is "
-                  "named first, its data after it"
+                  ": is not a map (JSON written by errmap); name the map "
+                  "first, then its data"
             : fmt::format("{}: is not a complete map: its JSON is invalid at "
                           "byte {} of "
                           "{}; use another copy, or run errmap fit again",

@@ -153,7 +153,7 @@ std::string PenalizedContradiction(const PenalizedOptions& options) {
     return "rule= chooses the penalty, which penalty= fixes";
   }
   if (options.basis.chooses_basis()) {
-    return "penalty= is of one basis; name view= and terms= too";
+    return "penalty= needs one basis; name view= and terms= too";
   }
   return "";
 }
@@ -169,7 +169,7 @@ OptionList<PenalizedOptions> PenalizedList() {
   list.push_back(
       OptionFor<Options>(
           "rule",
-          "the penalty of least error, or the strongest near it",
+          "the penalty of lowest error, or the strongest near it",
           [](auto& options) { return &options.penalty.one_standard_error; },
           OneOf<bool>{{{"min", false}, {"1se", true}}})
           .When([](const Options& options) {

@@ -341,7 +341,7 @@ TEST(ModelFile, SaysWhatAFileWithoutChecksumLacks) {
   EXPECT_THAT(
       ModelFromJson(text, "old.json").remarks,
       ::testing::ElementsAre(
-          "old.json has no checksum: a changed number would go unseen"));
+          "old.json has no checksum: a changed number would go unnoticed"));
 }
 
 TEST(ModelFile, RefusesAKeyThatStandsTwiceInOneObject) {

@@ -30,7 +30,7 @@ std::optional<std::string> UnlikelySize(const ColumnInfo& target,
   if (size == 0.0 || (size >= kLeast && size <= kMost)) return std::nullopt;
   return NameInRemark(target.name) + " is " + Rounded(rms) + " " +
          target.unit.symbol + " RMS, " + (size > kMost ? "more" : "less") +
-         " than machine tools err by; if it is in another unit, write that "
+         " than errors of machine tools; if it is in another unit, write that "
          "into its name: error_um, 'error [mm]'";
 }
 
@@ -55,8 +55,8 @@ std::optional<std::string> LikelyFahrenheit(
     names.push_back(name);
   }
   if (names.empty()) return std::nullopt;
-  return ListOfNames(names) +
-         " read as in degF, but name no unit; if they are, write it: " +
+  return "readings of " + ListOfNames(names) +
+         " look like degF, but have no unit; if they are, write it: " +
          QuotedText(names.front() + " [degF]");
 }
 

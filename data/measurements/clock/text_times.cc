@@ -149,8 +149,8 @@ void RefuseUnreadTimes(const CsvTable& table) {
     if (!row) continue;
     throw InputError(table.Where(*row, column.name) + ": " +
                      QuotedText(table.CellText(column, *row)) +
-                     " is not a time; write it as 2024-03-01T12:00:05, or go "
-                     "without a clock, by " +
+                     " is not a time; write it as 2024-03-01T12:00:05, or use "
+                     "no clock, with " +
                      ArgumentName("time", "none"));
   }
 }

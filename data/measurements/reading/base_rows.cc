@@ -79,7 +79,7 @@ bool LeaveOutSavedTwice(TableInReading* in) {
   });
   in->read.table.Remark(
       std::to_string(again.size()) +
-      " rows stand twice, with their times; each is read once");
+      " rows occur twice, with their times; each is read once");
   return true;
 }
 

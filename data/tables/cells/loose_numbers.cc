@@ -194,7 +194,7 @@ std::vector<std::string> LooseNumbers::Remarks() const {
        " with a dash for the minus",
        " without marks between thousands",
        " without the remark after it",
-       " with the minus that stands behind, which changes the sign",
+       " with a minus after the number, which changes the sign",
        " with D for the exponent",
        " without the uncertainty behind them"});
   static_assert(kHow.size() == std::tuple_size_v<decltype(seen_)>);
@@ -297,7 +297,7 @@ void TakeUnitsOfCells(bool decimal_comma, CsvTable* table) {
       TakeNumbers(*cells, &column);
       table->Remark("the cells of " + QuotedName(column.name) +
                     (cells->label.is_axis
-                         ? " are words of a program, read as positions "
+                         ? " are program words, read as positions "
                          : " begin with their name, ") +
                     label);
       if (column.name == unnamed ||

@@ -122,7 +122,7 @@ void PartByTitles(const std::vector<TitleLine>& lines,
     codes.resize(end, code);
   }
   table->Remark(std::to_string(blocks.size()) +
-                " lines that part the rows are read as a column " +
+                " lines that separate the rows are read as a column " +
                 QuotedName(name) + ": " + QuotedText(blocks[0].text) + ", " +
                 QuotedText(blocks[1].text) +
                 (blocks.size() > 2 ? ", ..." : ""));

@@ -242,7 +242,7 @@ class Workbook {
             text.data(),
             text.size(),
             pugi::parse_default | pugi::parse_ws_pcdata_single)) {
-      throw InputError("is damaged: its XML breaks off or is none");
+      throw InputError("is damaged: its XML is incomplete or invalid");
     }
     return document->document_element();
   }
@@ -371,8 +371,8 @@ std::string TextOfRows(const std::vector<SparseRow>& rows, std::size_t width) {
   if (width > 0 && with_cells > kMostCells / width) {
     throw InputError("has " + std::to_string(with_cells) + " rows and " +
                      std::to_string(width) +
-                     " columns, more than can be read; delete what stands far "
-                     "from the table, or save it as CSV");
+                     " columns, more than can be read; delete cells far from "
+                     "the table, or save it as CSV");
   }
   std::string text;
   for (const SparseRow& row : rows) {

@@ -107,10 +107,9 @@ KeptFits::KeptFits(const std::string& folder, Opening opening) try
 } catch (const data::SqliteError& error) {
   const std::string path = data::PrintablePath(PathIn(folder));
   if (error.is_busy()) {
-    throw std::runtime_error(
-        path +
-        ": another errmap is at work in this folder; wait for its end or "
-        "choose another folder");
+    throw std::runtime_error(path +
+                             ": another errmap is using this folder; wait "
+                             "until it ends or choose another folder");
   }
   throw std::system_error(
       error.system_error(), std::generic_category(), "cannot write " + path);

@@ -429,8 +429,7 @@ TEST_F(Screens, GuessWhatWasMeant) {
               HasSubstr("no option '-m'; see errmap compare --help"));
   EXPECT_THAT(
       RefusalOf(Run({"evaluate", kDown, "map.json"}), kUnusable),
-      HasSubstr("is not a map, which is JSON that errmap wrote; a map is "
-                "named first"));
+      HasSubstr("is not a map (JSON written by errmap); name the map first"));
   EXPECT_THAT(err({"help", "comprae"}), HasSubstr("did you mean 'compare'?"));
   EXPECT_THAT(err({"compare", kDown, "--modles", "mean"}),
               HasSubstr("no option '--modles'; did you mean '--models'?"));

@@ -223,9 +223,10 @@ TEST(Sessions, PassOverATimeWithoutOrder) {
 
 TEST(Sessions, PassOverATimeInWordsThatNobodyNamed) {
   const std::string text = "time,x\nmorning,1\nnoon,2\n";
-  EXPECT_THAT(Find(text).remarks,
-              Contains(HasSubstr("column 'time': 'morning' is not a time; the "
-                                 "column is passed over")));
+  EXPECT_THAT(
+      Find(text).remarks,
+      Contains(HasSubstr(
+          "column 'time': 'morning' is not a time; the column is skipped")));
   EXPECT_THAT([&] { Find(text, {.time = "time"}); },
               Refuses("'morning' is not a time; write seconds, or dates"));
 }

@@ -179,7 +179,7 @@ TEST(TableShape, ReadsOnBelowTheSameNamesAndBlankLines) {
   EXPECT_EQ(table.LineOfRow(2), 6U);
   EXPECT_THAT(table.remarks,
               ElementsAre(HasSubstr("blank lines between rows"),
-                          HasSubstr("names stand between the rows again")));
+                          HasSubstr("names are repeated between the rows")));
 }
 
 // ---- Lines that part the rows.
