@@ -157,7 +157,7 @@ class Map(RegressorMixin, BaseEstimator):
         errors = check_array(errors, dtype="float64", ensure_2d=False)
         check_consistent_length(errors, next(iter(columns.values())))
         if len(errors) < 2:
-            raise ValueError("a map needs two rows at least, found 1 sample")
+            raise ValueError("a map needs at least two rows, found 1 sample")
         read = {"session": self.session, "time": self.time, "seed": self.seed}
         if not hasattr(self, "feature_names_in_"):
             read.update(inputs=list(columns), keep_dead=True, session="none",
@@ -343,10 +343,10 @@ class SessionSplit:
             The session of each row, in the order of measurement.
         """
         if groups is None:
-            raise ValueError("SessionSplit: say by groups= which session each "
-                             "row is of")
+            raise ValueError("SessionSplit: give the session of each row as "
+                             "groups=")
         if self.gap and not self.forward:
-            raise ValueError("SessionSplit: gap goes with forward=True")
+            raise ValueError("SessionSplit: gap needs forward=True")
         codes: dict[Any, int] = {}
         labels = numpy.asarray(groups)
         try:
