@@ -158,7 +158,7 @@ bool NamesPosition(std::string_view name) {
 
 namespace {
 
-// By a word within the name; false where there is none. Of several units, and
+// By a word within the name; false if there is none. Of several units, and
 // of one with a number, nobody can tell which is meant.
 bool ReadUnitWithin(std::string_view name, Header* header) {
   const std::vector<UnitWord> words = UnitWords(name, false);

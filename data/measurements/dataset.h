@@ -96,7 +96,7 @@ class Dataset {
     Eigen::MatrixXd input_values;
     ColumnInfo target;
     Eigen::VectorXd target_values;   // (m)
-    Grouping groups;                 // column "" where there are none
+    Grouping groups;                 // column "" if there are none
     Eigen::VectorXd weights;         // (m) positive, or (0): all equal
     std::vector<Eigen::Index> rows;  // (m) data row in the file; empty: 0..m-1
     /// Value subtracted from the target.

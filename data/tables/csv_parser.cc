@@ -88,7 +88,7 @@ class Parser {
                      : "");
   }
 
-  // In the column that is being read, where there is one by that number.
+  // In the column that is being read, if there is one by that number.
   std::string PlaceOfCell(std::size_t line) const {
     const bool is_known = in_data_ && column_ < table_.columns.size();
     return Place(line) +

@@ -165,7 +165,7 @@ models::Missing MissingBeforeProbe(const models::MapRows& rows, Index probe) {
 }
 
 // Probes since the map's memory is full, where the log began inside the
-// session; all where there are none.
+// session; all if there are none.
 std::vector<Index> ProbesWithMemory(const models::MapRows& rows,
                                     const std::vector<Index>& probes) {
   std::vector<Index> kept;
@@ -177,7 +177,7 @@ std::vector<Index> ProbesWithMemory(const models::MapRows& rows,
   return kept.empty() ? probes : kept;
 }
 
-// Those at positions that the map was fitted to; all where there are none.
+// Those at positions that the map was fitted to; all if there are none.
 std::vector<Index> ProbesWithinTravel(const std::vector<models::RowFlag>& flags,
                                       const std::vector<Index>& probes,
                                       bool quiet) {

@@ -137,7 +137,7 @@ TimedFit FitTimed(const models::ModelRecipe& recipe,
   return fit;
 }
 
-// Why there is no map to write; nothing where there is one.
+// Why there is no map to write; nothing if there is one.
 std::optional<std::string> WhyFailed(const models::FittedModel& fitted,
                                      const VectorXd& predicted) {
   if (!predicted.allFinite()) return "a prediction is not finite";
@@ -254,7 +254,7 @@ bool NamesFolder(const std::string& out) {
 }
 
 // The ways along the axis, and what their maps are called: by the file of each
-// way where there is one, else by the first file and the way.
+// way if there is one, else by the first file and the way.
 std::vector<std::pair<std::string, std::string>> MapsOfWays(
     const DataArguments& arguments,
     const std::vector<std::string>& ways,

@@ -36,7 +36,7 @@ struct DeployArguments {
   std::string model;
 };
 
-// A packed file of a component, "" where there is none.
+// A packed file of a component, "" if there is none.
 std::string Unpacked(const fleet::StorePaths& paths,
                      const std::string& component,
                      const char* file) {

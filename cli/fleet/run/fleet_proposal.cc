@@ -33,7 +33,7 @@ constexpr auto kMotionWords = std::to_array<std::string_view>({
     // clang-format on
 });
 
-// "x_down" taken apart; no direction where there is none.
+// "x_down" taken apart; no direction if there is none.
 struct Stem {
   std::string component;
   std::string direction;

@@ -88,7 +88,7 @@ VectorXd Targets(const VectorXd& positions) {
   return targets;
 }
 
-// By the column of directions where there is one, else by the motion.
+// By the column of directions if there is one, else by the motion.
 std::vector<bool> DirectionsOf(const data::CsvTable& table,
                                const std::vector<Index>& rows,
                                const VectorXd& positions,

@@ -36,7 +36,7 @@ std::string List(const std::string& title,
   return html + "</ul>\n";
 }
 
-// "" where there is nothing to unfold.
+// "" if there is nothing to unfold.
 std::string Collapsed(const std::string& title,
                       const std::string& content,
                       const std::string& id = "") {

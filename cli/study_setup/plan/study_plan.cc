@@ -84,7 +84,7 @@ class TableReader {
   std::deque<data::CsvTable> joined_;
 };
 
-// Makes one component ready; remarks tell which where there are several.
+// Makes one component ready; remarks tell which if there are several.
 class ComponentPlanner {
  public:
   ComponentPlanner(const StudyConfig& study,

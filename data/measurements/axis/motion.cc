@@ -50,7 +50,7 @@ bool ComeAlike(const std::vector<Value>& distinct) {
 }
 
 // Where to part ascending values, so that the parts are far narrower than what
-// is between them; infinite where there is no such place.
+// is between them; infinite if there is no such place.
 double PartsAt(const std::vector<Value>& distinct, double far_below) {
   std::vector<double> gaps;
   for (std::size_t i = 1; i < distinct.size(); ++i) {

@@ -41,7 +41,7 @@ std::string_view MarkOf(std::string_view text) {
 }
 
 // The digits of "25 000" or "1.234.567", without their marks, off the front of
-// `text`; none where there are no groups.
+// `text`; none if there are no groups.
 std::string TakeGroups(std::string_view* text,
                        std::string_view* mark,
                        int* count) {

@@ -16,7 +16,7 @@
 namespace errmap::data {
 namespace {
 
-// "2024-07-14" of "day 1, 2024-07-14"; "" where there is none.
+// "2024-07-14" of "day 1, 2024-07-14"; "" if there is none.
 std::string DateTokenIn(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789";
   for (std::size_t at = text.find_first_of(kDigits); at != text.npos;) {

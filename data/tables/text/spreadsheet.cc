@@ -153,7 +153,7 @@ std::vector<pugi::xml_node> Children(pugi::xml_node parent,
   return found;
 }
 
-// "" where there is none.
+// "" if there is none.
 std::string Attribute(pugi::xml_node node, std::string_view name) {
   return node
       .find_attribute([&](pugi::xml_attribute attribute) {

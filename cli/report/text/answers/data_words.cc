@@ -9,7 +9,7 @@
 namespace errmap::report {
 namespace {
 
-// `group` and `session`: the columns that tell, "" where there is none.
+// `group` and `session`: the columns that tell, "" if there is none.
 std::string Units(long long groups,
                   std::string_view group,
                   long long sessions,
