@@ -173,7 +173,7 @@ TEST_F(Cli, SaysWhereHoldOutsOfUnseenCyclesDisagree) {
                                   "--quiet"});
   EXPECT_EQ(component["recommendation"]["model"], "poly:full:degree=3");
   EXPECT_THAT(component["recommendation"]["caveats"].dump(),
-              HasSubstr("Disagreement: poly:position errs less under "
+              HasSubstr("Disagreement: poly:position has a lower error under "
                         "forward:5: "));
 }
 

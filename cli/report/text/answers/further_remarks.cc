@@ -269,7 +269,7 @@ Remarks Disagreement(const Numbers& of) {
         ResultOf(of.Model(advice.model), verdict.holdout);
     if (result == nullptr || result->tier < 2) continue;
     parts.push_back(
-        fmt::format("{} errs less under {}: {}, not {}",
+        fmt::format("{} has a lower error under {}: {}, not {}",
                     verdict.model,
                     verdict.holdout,
                     of.error.WithUnit(of.Rmse(verdict.model, verdict.holdout)),

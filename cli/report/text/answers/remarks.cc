@@ -93,7 +93,7 @@ Remarks Rival(const Numbers& of) {
                : fmt::format("{}, {}{}; {}",
                              rmse,
                              *rival,
-                             errs_less ? ", which errs less" : "",
+                             errs_less ? ", which has a lower error" : "",
                              of.Certainty(*rival))}};
 }
 
@@ -233,7 +233,7 @@ Remarks RowsLearnt(const Numbers& of) {
 Remarks BetterWithoutMap(const Numbers& of) {
   const auto& better = of.Advice().better_without_map;
   if (!better) return {};
-  return {{"errs less",
+  return {{"lower error",
            fmt::format("{}, {}: predictions without a map to use",
                        of.RmseWithUnit(*better),
                        *better)}};
