@@ -211,8 +211,8 @@ class Map(RegressorMixin, BaseEstimator):
         study = compare(columns, models=[m for m, _ in costs if m in kept],
                         progress=slow, **read)
         if len(study.components) > 1:
-            raise ValueError("rows go both ways along the axis, which err "
-                             "differently; fit a map to the rows of each way")
+            raise ValueError("rows go both ways along the axis, and the error "
+                             "depends on the direction; fit a map to each")
         if study.recommendation is None:
             warn(["warning: too few rows to recommend a map: this is the blend, "
                   "and its error is not known"])

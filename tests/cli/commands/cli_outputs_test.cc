@@ -238,7 +238,7 @@ TEST_F(CliOutputs, OnePageOfManyComponentsIsRefused) {
                              "-o",
                              "page.html"}),
                         kWrongCommandLine),
-              HasSubstr("-o writes the page of one study"));
+              HasSubstr("-o writes the page of one component"));
 }
 
 TEST_F(CliOutputs, MoreJobsThanCoresAreTakenWithoutAWord) {

@@ -384,8 +384,7 @@ TEST_F(Screens, WriteThePageAlone) {
   EXPECT_THAT(outcome.out, ContainsRegex("the page +page.html\n"));
   EXPECT_THAT(Read("page.html"), HasSubstr("</html>"));
   EXPECT_THAT(Run({"compare", kDown, "-o", "study"}).err,
-              HasSubstr("study.html; a folder with it, all maps and figures: "
-                        "--out study"));
+              HasSubstr("study.html; --out study writes a folder"));
   EXPECT_EQ(Run(With({"compare", kDown, "-o", kDown}, kQuick)).status,
             kWrongCommandLine);
 }

@@ -108,7 +108,7 @@ TEST_F(When, EndsWithAnErrorWhereNothingCanBeSaid) {
   }
   const Outcome no_goal = Run({"when", "map.json", "--after", "empty.csv"});
   EXPECT_EQ(no_goal.status, kWrongCommandLine) << no_goal.out;
-  EXPECT_THAT(no_goal.err, HasSubstr("needs a goal: --goal 2um"));
+  EXPECT_THAT(no_goal.err, HasSubstr("needs a goal to say"));
   const Outcome never = Run({"when", "map.json", "--goal", "1nm"});
   EXPECT_EQ(never.status, kEveryFitFailed);
   EXPECT_THAT(never.out, HasSubstr("No interval keeps 90 %"));
