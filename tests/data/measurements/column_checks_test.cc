@@ -201,7 +201,7 @@ TEST(ColumnChecks, TakesInputsInUnitsThatItDoesNotKnow) {
   EXPECT_EQ(prepared.dataset.num_inputs(), 2);
   EXPECT_THAT(prepared.remarks,
               Contains("no unit is read from 'a (left)', 'b [brix]': 'left' is "
-                       "no unit known here"));
+                       "not a unit known here"));
 }
 
 TEST(ColumnChecks, TakesTargetsInUnitsOfTheirOwn) {

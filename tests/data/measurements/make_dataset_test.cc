@@ -108,7 +108,8 @@ TEST(MakeDataset, RemarksOnThermometersWithoutAUnitThatReadAsInDegF) {
       ElementsAre(
           "readings of 'T1' look like degF, but have no unit; if they are, "
           "write it: 'T1 [degF]'"));
-  EXPECT_THAT(remarks("Spindle temp", 70.0), ElementsAre(HasSubstr("in degF")));
+  EXPECT_THAT(remarks("Spindle temp", 70.0),
+              ElementsAre(HasSubstr("like degF")));
   EXPECT_THAT(remarks("T1", 20.0), IsEmpty());
   EXPECT_THAT(remarks("T1", 140.0), IsEmpty());
   EXPECT_THAT(remarks("T1 [degC]", 68.0), IsEmpty());
