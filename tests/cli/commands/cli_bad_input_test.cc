@@ -241,7 +241,7 @@ TEST_F(CliBadInput, DropRowsNeverDropsWhatMayBeANumber) {
   EXPECT_THAT(Refusal(kHeader + "1,20,0.1\n2,,0.3\n3,2o,0.2\n" + kRows,
                       {"--missing", "drop-rows"}),
               HasSubstr("f.csv: line 4 (data row 2), column 't1_degC': '2o' is "
-                        "no number"));
+                        "not a number"));
 }
 
 TEST_F(CliBadInput, DropRowsThatLeavesNothing) {

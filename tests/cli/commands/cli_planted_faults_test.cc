@@ -430,7 +430,7 @@ TEST_F(CliPlantedFaults, PredictionsThatAreNotFiniteAreCountedAndFail) {
   const Outcome large = Run({"evaluate", "m.json", "other.csv", "--quiet"});
   EXPECT_EQ(large.out, "");
   EXPECT_THAT(RefusalOf(large, kEveryFitFailed),
-              HasSubstr("too much to be squared"));
+              HasSubstr("too large to be squared"));
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ TEST_F(CliResiduals, OneScreenSaysWhatTheReportSawAndWhatIsThere) {
   EXPECT_EQ(outcome.status, 0);
   EXPECT_THAT(OneLine(outcome.out),
               AllOf(HasSubstr("So it calls them not normal"),
-                    HasSubstr("K-S D 0.0915 for 0.0380"),
+                    HasSubstr("K-S D 0.0915, not 0.0380"),
                     HasSubstr("the wrong divisors changed the verdict"),
                     HasSubstr("The shape is close to normal"),
                     HasSubstr("They are not independent"),

@@ -398,7 +398,7 @@ TEST_F(MachineStudy, RefusesWhatCannotBeJudged) {
       {{"compare", "--machine", "bare.toml", "askew"},
        kUnusable,
        "askew/diagonals.csv: line 2 (data row 0), column 'diagonal': 'up' is "
-       "no diagonal"}};
+       "not a diagonal"}};
   for (const Case& c : cases) {
     SCOPED_TRACE(::testing::PrintToString(c.words));
     EXPECT_THAT(RefusalOf(Run(c.words), c.status), HasSubstr(c.says));

@@ -111,7 +111,7 @@ std::string WhatIsWrong(const ColumnFault& fault,
     case FaultKind::kDrifting:
       return fmt::format(
           "drifts from the other thermometers by {:+.2g}{} from first to last "
-          "row, with a scatter of {:.2g} about that line{}",
+          "row (scatter {:.2g}){}",
           fault.value,
           symbol,
           fault.high,

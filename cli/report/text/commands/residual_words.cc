@@ -105,8 +105,7 @@ std::string Report1995Sentence(const stats::Normality& normality,
   const bool said_normal = printed.ks_probability > kHint;
   const bool is_normal = normality.lilliefors.p > kHint;
   const std::string figures = fmt::format(
-      "sd {:.3f} and mean {:.3f} of the true ones, K-S D {:.4f} instead of "
-      "{:.4f}, p "
+      "sd {:.3f} and mean {:.3f} of the true ones, K-S D {:.4f}, not {:.4f}, p "
       "{:.2g}",
       printed.sd / summary.sd,
       summary.mean == 0.0 ? 1.0 : printed.mean / summary.mean,

@@ -139,7 +139,7 @@ TEST_F(When, DoesNotCallEnoughWhatUnequalDaysDoNotPromise) {
       {"when", "unequal.json", "--goal", fmt::format("{}mm", 1.001 * shown)});
   EXPECT_THAT(OneLine(narrow.out),
               AllOf(HasSubstr("No probe is needed"),
-                    HasSubstr("But 5 days promise only")));
+                    HasSubstr("But after 5 days the map promises only")));
   EXPECT_THAT(Run({"when", "unequal.json", "--goal", "20"}).err,
               HasSubstr("goal 20 is in mm, the unit of error_mm: 20000 um"));
   EXPECT_EQ(Run({"when", "unequal.json", "--goal", "0.02"}).err, "");
