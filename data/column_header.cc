@@ -108,9 +108,9 @@ std::vector<UnitWord> UnitWords(std::string_view name, bool counted) {
   return words;
 }
 
-// A bare last word that is no unit, yet may be meant as one: one that counts in
-// brackets only and could be the unit of such a column, one of another system,
-// or no word at all ("kg·m²").
+// A bare last word that is not a unit, yet may be meant as one: one that counts
+// in brackets only and could be the unit of such a column, one of another
+// system, or no word at all ("kg·m²").
 bool MayMeanUnit(std::string_view word, const Unit& assumed) {
   if (IsOneOf(word, kForeignUnits)) return true;
   const std::optional<Unit> unit = FindUnit(word, UnitPlace::kBracketed);
@@ -158,7 +158,7 @@ bool NamesPosition(std::string_view name) {
 
 namespace {
 
-// By a word within the name; false where there is none. Of several units, and
+// By a word within the name; false if there is none. Of several units, and
 // of one with a number, nobody can tell which is meant.
 bool ReadUnitWithin(std::string_view name, Header* header) {
   const std::vector<UnitWord> words = UnitWords(name, false);
@@ -250,7 +250,7 @@ Header ReadHeader(std::string_view name) {
     // Braces and angle brackets hold other things, too.
     const bool is_for_units = name[open] == '[' || name[open] == '(';
     if (const auto unit = ReadUnit(header.unit_text, UnitPlace::kBracketed)) {
-      // A thermometer's degrees are no angle: "Temp. [°]".
+      // A thermometer's degrees are not an angle: "Temp. [°]".
       const Unit assumed = AssumedUnit(header.base);
       header.unit =
           unit->symbol == "deg" && assumed.quantity == Quantity::kTemperature

@@ -257,7 +257,7 @@ std::string NearestName(std::string_view name,
     const auto [shorter, longer] = std::minmax({name.size(), candidate.size()});
     if (longer > kMaxLength || longer - shorter > kMaxDistance) continue;
     const std::size_t distance = EditDistance(name, candidate);
-    // Half the letters must be right: "t1" is no slip for "ab".
+    // Half the letters must be right: "t1" is not a slip for "ab".
     if (distance <= kMaxDistance && 2 * distance < shorter + 1 &&
         distance < least) {
       least = distance;

@@ -154,7 +154,7 @@ bool AnyCaseServes(const KnownUnit& unit, UnitPlace place) {
 }
 
 // Known units by all that they are called, of several the first: a header is
-// read many times, and most names are no unit.
+// read many times, and most names are not units.
 using UnitsByName = std::map<std::string, const KnownUnit*, std::less<>>;
 
 UnitsByName NamedUnits(UnitPlace place, bool any_case) {

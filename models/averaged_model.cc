@@ -38,7 +38,7 @@ AveragedModel::AveragedModel(Index num_inputs,
       }
     }
     if (!(member.lowest <= member.highest)) {
-      refuse(member.name + " has bounds that are no range");
+      refuse(member.name + " has bounds that are not a range");
     }
     total += member.weight;
   }

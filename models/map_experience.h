@@ -58,9 +58,9 @@ struct SessionReadings {
   std::optional<SessionStarts> starts = {};
 };
 
-/// The training data of a map, beyond the range of each column: the ranges of
-/// derived inputs, and the joint distribution of thermal states (the inputs
-/// that are not positions).
+/// What a map knows of its training data besides the range of each column: the
+/// ranges of derived inputs, and the joint distribution of thermal states. A
+/// thermal state is all inputs that are not positions.
 ///
 /// A factor model describes the states (Tipping & Bishop 1999, but with one
 /// variance for each column). x' = (x - mean) / scale has covariance W W' +

@@ -55,10 +55,11 @@ ModelSpec ParseModelSpec(std::string_view text) {
       const std::string value = word.substr(equals + 1);
       spec.options.emplace_back(key, terms ? value : Unquote(value));
     } else if (!spec.options.empty() || word.empty()) {
-      RefuseSpec(text,
-                 fmt::format("'{}' is no option; options are KEY=VALUE, set "
-                             "off by colons",
-                             word));
+      RefuseSpec(
+          text,
+          fmt::format("'{}' is not an option; options are KEY=VALUE, set "
+                      "off by colons",
+                      word));
     } else {
       spec.type += (spec.type.empty() ? "" : ":") + word;
     }

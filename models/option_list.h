@@ -296,7 +296,7 @@ struct ListedModel {
   std::string (*contradiction)(const Options&) = nullptr;
   /// Adds options that a SPEC implies, if any.
   void (*complete)(ModelSpec*) = nullptr;
-  /// True if it is compared when no models are named.
+  /// True if `compare` includes this model when no models are named.
   bool is_compared = true;
 };
 

@@ -137,7 +137,7 @@ void ParseAs(std::string_view text,
              Tree* json) {
   data::RequireShallowJson(text);
   if (!json->Parse(text)) {
-    throw data::InputError(fmt::format("is no JSON; {}", remedy));
+    throw data::InputError(fmt::format("is not JSON; {}", remedy));
   }
   const RecordJson* found = Find(*json->root(), "schema");
   if (found != nullptr &&

@@ -57,11 +57,10 @@ int RunCertify(const CertifyArguments& arguments,
   }
   if (certification.passed()) return kDone;
   const auto missed = std::ssize(certification.missed);
-  Warn(
-      fmt::format("certify: {} missed, the first: {}; this installation is not "
-                  "to be trusted",
-                  report::Count(missed, "floor"),
-                  certification.missed.front()));
+  Warn(fmt::format(
+      "certify: {} missed, the first: {}; do not trust this installation",
+      report::Count(missed, "floor"),
+      certification.missed.front()));
   return kEveryFitFailed;
 }
 

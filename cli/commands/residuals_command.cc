@@ -55,7 +55,7 @@ struct ResidualsArguments {
 // A numeric column.
 struct Column {
   std::string name;  // "": none
-  VectorXd values;   // of every data row; NaN where there is none
+  VectorXd values;   // of every data row; NaN if there is none
 };
 
 Column ReadColumn(const data::CsvTable& table,

@@ -314,15 +314,15 @@ class MachineFileReader {
         is_angle ? value
                  : data::Converted(value, length_, data::UnitOfSymbol("mm"));
     if (std::abs(size) <= (is_angle ? kMostRad : kMostMm)) return;
-    warnings_.push_back(
-        fmt::format("{}warning: {} = {} {} is no error of a machine tool; the "
-                    "file's {} are in {}",
-                    Place(file_, node.source()),
-                    name,
-                    NumberOf(node),
-                    is_angle ? angle_.symbol : length_.symbol,
-                    is_angle ? "angles" : "lengths",
-                    is_angle ? angle_.symbol : length_.symbol));
+    warnings_.push_back(fmt::format(
+        "{}warning: {} = {} {} is not an error of a machine tool; the "
+        "file's {} are in {}",
+        Place(file_, node.source()),
+        name,
+        NumberOf(node),
+        is_angle ? angle_.symbol : length_.symbol,
+        is_angle ? "angles" : "lengths",
+        is_angle ? angle_.symbol : length_.symbol));
   }
 
   std::shared_ptr<const models::FittedModel> LoadMap(const std::string& name,

@@ -69,7 +69,7 @@ struct Rest {
 
 // Readings of a component on the later sessions, less its map.
 struct Readings {
-  VectorXd positions;  // (n), or (0) where there are none
+  VectorXd positions;  // (n), or (0) if there are none
   VectorXd rest;       // (n)
 };
 

@@ -110,11 +110,12 @@ std::optional<DiagonalRuns> ReadDiagonalRuns(const data::CsvTable& table) {
   for (std::size_t row = 0; row < table.num_rows; ++row) {
     const std::string name = text(kName, row);
     if (!IsDiagonal(name)) {
-      throw data::InputError(fmt::format(
-          "{}: {} is no diagonal: give the signs of X, Y and Z along it by p, "
-          "n or 0, such as ppn or p0n",
-          table.Where(row, kName),
-          data::QuotedText(name)));
+      throw data::InputError(
+          fmt::format("{}: {} is not a diagonal: give the signs of X, Y and Z "
+                      "along it by p, "
+                      "n or 0, such as ppn or p0n",
+                      table.Where(row, kName),
+                      data::QuotedText(name)));
     }
     const std::string direction = text(kDirection, row);
     if (direction != "forward" && direction != "reverse") {

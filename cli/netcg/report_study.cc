@@ -84,7 +84,7 @@ VectorXd Numbers(const data::CsvTable& table, const std::string& name) {
   return data::NumericColumn(table, name);
 }
 
-// Rows of day 1; all where there is no column `day`.
+// Rows of day 1; all if there is no column `day`.
 std::vector<Index> FirstDay(const data::CsvTable& table) {
   std::vector<Index> rows;
   const bool has_days = table.Find("day") >= 0;

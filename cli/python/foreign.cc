@@ -23,7 +23,7 @@ auto InPython(const Call& call) {
     const std::string text = py::str(error.value());
     throw std::invalid_argument(type + ": " + text);
   } catch (const py::cast_error&) {
-    throw std::invalid_argument("its predictions are no array of float64");
+    throw std::invalid_argument("its predictions are not an array of float64");
   }
 }
 

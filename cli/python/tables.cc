@@ -104,7 +104,7 @@ void Table::AddNumbers(const std::string& name, const py::buffer& numbers) {
   auto info = std::make_shared<py::buffer_info>(numbers.request());
   if (!IsDoubles(*info)) {
     throw data::InputError(fmt::format(
-        "{}: column '{}' is no column of float64", table_->file, name));
+        "{}: column '{}' is not a column of float64", table_->file, name));
   }
   data::CsvColumn* const column =
       NewColumn(name, static_cast<std::size_t>(info->shape[0]));
@@ -128,7 +128,7 @@ void Table::AddCells(const std::string& name, const py::list& cells) {
     double value = std::numeric_limits<double>::quiet_NaN();
     std::string text;
     if (py::isinstance<py::str>(cell)) {
-      // Half a surrogate pair is no character.
+      // Half a surrogate pair is not a character.
       text = py::bytes(cell.attr("encode")("utf-8", "replace"));
       text = data::Trimmed(text);
     } else if (!cell.is_none()) {

@@ -27,7 +27,7 @@ void ReadHoldouts(ReportView* view) {
       LaterHoldoutOf(component, view->decisive);
   if (later != nullptr) view->later = later->name;
   if (component.gap) view->neighbours = component.gap->neighbours;
-  // The recommendation may follow the neighbours, where there are no groups.
+  // The recommendation may follow the neighbours, if there are no groups.
   if (view->neighbours == view->decisive) view->neighbours.clear();
   for (const std::string& name : view->holdouts) {
     if (!view->neighbours.empty()) break;

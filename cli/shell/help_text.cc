@@ -219,7 +219,7 @@ std::string ProgramHelp(const ProgramReference& program, std::size_t width) {
 }
 
 std::string FirstSteps() {
-  return "errmap tells which map of a machine tool's error holds on another "
+  return "errmap finds which map of a machine tool's error holds on another "
          "day.\n\n"
          "  errmap compare DATA.csv             which map, how sure, what "
          "next\n"

@@ -54,7 +54,7 @@ GivenError ParseGivenError(std::string_view text, bool may_be_zero) {
 double InUnitOf(const data::Unit& target, const GivenError& given) {
   if (!given.is_given() || !given.has_unit()) return given.value;
   if (!data::AreConvertible(given.unit, target)) {
-    throw std::invalid_argument(fmt::format("is {}, and the target is {}",
+    throw std::invalid_argument(fmt::format("is {}, but the target is {}",
                                             given.Text(),
                                             target.symbol.empty()
                                                 ? std::string("without a unit")

@@ -202,7 +202,7 @@ void ForStudyOptions(Config& config, const Visit& visit) {
           .key = "choose",
           .help =
               "The map to recommend\nbest: the lowest error. auto: the blend, "
-              "unless a baseline errs less or days prove a single map better",
+              "unless a baseline is better or days prove a single map better",
           .seldom = true},
       config.choose,
       std::vector{models::Choose::kAuto,

@@ -8,9 +8,9 @@
 
 namespace errmap::turning_centre {
 
-/// Purpose of a stream of random numbers. Each purpose has its own stream, so
-/// that more sensor noise does not change the day programmes, and an added day
-/// does not change earlier days.
+/// Purpose of a stream of random numbers. Each purpose has its own stream. So
+/// more sensor noise does not change the day programmes, and an added day does
+/// not change earlier days.
 enum class Purpose : std::uint64_t {
   kProgramme = 1,
   kSensorErrors = 2,

@@ -12,7 +12,7 @@ bool IsLink(const std::string& path);
 bool IsInOwnFolder(const std::string& path);
 
 /// Throws std::system_error if there is a link at the path in another user's
-/// folder: it may be a trap for the file about to be written.
+/// folder. Such a link may be a trap for the file about to be written.
 void RequireOwnLink(const std::string& path);
 
 /// Removes a link at the path before a file is opened there (O_NOFOLLOW).

@@ -20,7 +20,7 @@ bool LacksMemory(sqlite3* database) {
   return code == SQLITE_NOMEM || code == SQLITE_IOERR_NOMEM;
 }
 
-// Want of memory is no fault of the file.
+// Want of memory is not a fault of the file.
 [[noreturn]] void Throw(sqlite3* database) {
   if (LacksMemory(database)) throw std::bad_alloc();
   const int code = sqlite3_errcode(database) & kPrimary;
@@ -56,8 +56,8 @@ std::string Escaped(const std::string& path) {
 DamagedDatabase::DamagedDatabase(const std::string& file,
                                  const std::string& why)
     : InputError(PrintablePath(file) + " is damaged (" + why +
-                 "); errmap merge STORE rewrites it, and deployed maps "
-                 "stand in its folder maps") {}
+                 "); errmap merge STORE rewrites it, and deployed maps are in "
+                 "its folder maps") {}
 
 bool SqliteError::is_busy() const { return (code_ & kPrimary) == SQLITE_BUSY; }
 

@@ -22,7 +22,7 @@ bool ParseReal(std::string_view token, double* value) {
   return ParseNumber(text, value);
 }
 
-// Takes "3*" off a token; 1 where there is none, 0 where it is no count.
+// Takes "3*" off a token; 1 if there is none, 0 if it is not a count.
 std::size_t TakeRepeat(std::string_view* token) {
   const std::size_t star = token->find('*');
   if (star == std::string_view::npos) return 1;

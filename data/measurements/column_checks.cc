@@ -38,7 +38,7 @@ bool HasDecimalComma(std::string_view text) {
   return with_point != text && ParseNumber(with_point, &value);
 }
 
-// A word that no list has ("No Signal", "****") is no reading all the same.
+// A word that no list has ("No Signal", "****") is not a reading all the same.
 bool HasNoDigit(std::string_view text) {
   return !HasDigit(text) && !IsInfinity(text);
 }
@@ -59,30 +59,30 @@ bool IsNumberForPeople(std::string_view text) {
   return rest.empty() || IsUnit(rest);
 }
 
-// What is wrong with a cell that is no finite number, and how to mend it.
+// What is wrong with a cell that is not a finite number, and how to mend it.
 std::string Complaint(std::string_view text) {
   if (text.empty()) return "empty cell; fill it in";
   const std::string quoted = QuotedText(text);
   if (IsMissingNumber(text)) return quoted + " is a missing value; fill it in";
   if (IsInfinity(text)) return quoted + " is not finite; correct it";
-  if (HasNoDigit(text)) return quoted + " is no number; fill it in";
+  if (HasNoDigit(text)) return quoted + " is not a number; fill it in";
   if (IsOutOfRange(text)) {
     return quoted + " is beyond the range of a double; correct it";
   }
   if (HasDecimalComma(text)) {
     return quoted +
-           " is no number here; write a decimal point, or separate the "
+           " is not a number here; write a decimal point, or separate the "
            "columns with ; or tab";
   }
   if (IsNumberForPeople(text)) {
     return quoted +
-           " is no plain number; write it without its unit and without "
+           " is not a plain number; write it without its unit and without "
            "thousands separators";
   }
-  return quoted + " is no number; correct it";
+  return quoted + " is not a number; correct it";
 }
 
-// A cell of a column in use that is no finite number.
+// A cell of a column in use that is not a finite number.
 struct BadCell {
   std::size_t row;
   const CsvColumn* column;
@@ -260,7 +260,7 @@ std::string WhyNoUnit(const Header& header) {
   return QuotedText(header.unit_text) +
          (IsUnit(header.unit_text)
               ? " counts as a unit in brackets or parentheses only"
-              : " is no unit known here");
+              : " is not a unit known here");
 }
 
 void RequireKnownUnit(const CsvTable& table, const ColumnInUse& column) {

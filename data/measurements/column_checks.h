@@ -45,7 +45,7 @@ std::string WhyNoUnit(const Header& header);
 void RequireKnownUnit(const CsvTable& table, const ColumnInUse& column);
 
 /// Throws InputError if a column of numbers holds none. A column is meant to
-/// have numbers if its name means a position, or if every text in it is a
+/// have numbers if its name means a position. So is one whose every text is a
 /// number with a unit or thousands separators ("12.7 mm", "1.234,5").
 void RefuseNumbersAsText(const CsvTable& table, const CsvColumn& column);
 

@@ -179,8 +179,9 @@ class RoleChooser {
     throw OpenQuestion(
         PrintablePath(table_.file),
         {.topic = "target",
-         .question = why + "is " + QuotedName(name) +
-                     " the error, or the correction that is added against it?",
+         .question =
+             why + "is " + QuotedName(name) +
+             " the error, or the correction that is added to compensate it?",
          .answers = {{.option = ArgumentName("target", "-" + name),
                       .means = "a correction: the error is its negative"},
                      {.option = ArgumentName("target", name),

@@ -14,7 +14,7 @@ std::size_t At(const std::vector<Index>& rows, std::size_t i) {
 }
 
 // Whether a row and the one before it differ in what may be called a session
-// and is no cycle.
+// and is not a cycle.
 bool OtherLabelChanges(const CsvTable& table,
                        const std::vector<Index>& rows,
                        std::size_t i) {

@@ -96,7 +96,7 @@ class Dataset {
     Eigen::MatrixXd input_values;
     ColumnInfo target;
     Eigen::VectorXd target_values;   // (m)
-    Grouping groups;                 // column "" where there are none
+    Grouping groups;                 // column "" if there are none
     Eigen::VectorXd weights;         // (m) positive, or (0): all equal
     std::vector<Eigen::Index> rows;  // (m) data row in the file; empty: 0..m-1
     /// Value subtracted from the target.
@@ -252,18 +252,19 @@ struct PreparedDataset {
 ///
 /// Default inputs are the numeric columns other than target, group, weight,
 /// time and session. Columns for record keeping (KeepsRecord), or with the name
-/// of a machine or tool, are no inputs. Other measured errors are left out with
-/// a remark unless named in `inputs`. These are columns of the target's stem
-/// (StemOfColumn), columns of its unit whose name differs only in the letter of
-/// an axis, and columns named as errors. So are columns in nm, um, uin, arcsec
-/// or urad, except positions and axes of one letter. Dead inputs are dropped
-/// with a remark unless `keep_dead`: one value in all rows, or an unnamed
-/// thermometer stuck from a row on. So are inputs that together determine the
-/// target (FindLeaks). An input that repeats another, or has one value in
-/// nearly all rows, is kept with a remark. Columns of `where`, and those
-/// without a name in the header, are no inputs either. The log holds the rows
-/// that `where` selects. kFirst subtracts from the target the first value kept
-/// of each session, with a remark. Faulty readings are returned in `faults`.
+/// of a machine or tool, are not inputs. Other measured errors are left out
+/// with a remark unless named in `inputs`. These are columns of the target's
+/// stem (StemOfColumn), columns of its unit whose name differs only in the
+/// letter of an axis, and columns named as errors. So are columns in nm, um,
+/// uin, arcsec or urad, except positions and axes of one letter. Dead inputs
+/// are dropped with a remark unless `keep_dead`: one value in all rows, or an
+/// unnamed thermometer stuck from a row on. So are inputs that together
+/// determine the target (FindLeaks). An input that repeats another, or has one
+/// value in nearly all rows, is kept with a remark. Columns of `where`, and
+/// those without a name in the header, are not inputs either. The log holds the
+/// rows that `where` selects. kFirst subtracts from the target the first value
+/// kept of each session, with a remark. Faulty readings are returned in
+/// `faults`.
 ///
 /// Throws InputError naming file, row, column and remedy. Causes:
 /// - an unknown column, or no or several candidates for the target

@@ -49,7 +49,7 @@ bool DifferInAxis(std::string_view a, std::string_view b) {
   return differing == 1;
 }
 
-// Of those that are no NaN.
+// Of those that are not NaN.
 double RangeOf(const ColumnValues& values) {
   double least = INFINITY;
   double most = -INFINITY;
@@ -69,7 +69,7 @@ class MeasuredBeside {
         header_(ReadHeader(target.name)),
         range_(RangeOf(target.values)) {}
 
-  // Why a column is no default input; "" where it may be one.
+  // Why a column is not a default input; "" where it may be one.
   std::string_view Why(const CsvColumn& column) const {
     const std::string& name = column.name;
     // "column_3" says nothing: the table has no line of names.
@@ -199,9 +199,9 @@ class InputChooser {
   }
 
   // Why a column in a unit of time, or of hours by its name
-  // ("Betriebsstunden"), is no sensor. Another clock goes mostly not back: rows
-  // may be many in its step, and it may begin anew with each pass. "Giri/min"
-  // is a rate.
+  // ("Betriebsstunden"), is not a sensor. Another clock goes mostly not back:
+  // rows may be many in its step, and it may begin anew with each pass.
+  // "Giri/min" is a rate.
   static std::string_view WhatItTimes(const CsvColumn& column) {
     if (UnitOfColumn(column.name).quantity != Quantity::kTime &&
         StatedUnit(column.name) != FindTimeUnit("h")) {
@@ -243,8 +243,8 @@ class InputChooser {
     }
   }
 
-  // Why a column of numbers is no default input, kept for what is said of all
-  // such; "" where it is one.
+  // Why a column of numbers is not a default input, kept for what is said of
+  // all such; "" where it is one.
   std::string_view WhyNone(std::size_t i, const MeasuredBeside& measured) {
     const CsvColumn& column = table_.At(i);
     const bool is_axis = column.name == selection_.position;

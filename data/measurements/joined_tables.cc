@@ -111,7 +111,8 @@ class Joiner {
       return column.name == kFileColumn;
     });
     Note(PrintablePath(table->file) + ": the column " +
-         QuotedName(kFileColumn) + " is left out, since so the files are told");
+         QuotedName(kFileColumn) +
+         " is left out, since it distinguishes the files");
   }
 
   // Gives the column of `table` that is called `name` in other letters or in
@@ -266,7 +267,7 @@ class Joiner {
     const std::set<std::string> distinct(labels.begin(), labels.end());
     if (of_one && distinct.size() > 1 && distinct.size() < labels.size()) {
       Note("the files are read as " + std::to_string(distinct.size()) +
-           " sessions, by what their names are besides the last number: " +
+           " sessions, by their names without the last number: " +
            ListOfNames({distinct.begin(), distinct.end()}));
       return labels;
     }

@@ -22,7 +22,7 @@ struct LogPart {
 
 /// Returns the columns of a log other than its times, as one part with all
 /// rows. A log with a row for each channel and time (time, channel, value)
-/// gives a part for each channel, with the channel's name and the unit of the
+/// gives one part per channel. Each has the channel's name and the unit of its
 /// values. Times, dates and running numbers are not returned. `time` (rows of
 /// the log); `known`: false if it is missing; `clock`: the columns from which
 /// it was read.

@@ -143,7 +143,7 @@ std::vector<std::string> TablesOf(const std::string& folder,
   if (tables.empty()) {
     if (fs::exists(fs::path(folder) / kResults, error)) {
       throw InputError(shown +
-                       ": holds a comparison's results, no measurements; "
+                       ": holds a comparison's results, not measurements; "
                        "errmap report " +
                        shown + " draws its report");
     }
@@ -163,7 +163,7 @@ std::vector<std::string> TablesOf(const std::string& folder,
   }
   if (!others.empty()) {
     std::ranges::sort(others);
-    remarks->push_back(shown + ": left out, since they are no measurements: " +
+    remarks->push_back(shown + ": left out, since they are not measurements: " +
                        ListOfNames(others));
   }
   return tables;
@@ -198,14 +198,14 @@ MeasuredFiles FindFiles(const std::vector<std::string>& given) {
       }
       if (path.ends_with(".toml")) {
         throw InputError(PrintablePath(path) +
-                         ": is no table; errmap compare takes a study file "
+                         ": is not a table; errmap compare takes a study file "
                          "with " +
                          ArgumentName("config"));
       }
       if (IsOfComparison(path)) {
-        throw InputError(PrintablePath(path) +
-                         ": holds the residuals of a comparison's maps, no "
-                         "measurements");
+        throw InputError(
+            PrintablePath(path) +
+            ": holds the residuals of a comparison's maps, not measurements");
       }
       found.paths.push_back(path);
       continue;

@@ -71,7 +71,7 @@ double OffsetOf(const std::string& text) {
   const std::optional<double> seconds = ParseInterval(size);
   if (!seconds) {
     throw InputError(ArgumentName("clock_offset", text) +
-                     " is no interval; write \"3s\", \"-2min\" or \"1h\"");
+                     " is not an interval; write \"3s\", \"-2min\" or \"1h\"");
   }
   return is_negative ? -*seconds : *seconds;
 }

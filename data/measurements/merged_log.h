@@ -6,15 +6,15 @@
 namespace errmap::data {
 
 /// Adds the columns of a log that was recorded beside the measurements, with a
-/// remark. Each row takes the last reading before it, if that is no older than
-/// a step of the log, else the next one, if equally near. A row without either
-/// has an empty cell. `selection.clock_offset` is the lead of the log's clock,
-/// as ParseInterval reads it with a sign ("-3s"). Time zones are applied if
-/// both state them. Columns that the table already has are kept. The rows of
-/// both may be in any order. Dates and running numbers of the log are not
-/// added. A log with a row for each channel and time gives a column for each
-/// channel (PartsOfLog). Throws InputError if the table or the log has no
-/// times, only one has dates, no row has a reading, or the log has no new
+/// remark. Each row takes the last reading before it if that is no older than a
+/// step of the log. Otherwise it takes the next one if that is equally near. A
+/// row without either has an empty cell. `selection.clock_offset` is the lead
+/// of the log's clock, as ParseInterval reads it with a sign ("-3s"). Time
+/// zones are applied if both state them. Columns that the table already has are
+/// kept. The rows of both may be in any order. Dates and running numbers of the
+/// log are not added. A log with a row for each channel and time gives a column
+/// for each channel (PartsOfLog). Throws InputError if the table or the log has
+/// no times, only one has dates, no row has a reading, or the log has no new
 /// column. Throws OpenQuestion if only one of them states a time zone.
 void MergeLog(const CsvTable& log,
               const DatasetSelection& selection,

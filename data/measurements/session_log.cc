@@ -90,9 +90,10 @@ std::string AlignTarget(Dataset::Parts* parts) {
   for (std::size_t i = 0; i < parts->rows.size(); ++i) {
     parts->target_values[static_cast<Eigen::Index>(i)] -= first[session_of(i)];
   }
-  return "the first value of each session is taken off " +
+  return "the first value of each session is subtracted from " +
          QuotedName(parts->target.name) + " (" +
-         ArgumentName("align", "first") + "): the map tells the change since";
+         ArgumentName("align", "first") +
+         "): the map predicts the change since";
 }
 
 }  // namespace errmap::data

@@ -73,7 +73,7 @@ class SessionFinder : private RowColumns {
     PassOver(false,
              QuotedName(TimeColumn().name) + " restarts with each " +
                  (in_files ? "file, so it tells no time"
-                           : "pass along the axis, so it tells no pauses") +
+                           : "pass along the axis, so it shows no pauses") +
                  " between them",
              "",
              &found_.remarks);
@@ -223,7 +223,7 @@ class SessionFinder : private RowColumns {
     const bool is_surely = Says(column.name, Word::kDay) ||
                            EqualsIgnoringCase(column.name, "session");
     if (!is_surely && !passes_.empty() && IsPassOfEach(codes)) {
-      return "numbers passes along the axis, which are no sessions";
+      return "numbers passes along the axis, which are not sessions";
     }
     if (come_again_ &&
         (found_.dated || ColumnOfDates(table_, selection_) >= 0)) {
@@ -243,8 +243,8 @@ class SessionFinder : private RowColumns {
       any = any || (now >= before &&
                     now - before <= std::min(nights_.gap, kShortestNight));
     }
-    return any ? "changes at midnight during a run; sessions are "
-                 "parted by " +
+    return any ? "changes at midnight during a run; sessions are separated "
+                 "by " +
                      QuotedName(TimeColumn().name)
                : "";
   }
@@ -292,7 +292,7 @@ class SessionFinder : private RowColumns {
                "column " + QuotedName(column.name) + " has " +
                    std::to_string(sessions.labels.size()) + " values in " +
                    std::to_string(rows_known.size()) +
-                   " rows, which are no sessions",
+                   " rows, which are not sessions",
                "",
                &found_.remarks);
       return false;
@@ -369,7 +369,7 @@ class SessionFinder : private RowColumns {
                        QuotedText(found_.sessions.labels[session]) +
                        "; sort its rows by time, name the sessions with " +
                        ArgumentName("session") +
-                       ", or go by the numbers of the rows with " +
+                       ", or use the row numbers with " +
                        ArgumentName("time", "none"));
     }
   }
@@ -378,7 +378,7 @@ class SessionFinder : private RowColumns {
   void CutSessions() {
     const auto n = static_cast<Index>(rows_.size());
     const Index num_back = TimesBack(found_.time);
-    // Runs of fewer than four rows are no sessions but disorder.
+    // Runs of fewer than four rows are not sessions but disorder.
     constexpr Index kFewestRows = 4;
     if (num_back * kFewestRows > n) {
       PassOver(!selection_.time.empty(),

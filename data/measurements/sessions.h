@@ -74,7 +74,7 @@ struct SessionClues {
   Nights nights;
   std::vector<Eigen::Index> passes = {};    // (n) along the axis; may be empty
   std::vector<std::ptrdiff_t> cycles = {};  // columns that count them; -1: none
-  std::ptrdiff_t cycles_in_sessions = -1;   // column that is no session
+  std::ptrdiff_t cycles_in_sessions = -1;   // column that is not a session
   std::ptrdiff_t blocks = -1;  // column that counts blocks of several cycles
   bool ordered = true;
   bool rows_repeat = false;  // some rows occur twice

@@ -38,7 +38,7 @@ std::vector<std::string> CellsOfComment(std::string_view text,
   if (!is_name) text = words;
   if (has_label) text.remove_prefix(label + 2);
   std::vector<std::string> cells = CellsOf(text, delimiter);
-  // "# day cycle", where blanks part the columns: the sign is no name.
+  // "# day cycle", where blanks part the columns: the sign is not a name.
   if (is_name && delimiter == ' ' && cells.size() == columns + 1) {
     cells.erase(cells.begin());
   }

@@ -158,7 +158,7 @@ class LayoutFinder {
     }
     layout_.data = After(row + 2);
     Say("line " + std::to_string(records_[row + 2].start.line) +
-        ", below names and units, is passed over");
+        ", below names and units, is skipped");
   }
 
   void TakeNames(std::size_t row, std::size_t first) {
@@ -278,8 +278,8 @@ class LayoutFinder {
       }
     }
     Say("line " + std::to_string(records_[row - 1].start.line) +
-        " is a second row of names" + (tells ? " and passed over" : "") +
-        (tells ? "" : ", which tells columns of one name apart"));
+        " is a second row of names" + (tells ? " and is skipped" : "") +
+        (tells ? "" : ", which distinguishes columns of the same name"));
     return true;
   }
 

@@ -88,7 +88,7 @@ class Parser {
                      : "");
   }
 
-  // In the column that is being read, where there is one by that number.
+  // In the column that is being read, if there is one by that number.
   std::string PlaceOfCell(std::size_t line) const {
     const bool is_known = in_data_ && column_ < table_.columns.size();
     return Place(line) +
@@ -119,7 +119,7 @@ class Parser {
     const std::size_t nul = text.find('\0');
     if (nul != std::string_view::npos) {
       ThrowAt(1 + CountLineEnds(text.substr(0, nul)),
-              "NUL byte; this is no text file: save it as CSV in UTF-8");
+              "NUL byte; this is not a text file: save it as CSV in UTF-8");
     }
     if (cells_.at_end()) {
       throw InputError(File() +
@@ -174,8 +174,7 @@ class Parser {
         "columns of one name: the later " +
         std::string(num == 1 ? "is" : "are") + " read as " +
         JoinWords(named.again, ", ") + (num > kMostShown ? ", ..." : "") +
-        (IsSideBySide() ? "; of tables side by side put one below the other"
-                        : ""));
+        (IsSideBySide() ? "; put side-by-side tables below each other" : ""));
   }
 
   // A column without a name parts names that come again.
@@ -248,7 +247,7 @@ class Parser {
           ThrowAt(cells_.line(),
                   "the unit " + QuotedText(units[i]) + " of column " +
                       QuotedName(column.name) +
-                      " is another than in its name; correct one of them");
+                      " differs from that in its name; correct one of them");
         }
         column.name = std::move(*name);
       }
@@ -306,7 +305,7 @@ class Parser {
         FindCutLine(cells_.rest(), cells_.delimiter);
     if (!cut) return;
     cells_.LeaveOutEnd(cut->start);
-    table_.Remark("the last line breaks off in mid number (" +
+    table_.Remark("the last line ends in the middle of a number (" +
                   QuotedText(cut->number) +
                   ") and is left out; complete it, or end it with a line end");
   }
@@ -457,11 +456,10 @@ class Parser {
 
   [[noreturn]] void ThrowAnotherTable(std::size_t line,
                                       std::size_t found) const {
-    throw InputError(File() + ": line " + std::to_string(line) +
-                     ": another table begins here (" +
-                     CountText(found, "field") +
-                     "); keep one table in a file, and the others in files of "
-                     "their own");
+    throw InputError(
+        File() + ": line " + std::to_string(line) +
+        ": another table begins here (" + CountText(found, "field") +
+        "); keep one table in a file, and put the others in separate files");
   }
 
   void TakeOddRow(std::size_t line, std::size_t found) {

@@ -18,8 +18,8 @@ bool IsEmptyRow(const CsvTable& table, std::size_t cells);
 /// For a row of words with this many cells: true if all but the first are
 /// empty, in columns that held numbers so far.
 bool HoldsRemarkAlone(const CsvTable& table, std::size_t cells);
-/// True if its cells, fewer than a row has, may be totals below the rows
-/// ("Mean,2.31"): a name in a column that held numbers so far.
+/// True if its cells, fewer than in a row, may be totals below the rows
+/// ("Mean,2.31"). A column that held numbers so far then holds a name.
 bool AreTotals(const CsvTable& table);
 /// For a row of words: true if it repeats these names; never if there are none.
 bool RepeatsNames(const CsvTable& table, std::span<const std::string> names);

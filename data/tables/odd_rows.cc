@@ -46,8 +46,8 @@ std::string OddRowList::LinesText() const {
 
 std::string OddRowList::LeftOutText(const CsvLayout& layout) const {
   return (count_ == 1 ? "1 row is" : std::to_string(count_) + " rows are") +
-         " left out for another number of cells than " + ExpectedText(layout) +
-         ": " + LinesText();
+         " left out, since the number of cells differs from " +
+         ExpectedText(layout) + ": " + LinesText();
 }
 
 std::string OddRowList::RefusalText(const CsvLayout& layout,
@@ -91,11 +91,11 @@ std::string OddRowList::RefusalText(const CsvLayout& layout,
 std::vector<std::string> OddRowList::PassedOver() const {
   std::vector<std::string> lines;
   if (blank_ > 0) {
-    lines.push_back("blank lines between rows are passed over, in " +
+    lines.push_back("blank lines between rows are skipped, in " +
                     CountText(blank_, "place"));
   }
   if (names_ > 0) {
-    lines.push_back("the names stand between the rows again, " +
+    lines.push_back("the names are repeated between the rows, " +
                     CountText(names_, "time") +
                     ": what is below them is read as the same table");
   }

@@ -27,8 +27,8 @@ class OddRowList {
   /// Remarks on blank lines, repeated names and comments between the rows.
   std::vector<std::string> PassedOver() const;
 
-  /// "2 rows are left out for another number of cells than the header's 3:
-  /// line 8 has 2, line 9 has 4".
+  /// "2 rows are left out, since the number of cells differs from the header's
+  /// 3: line 8 has 2, line 9 has 4".
   std::string LeftOutText(const CsvLayout& layout) const;
   /// Returns a message on these lines and what to do. `num_rows` is the number
   /// of complete rows.

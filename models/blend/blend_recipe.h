@@ -13,8 +13,8 @@ namespace errmap::models {
 /// its best penalty, and a net if requested). Weights are error^-p from inner
 /// hold-outs of the training rows only. Unless an input only grows, these
 /// weights are averaged with those of a blend of straight lines. The power p is
-/// the number of groups held out, at most 8 (the likelihood, if each were one
-/// error), or the number of sessions minus one (3 to 7). Averaging several
+/// the number of groups held out, at most 8: the likelihood, if each were one
+/// error. For sessions it is their number minus one (3 to 7). Averaging several
 /// near-equal maps is safer than choosing one.
 struct BlendOptions {
   /// Adds NetInViews in its views, unless an input only grows. Results then

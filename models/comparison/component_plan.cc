@@ -25,11 +25,11 @@ Index FewestTrainingRows(const ComponentStudy& component) {
     }
   }
   if (fewest < kFewestUsable) {
-    throw data::InputError(fmt::format(
-        "{}: too few rows for every model: a fold trains on {}; more data or "
-        "another hold-out are needed",
-        data::PrintablePath(component.data.dataset.source()),
-        fewest));
+    throw data::InputError(
+        fmt::format("{}: too few rows for every model: a fold trains on {}; "
+                    "more data or another hold-out is needed",
+                    data::PrintablePath(component.data.dataset.source()),
+                    fewest));
   }
   return static_cast<Index>(fewest);
 }

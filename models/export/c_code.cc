@@ -328,7 +328,7 @@ int {0}_set_state({0}_state *state, const double saved[], double age_s) {{
   const double max_rate = state->max_rate;
   int i;
   if (saved[0] != {3} || !(age_s >= 0.0 && age_s <= {4})) return -1;
-  /* The sum of what is no number is none, too. */
+  /* The sum of what is not a number is none, too. */
   if (!({0}_total(saved) - saved[{0}_SAVED - 1] == 0.0)) return -1;
   for (i = 1; i < {0}_SAVED - 1; ++i) to[i - 1] = saved[i];
   state->max_error = max_error;
@@ -436,7 +436,7 @@ int main(void) {{
 #endif
 )";
 
-// In a self-test, which has readings that are no number.
+// In a self-test, which has readings that are not numbers.
 std::string AnyNumber(double value) {
   if (std::isnan(value)) return "NAN";
   if (std::isinf(value)) return value > 0.0 ? "INFINITY" : "-INFINITY";

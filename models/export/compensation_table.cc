@@ -23,7 +23,7 @@ void RequireConvertible(const data::ColumnInfo& column,
                         const data::Unit& unit) {
   if (data::AreConvertible(column.unit, unit)) return;
   throw std::invalid_argument(
-      fmt::format("'{}' is no length that can be written in {}",
+      fmt::format("'{}' is not a length that can be written in {}",
                   CommentText(column.name),
                   unit.symbol));
 }
@@ -183,7 +183,7 @@ GridTable CompensationGrid(const ErrorCurve& curve,
     table.text += "\n";
   }
 
-  // Bilinear within each cell; linear where there is one column.
+  // Bilinear within each cell; linear if there is one column.
   const auto cell = [&](int row, int column) {
     return cells[static_cast<std::size_t>(std::min(row, rows))]
                 [static_cast<std::size_t>(std::min(column, columns))];

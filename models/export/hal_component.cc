@@ -245,7 +245,7 @@ class HalWriter {
         pins_(PinIdentifiers(map.program, name_)) {
     if (!data::AreConvertible(map.program.target.unit, options.unit)) {
       throw std::invalid_argument(
-          fmt::format("'{}' is no length that can be written in {}",
+          fmt::format("'{}' is not a length that can be written in {}",
                       CommentText(map.program.target.name),
                       options.unit.symbol));
     }

@@ -17,7 +17,7 @@ std::string UnitText(const data::Unit& unit) {
   return unit.symbol.empty() ? "no unit" : CommentText(unit.symbol);
 }
 
-// The array of a space that is no single number.
+// The array of a space that is not a single number.
 char ArrayOf(Space space) {
   if (space == Space::kReading) return 'x';
   if (space == Space::kState) return 's';
@@ -48,7 +48,8 @@ Lines AboutLimits(const MapProgram& program) {
        {"A step is not taken where a sensor is dead (0, -127, 85 or 850 "
         "outside "
         "of what",
-        "was trained), is no number, is far beyond its trained range, stands "
+        "was trained), is not a number, is far beyond its trained range, "
+        "stands "
         "still while",
         "the others move, or contradicts them. The filters keep their state "
         "then, and",

@@ -131,7 +131,7 @@ std::string ListText(const std::vector<double>& values,
   return "[\n" + Joined(Wrapped(numbers, indent + "    "), "") + indent + "]";
 }
 
-// In a self-test, which has readings that are no number.
+// In a self-test, which has readings that are not numbers.
 std::string NumberText(double value) {
   if (std::isnan(value)) return "math.nan";
   if (std::isinf(value)) return value > 0.0 ? "math.inf" : "-math.inf";

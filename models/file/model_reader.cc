@@ -74,8 +74,8 @@ std::vector<RowChange> ReadRowChanges(
     const auto at = static_cast<std::size_t>(found - names.begin());
     if (found == names.end() || columns[at].name != *found) {
       name.Refuse(
-          "must be a column of the history, and the inputs must stand "
-          "in its order");
+          "must be a column of the history, and the inputs must be in its "
+          "order");
     }
     changes.push_back({*found,
                        ReadPositive(element.At("largest")),
@@ -182,7 +182,7 @@ std::vector<Index> ReadColumnsOf(const Node& node,
         inputs, name.Text(), [](const TrainedInput& input) -> const auto& {
           return input.column.name;
         });
-    if (found == inputs.end()) name.Refuse("is no input of the map");
+    if (found == inputs.end()) name.Refuse("is not an input of the map");
     columns.push_back(found - inputs.begin());
   }
   return columns;
@@ -201,7 +201,7 @@ Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
         std::ranges::find(fitted.history->form_inputs,
                           trained.derived[i].column.name) ==
             fitted.history->form_inputs.end()) {
-      node.At("derived").Elements()[i].Refuse("is no input of the form");
+      node.At("derived").Elements()[i].Refuse("is not an input of the form");
     }
   }
   trained.columns = ReadColumnsOf(node.At("columns"), fitted.inputs);
@@ -456,15 +456,15 @@ std::optional<std::string> CheckSum(const Node& root,
                                     const std::string& source) {
   const auto sum = root.Find(kChecksumKey);
   if (!sum) {
-    return fmt::format("{} has no checksum: a changed number would go unseen",
-                       source);
+    return fmt::format(
+        "{} has no checksum: a changed number would go unnoticed", source);
   }
   if (HasChecksum(text, sum->Text())) return std::nullopt;
-  throw data::InputError(fmt::format(
-      "{}: was changed after errmap wrote it; take another copy, or "
-      "remove its key '{}' if that was meant",
-      source,
-      kChecksumKey));
+  throw data::InputError(
+      fmt::format("{}: was changed after errmap wrote it; use another copy, or "
+                  "remove its key '{}' if that was meant",
+                  source,
+                  kChecksumKey));
 }
 
 }  // namespace
@@ -480,10 +480,11 @@ FittedModel ModelFromJson(const std::string& text, const std::string& source) {
     throw data::InputError(
         text.find('{') != text.find_first_not_of(" \t\r\n")
             ? source +
-                  ": is no map, which is JSON that errmap wrote; a map is "
-                  "named first, its data after it"
-            : fmt::format("{}: is no whole map: its JSON breaks at byte {} of "
-                          "{}; take another copy, or errmap fit again",
+                  ": is not a map (JSON written by errmap); name the map "
+                  "first, then its data"
+            : fmt::format("{}: is not a complete map: its JSON is invalid at "
+                          "byte {} of "
+                          "{}; use another copy, or run errmap fit again",
                           source,
                           std::min(error.byte, text.size()),
                           text.size()));

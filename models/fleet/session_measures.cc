@@ -73,7 +73,7 @@ void JudgeSensorsOf(const data::Dataset& dataset,
 std::string WhyNotWatched(const FittedModel& fitted) {
   if (fitted.held_out == nullptr || !fitted.interval ||
       !fitted.interval->of_sessions) {
-    return "its map was not judged on whole sessions: it promises nothing for "
+    return "its map was not judged on whole sessions: it states no error for "
            "another one";
   }
   if (const auto units = std::ssize(fitted.held_out->units);

@@ -32,8 +32,8 @@ struct SensorRelations {
   /// (s) RMS of those sessions' shifts, each over sqrt(1 + its distance /
   /// `distance`), since extrapolation increases the error.
   VectorXd spread;
-  /// (s) Average variance of row shifts about their session's shift: part of a
-  /// session has this additional variance.
+  /// (s) Average variance of the shifts of rows about that of their session.
+  /// The shift of a part of a session has this variance in addition.
   VectorXd within;
   Index sessions = 0;
   Index rows = 0;  // of a session, the median; 0: not known

@@ -323,9 +323,9 @@ double RadiansPer(const data::ColumnInfo& angle) {
   if (unit == "deg") return kDegree;
   if (unit == "arcmin") return kDegree / kArcMinutesPerDegree;
   if (unit == "arcsec") return kDegree / kArcSecondsPerDegree;
-  throw std::invalid_argument(
-      fmt::format("'{}' is no angle in rad, mrad, urad, deg, arcmin or arcsec",
-                  angle.name));
+  throw std::invalid_argument(fmt::format(
+      "'{}' is not an angle in rad, mrad, urad, deg, arcmin or arcsec",
+      angle.name));
 }
 
 DerivedInput SineOf(const data::ColumnInfo& angle) {

@@ -3,8 +3,8 @@
 namespace errmap::models {
 
 /// Returns (1 - exp(-u)) / u, the mean of a decay over a step of u >= 0 time
-/// constants, to a few ulp; 1 if u = 0. It makes a first-order lag y exact if
-/// its input changes linearly from x0 to x1 in that step:
+/// constants, to a few ulp; 1 if u = 0. With it, a first-order lag y is exact
+/// for an input that changes linearly from x0 to x1 in the step:
 ///
 ///   y += u m (x0 - y) + (1 - m) (x1 - x0),   m = MeanDecay(u).
 ///

@@ -69,18 +69,17 @@ void WarnOfSessions(const History& history,
         after_gaps,
         table.num_rows,
         history.time_unit == "rows"
-            ? ", by the leaps of the filtered inputs"
-            : fmt::format(": the map's filters know enough over steps of up to "
+            ? ", by jumps of the filtered inputs"
+            : fmt::format(": the map's filters work over steps of up to "
                           "{:.6g} s",
                           history.longest_bridged())));
   }
   if (!arguments.after.empty() && !any_goes_on) {
-    map->warnings.push_back(
-        fmt::format("warning: no session of {} goes on in {}, so {} "
-                    "changes nothing",
-                    data::PrintablePath(arguments.after),
-                    data::PrintablePath(table.file),
-                    data::ArgumentName("after")));
+    map->warnings.push_back(fmt::format(
+        "warning: no session of {} continues in {}, so {} changes nothing",
+        data::PrintablePath(arguments.after),
+        data::PrintablePath(table.file),
+        data::ArgumentName("after")));
   }
 }
 
@@ -110,10 +109,11 @@ void LeaveOutSpikes(const FittedModel& fitted,
   }
 }
 
-// When the map was fitted, the rows that it is not made for were no part of its
-// log. A memory that counts rows must see the others only: what stands between
-// two of these lies on the line between them, which its filters take for
-// nothing new. Where no filter had left any out, they are not counted either.
+// When the map was fitted, the rows that it is not made for were not part of
+// its log. A memory that counts rows must see the others only: what stands
+// between two of these lies on the line between them, which its filters take
+// for nothing new. Where no filter had left any out, they are not counted
+// either.
 void PassOverRowsNotMadeFor(const FittedModel& fitted,
                             const data::CsvTable& table,
                             Index first_row,
@@ -178,12 +178,12 @@ data::FoundSessions FindSessionsFor(const History& history,
   }
   // A clock shows the nights where no column tells the sessions.
   if (selection.session.empty() && history.time_unit != "s") {
-    throw data::InputError(fmt::format(
-        "{}: no column {}, which tells the map's memory where a session "
-        "begins; add it, or name another with {}",
-        data::PrintablePath(table.file),
-        data::QuotedName(history.session),
-        data::ArgumentName("session")));
+    throw data::InputError(
+        fmt::format("{}: no column {}, which shows the map's memory where a "
+                    "session begins; add it, or name another with {}",
+                    data::PrintablePath(table.file),
+                    data::QuotedName(history.session),
+                    data::ArgumentName("session")));
   }
   const std::vector<Index> rows =
       stats::AllIndices(static_cast<Index>(table.num_rows));

@@ -253,7 +253,7 @@ class ChoiceSearch {
  private:
   static constexpr int kRandomBeginnings = 4;
   static constexpr int kMostPasses = 3;
-  // What rounding gains is no gain.
+  // What rounding gains is not a gain.
   static constexpr double kGain = 1e-9;
 
   // Beginnings end in the same sets: each is judged once.

@@ -73,8 +73,8 @@ fitting::Minimum TrainAlong(const NetRows& rows,
 /// A net on inner folds whose wfactor decreases from step to step.
 class WfactorWalk {
  public:
-  /// Each step trains from the last weights if `warm`, else from the start of
-  /// `seed`. All arguments must outlive this object.
+  /// Each step continues from the last weights if `warm`, else it begins at the
+  /// start of `seed`. All arguments must outlive this object.
   WfactorWalk(const NetDesign& design,
               const NetTrainer& trainer,
               const data::Dataset& training,

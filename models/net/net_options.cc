@@ -40,7 +40,7 @@ std::string Contradiction(const NetOptions& options) {
            "wfactor=cv first";
   }
   if (by_discrepancy && many_starts) {
-    return "discrepancy= follows one start; take its wfactor to starts=";
+    return "discrepancy= follows one start; use its wfactor with starts=";
   }
   if (options.members && *options.members > 1 &&
       (many_starts || by_discrepancy)) {
@@ -48,7 +48,7 @@ std::string Contradiction(const NetOptions& options) {
            "one";
   }
   if (options.decay == Decay::kWeights && SolvesLeastSquares(options.method)) {
-    return "decay=weights is not for net:lm and net:ceres, which damp all";
+    return "decay=weights is not for net:lm and net:ceres, which shrink all";
   }
   if (by_discrepancy && options.path == true) {
     return "discrepancy= walks a path of its own";
@@ -89,7 +89,7 @@ OptionList<NetOptions> CommonList() {
                                "cv", kByCrossValidation, kWfactors})
                      .Always());
   list.push_back(OptionFor("decay",
-                           "what it draws to 0: biases too, or not",
+                           "what it shrinks to 0: biases too, or not",
                            &Options::decay,
                            EnumWords<Decay>({"all", "weights"}))
                      .When([](const Options& options) {
@@ -116,11 +116,12 @@ OptionList<NetOptions> CommonList() {
                            &Options::egoal,
                            kGoals)
                      .Always());
-  list.push_back(OptionFor("gwgoal",
-                           "ends at a gradient below it, against the weights",
-                           &Options::gwgoal,
-                           kGoals)
-                     .Always());
+  list.push_back(
+      OptionFor("gwgoal",
+                "ends at a gradient below it, relative to the weights",
+                &Options::gwgoal,
+                kGoals)
+          .Always());
   list.push_back(
       OptionFor("scale",
                 "of the inputs",

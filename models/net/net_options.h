@@ -112,8 +112,8 @@ struct NetOptions {
   /// wfactor of Eq. 20, 0 .. 1e6; empty: 1e-5, in a view chosen by
   /// cross-validation.
   std::optional<GivenOrByCv<double>> wfactor = {};
-  /// Empty means all, or in a view only the weights. net:lm and net:ceres allow
-  /// only all.
+  /// Empty: weights and biases, or in a view only the weights. net:lm and
+  /// net:ceres always shrink both.
   std::optional<Decay> decay = {};
   /// Instead of a wfactor: takes the largest wfactor whose RMS residual on the
   /// training rows is at most this (Eq. 126-135). Above 0, in the target's

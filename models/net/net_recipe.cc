@@ -190,8 +190,7 @@ class OneLayerRecipe final : public NetRecipe {
     if (!takes_all) {
       fitted.choices.push_back({"rows", viewed.rows->num_rows()});
       fitted.remarks.push_back(
-          fmt::format("trained on {} of {} rows, drawn from all over them "
-                      "(rows=all takes all)",
+          fmt::format("trained on {} of {} rows (rows=all uses all)",
                       viewed.rows->num_rows(),
                       training.num_rows()));
     }
@@ -406,7 +405,7 @@ class OneLayerRecipe final : public NetRecipe {
     if (std::isnan(rmse[best])) {
       fitted->remarks.push_back(
           "no start could be judged on inner hold-outs: the lowest cost was "
-          "taken");
+          "chosen");
       return by_cost;
     }
     fitted->choices.push_back(

@@ -68,7 +68,7 @@ class BestSubsetRecipe final : public PolynomialRecipe {
     if (context.explain) {
       report.method = fmt::format(
           "best of all subsets of {} terms up to degree {} by {} ({} of 2^{} "
-          "branches looked at)",
+          "branches examined)",
           dictionary.NumOpen(),
           dictionary.degree,
           ToString(rules_.criterion),
@@ -157,7 +157,7 @@ OptionList<BestSubsetOptions> BestSubsetList() {
                                   std::numeric_limits<double>::max()})
                      .Never());
   list.push_back(OptionFor("bootstrap",
-                           "repetitions that tell how firm each term is",
+                           "repetitions that show how stable each term is",
                            &Options::bootstrap,
                            IntegerRange{0, kMostRepetitions})
                      .Never());

@@ -84,7 +84,7 @@ class PenalizedRecipe final : public PolynomialRecipe {
     if (options_.basis.chooses_basis()) {
       fitted.choices.push_back({"terms", std::string(ToString(best.terms))});
       fitted.remarks.push_back(
-          fmt::format("{} by cross-validation over {} of {} bases",
+          fmt::format("{}: chosen by cross-validation over {} from {} bases",
                       best.label,
                       over,
                       candidates.size()));
@@ -153,7 +153,7 @@ std::string PenalizedContradiction(const PenalizedOptions& options) {
     return "rule= chooses the penalty, which penalty= fixes";
   }
   if (options.basis.chooses_basis()) {
-    return "penalty= is of one basis; name view= and terms= too";
+    return "penalty= needs one basis; name view= and terms= too";
   }
   return "";
 }
@@ -169,7 +169,7 @@ OptionList<PenalizedOptions> PenalizedList() {
   list.push_back(
       OptionFor<Options>(
           "rule",
-          "the penalty of least error, or the strongest near it",
+          "the penalty of lowest error, or the strongest near it",
           [](auto& options) { return &options.penalty.one_standard_error; },
           OneOf<bool>{{{"min", false}, {"1se", true}}})
           .When([](const Options& options) {

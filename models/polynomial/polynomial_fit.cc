@@ -211,12 +211,12 @@ void RemarkOnTerms(const FittedTerms& kept,
   const double to_spare =
       rows.observations - static_cast<double>(solution.rank);
   if (to_spare < kFewRowsToSpare) {
-    fitted->remarks.push_back(fmt::format(
-        "{} coefficients leave only {} of {} rows to tell the error: what they "
-        "fit says little about other rows",
-        solution.rank,
-        to_spare,
-        rows.observations));
+    fitted->remarks.push_back(
+        fmt::format("{} coefficients leave only {} of {} rows to estimate the "
+                    "error: the fit says little about other rows",
+                    solution.rank,
+                    to_spare,
+                    rows.observations));
   }
   if (!kept.aliased.empty()) {
     fitted->remarks.push_back(fmt::format(
@@ -228,8 +228,8 @@ void RemarkOnTerms(const FittedTerms& kept,
   }
   if (!kept.nearly.empty()) {
     fitted->remarks.push_back(
-        fmt::format("{} of {} terms all but follow from the others and were "
-                    "told apart in 106 bits: {}",
+        fmt::format("{} of {} terms nearly follow from the others and were "
+                    "distinguished in 106 bits: {}",
                     kept.nearly.size(),
                     num_terms,
                     FirstOf(kept.nearly)));

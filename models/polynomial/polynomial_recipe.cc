@@ -100,7 +100,7 @@ class PositionTemperatureRecipe final : public PolynomialRecipe {
       const Dataset& dataset) const override {
     if (form_.uses_position && options_.position.empty() &&
         FindPosition(dataset, "") < 0) {
-      return "a position: no input is called so, as position_mm is "
+      return "a position: no input has a name such as position_mm "
              "(position=NAME names one)";
     }
     if (form_.uses_temperature && options_.temperature.empty() &&

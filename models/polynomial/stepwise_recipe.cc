@@ -305,8 +305,8 @@ class StepwiseRecipe final : public PolynomialRecipe {
           report);
     } else if (plan.by_triangle || (plan.is_large && !options_.bootstrap)) {
       report->least_squares.value->notes.push_back(
-          "no bootstrap at this size; bootstrap=N draws whole groups, where "
-          "there are groups");
+          "no bootstrap at this size; bootstrap=N draws whole groups, if there "
+          "are groups");
     }
   }
 
@@ -340,8 +340,8 @@ class StepwiseRecipe final : public PolynomialRecipe {
             ? fmt::format(", a fifth of {} rows",
                           dictionary.design.dataset().num_rows())
             : "",
-        !options_.max_terms ? "max_terms=none goes on as R's step() does"
-                            : "a larger one would let it go on"));
+        !options_.max_terms ? "max_terms=none continues like R's step()"
+                            : "a larger one lets it continue"));
   }
 
   StepwiseOptions options_;  // those in effect
@@ -431,7 +431,7 @@ OptionList<StepwiseOptions> StepwiseList() {
                            &Options::sigma2,
                            Number{0.0, std::numeric_limits<double>::max()}));
   list.push_back(OptionFor("bootstrap",
-                           "repetitions that tell how firm each term is",
+                           "repetitions that show how stable each term is",
                            &Options::bootstrap,
                            IntegerRange{0, kMost})
                      .Never());
@@ -449,7 +449,7 @@ template <>
 const std::vector<ListedModel<StepwiseOptions>>& ListedModels() {
   static const std::vector<ListedModel<StepwiseOptions>> models = {
       {.name = "poly:stepwise",
-       .about = "terms that come and go by a criterion",
+       .about = "terms added and removed by a criterion",
        .defaults = {},
        .options = StepwiseList,
        .contradiction = StepwiseContradiction,

@@ -354,7 +354,7 @@ void JudgeState(const FittedModel& fitted,
       Outside::kLeverage, found.leverage[row], trained.leverage_limit, worst);
 }
 
-// The columns of a thermal state: all inputs that are no positions.
+// The columns of a thermal state: all inputs that are not positions.
 struct StateColumns {
   std::vector<Index> of_map;
   std::vector<Index> of_training;  // the same

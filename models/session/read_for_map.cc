@@ -170,7 +170,7 @@ std::string OtherSessions(const FittedModel& fitted,
       !arguments.session.empty() || table.Find(fitted.history->session) >= 0) {
     return "";
   }
-  return fmt::format("no column {}: the clock tells the sessions",
+  return fmt::format("no column {}: the clock gives the sessions",
                      data::QuotedName(fitted.history->session));
 }
 
@@ -194,7 +194,7 @@ data::ReadTable ReadRows(const FittedModel& fitted,
     read.reading.order = "file";
     if (HasMemory(fitted)) {
       given->remarks.emplace_back(
-          "warning: the rows stand in order of position; the map's memory "
+          "warning: the rows are in order of position; the map's memory "
           "needs them as measured, or a column of times");
     }
   }

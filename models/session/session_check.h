@@ -39,9 +39,10 @@ std::string_view ToString(Remedy remedy);
 /// A session is off if its RMSE exceeds the promised one by this factor.
 inline constexpr double kOffRatio = 1.5;
 
-/// True if an offset explains errors of this mean and RMS: the squared mean is
-/// at least three quarters of the excess of their mean square over the promised
-/// one. Re-zeroing then halves the error, or reduces it to the promised one.
+/// True if an offset explains errors of this mean and RMS. The squared mean
+/// must be at least three quarters of the excess of their mean square over the
+/// promised one. Re-zeroing then halves the error, or reduces it to the
+/// promised one.
 bool OffsetExplains(double mean, double rms, double promised);
 
 /// The RMSE of a part of the session, estimated from probes.

@@ -282,7 +282,7 @@ class Forecaster {
     std::vector<Hypothesis> hypotheses;
     for (std::size_t k = 0; k < scales.size(); ++k) {
       hypotheses.push_back({.prior = kSound * scales[k], .scale = kScales[k]});
-      // What a shape explains is no scatter beside it.
+      // What a shape explains is not scatter beside it.
       for (Hypothesis one : disturbances.hypotheses) {
         one.prior *= scales[k];
         one.scale = kScales[k];

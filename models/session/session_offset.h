@@ -43,8 +43,8 @@ class OffsetFilter {
   /// Variance of the offset, at least that of the mean of probes with this
   /// scatter. The model's variances are scaled by the ratio of squared to
   /// predicted probe errors (West & Harrison 1997, section 4.5). In this ratio
-  /// the held-out sessions count as four probes, and a probe that starts a
-  /// lasting offset as three standard deviations.
+  /// the held-out sessions count as four probes. The error of a probe that
+  /// starts a lasting offset counts as three standard deviations.
   double variance() const;
   /// True if no offset explains the probes: under an offset, at most 5 % of
   /// such sets would differ more from their predictions. Probes that start a

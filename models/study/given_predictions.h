@@ -28,9 +28,9 @@ struct GivenPredictions {
 GivenPredictions ReadGivenPredictions(const std::string& name,
                                       const data::CsvTable& file);
 
-/// Scores predictions like those of a model, but without a map: on the test
-/// rows of every fold, and on the training rows if all are given. If a test row
-/// is missing, the hold-out has failed, and the reason names the row.
+/// Scores predictions like those of a model, but without a map. It uses the
+/// test rows of every fold, and the training rows if all are given. If a test
+/// row is missing, the hold-out has failed, and the reason names the row.
 ModelResult JudgeGivenPredictions(const GivenPredictions& given,
                                   const data::Dataset& dataset,
                                   const std::vector<Holdout>& holdouts);

@@ -46,7 +46,7 @@ double RowTable::Number(std::size_t line, const std::string& column) const {
   if (!std::isfinite(value)) {
     Refuse(line,
            column,
-           fmt::format("'{}' is no finite number", Text(line, column)));
+           fmt::format("'{}' is not a finite number", Text(line, column)));
   }
   return value;
 }
@@ -55,9 +55,10 @@ Index RowTable::Whole(std::size_t line, const std::string& column) const {
   constexpr double kMost = 1e15;  // exact in a double
   const double value = Column(column).values[line];
   if (!(value >= 0.0) || value > kMost || value != std::floor(value)) {
-    Refuse(line,
-           column,
-           fmt::format("'{}' is no whole number from 0", Text(line, column)));
+    Refuse(
+        line,
+        column,
+        fmt::format("'{}' is not a whole number from 0", Text(line, column)));
   }
   return static_cast<Index>(value);
 }

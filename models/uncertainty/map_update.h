@@ -33,8 +33,8 @@ struct UpdateTrial {
   std::string why_failed;  // of the successor; "": it could be fitted
 
   /// True if the new errors differ from the old map by sign or by a constant.
-  /// The old map corrected for it then errs less than the successor, which
-  /// would average both.
+  /// The old map corrected for it then has a lower error than the successor,
+  /// which would average both.
   bool is_negated() const;
   bool is_shifted() const;
   /// True if neither is the case, and if both the RMSE and its geometric mean

@@ -21,8 +21,8 @@ namespace errmap::models {
 /// An interval without assumptions on how units differ is wider. With fewer
 /// than 9 units for 0.9, 19 for 0.95, there is none (Dunn, Wasserman & Ramdas
 /// 2022); the level is then marked at_least. `units` (n) number the unit of
-/// each residual from 0, in any order. NaN residuals and fewer than two units
-/// make NaN.
+/// each residual from 0, in any order. Returns NaN for NaN residuals or fewer
+/// than two units.
 PredictionInterval::Level UnitIntervalLevel(const VectorXd& residuals,
                                             const std::vector<Index>& units,
                                             double coverage);

@@ -8,7 +8,7 @@ Simulates turning centres (seed by seed, --days and --cycles each), studies
 their components with three models unsharded, in 8 shares in a drawn order, and
 in 8 shares of which three are killed at drawn moments and begun again, and ends
 with status 1 unless tables and results are the same but for times. What sharing
-costs is the processor time of all that is no fit: the 8 shares begun once more,
+costs is the processor time of all that is not a fit: the 8 shares begun once more,
 when nothing is left to fit, and the merge. --speed N prints components per
 second for one and two workers, of N components. --merge N copies the summaries
 to N components and puts them together: time, memory, sizes, and how a Chromium
@@ -47,7 +47,7 @@ TABLES = ("runs components fields holdouts models metrics verdicts recommendatio
 SHARES = 8
 SUMMARY_LIMIT = 20000
 COMPONENT_LIMIT = 300000
-FEWEST_TIMED = 200  # of fewer the starts of 8 programs are no small part
+FEWEST_TIMED = 200  # of fewer the starts of 8 programs are not a small part
 failures = []
 
 
@@ -193,7 +193,7 @@ def check_shares(fleet, arguments):
     nothing_left = fleet.shares("shares", order)
     share = (nothing_left + merge) / (shared - nothing_left)
     say(f"8 shares in order {order} {shared:.1f} s, the merge {merge:.2f} s; the shares with nothing "
-        f"left to fit {nothing_left:.2f} s: {100 * share:.2f} % of the fits' time are no fits; "
+        f"left to fit {nothing_left:.2f} s: {100 * share:.2f} % of the fits' time are not fits; "
         f"{100 * (shared + merge - whole) / whole:+.1f} % against one run")
     if share > 0.03 and arguments.components >= FEWEST_TIMED:
         fail("sharing and merging take more than 3 % of the fits' time")

@@ -46,7 +46,7 @@ PLANTS = {
                  ("if not (abs(self.given) <=", "if False and not (abs(self.given) <=")],
     "no rate": [("if abs(target - self.given) > self.room:", "if False:")],
     "steps are always taken": [("if not (status & NOT_TAKEN):", "if True:")],
-    "a gap is no time": [("self.waited = self.waited + passed",
+    "a gap is not a time": [("self.waited = self.waited + passed",
                           "self.waited = passed")],
 }
 

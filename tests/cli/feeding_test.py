@@ -129,7 +129,7 @@ def main():
                 process.wait()
     results = {"the compensation is minus what predict says": follows,
                "the status says nothing but that it settles": settles,
-               "a reading that stops coming is no number": held,
+               "a reading that stops coming is not a number": held,
                "and the last good compensation is held": kept}
     for what, holds in results.items():
         print(("ok    " if holds else "FAILED ") + what

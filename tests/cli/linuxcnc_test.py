@@ -395,7 +395,7 @@ def check_comp_file(bench):
         "export", "--linuxcnc", "--increasing", "up.json", "--decreasing",
         "down.json", "-o", "x.comp.txt", "--points", "16", "--log",
         "sim/x_displacement_up.csv").stderr
-    words = said.split("it errs by up to ")[1].split()
+    words = said.split("it is off by up to ")[1].split()
     assert words[1] == "um", said
     printed = float(words[0]) / 1000.0
 

@@ -34,7 +34,7 @@ def fail(message):
 
 
 def refuse_constant(text):
-    raise ValueError(f"{text} is no JSON")
+    raise ValueError(f"{text} is not JSON")
 
 
 def parse(text):

@@ -29,7 +29,7 @@ FittedModel Guarded(const data::Dataset& training) {
 TEST(FittedModel, ClipsNothingWithinTheWidenedRange) {
   const data::Dataset training = QuadraticData(60);
   FittedModel fitted = Guarded(training);
-  fitted.guards->error_margin = 1.0;  // the linear map is no good fit
+  fitted.guards->error_margin = 1.0;  // the linear map is not a good fit
   const Prediction prediction = fitted.PredictForm(fitted.FormInputs(training));
   EXPECT_EQ(prediction.clipped.count(), 0);
   EXPECT_EQ(prediction.errors,

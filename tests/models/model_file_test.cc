@@ -295,10 +295,11 @@ TEST(ModelFile, SaysWhereAFileBreaks) {
   const auto reading = [](const std::string& text) {
     return [text] { ModelFromJson(text, "map.json"); };
   };
-  EXPECT_THAT(reading("{\"schema\": 1"),
-              ::testing::ThrowsMessage<data::InputError>(
-                  "map.json: is no whole map: its JSON breaks at byte 12 of "
-                  "12; take another copy, or errmap fit again"));
+  EXPECT_THAT(
+      reading("{\"schema\": 1"),
+      ::testing::ThrowsMessage<data::InputError>(
+          "map.json: is not a complete map: its JSON is invalid at byte 12 of "
+          "12; use another copy, or run errmap fit again"));
   EXPECT_THAT(reading("{\"schema\": 1e999}"),
               ::testing::ThrowsMessage<data::InputError>(
                   "map.json: has a number that is too large"));
@@ -340,7 +341,7 @@ TEST(ModelFile, SaysWhatAFileWithoutChecksumLacks) {
   EXPECT_THAT(
       ModelFromJson(text, "old.json").remarks,
       ::testing::ElementsAre(
-          "old.json has no checksum: a changed number would go unseen"));
+          "old.json has no checksum: a changed number would go unnoticed"));
 }
 
 TEST(ModelFile, RefusesAKeyThatStandsTwiceInOneObject) {

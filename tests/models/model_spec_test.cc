@@ -43,7 +43,7 @@ TEST(ModelSpec, RefusesWhatItCannotReadAndSaysWhat) {
   EXPECT_THAT(MessageOf([] { ParseModelSpec("poly:eq8:T=\"a"); }),
               HasSubstr("never closed"));
   EXPECT_THAT(MessageOf([] { ParseModelSpec("poly:degree=2:full"); }),
-              HasSubstr("'full' is no option"));
+              HasSubstr("'full' is not an option"));
   EXPECT_THAT(MessageOf([] { ParseModelSpec("poly:full:degree=2:degree=3"); }),
               HasSubstr("given twice"));
   EXPECT_THAT(MessageOf([] { SplitList("zero,,mean"); }),

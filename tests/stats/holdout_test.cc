@@ -472,7 +472,7 @@ TEST(MakeFolds, RefusesMoreRunsThanGroupsAndSaysWhatIsPossible) {
                 EqualGroupsInHoldout(3, 2),
                 "needs at least 5 groups, found 3; groups:3 or "
                 "leave-one-group-out is possible");
-  // Codes without rows are no groups.
+  // Codes without rows are not groups.
   ExpectRefused(
       "groups:3", 4, {0, 9, 9, 0}, "needs at least 3 groups, found 2");
   for (const std::string text : {"groups:2", "leave-one-group-out"}) {

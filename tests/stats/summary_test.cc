@@ -169,7 +169,7 @@ TEST(Summarize, ScaleByAPowerOfTwoScalesEveryFigureExactly) {
   EXPECT_EQ(after.range, kScale * before.range);
 }
 
-// Whose squares are no numbers.
+// Whose squares are not numbers.
 TEST(Summarize, KnowsTheSpreadOfVeryLargeAndVerySmallValues) {
   const VectorXd sample{{3.0, -1.0, 4.0, 1.5}};
   const SampleSummary plain = Summarize(sample);

@@ -99,7 +99,7 @@ std::string CostText(const models::MapExport& map,
                     "median           {:>9.1f} ns\n"
                     "99.9 % below     {:>9.0f} ns\n"
                     "CPU time of 100000 steps measured here, {}; the slowest, "
-                    "{:.0f} ns, has this system's interrupts in it\n",
+                    "{:.0f} ns, includes this system's interrupts\n",
                     measured->code_bytes,
                     measured->constant_bytes,
                     measured->median_ns,

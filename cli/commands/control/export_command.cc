@@ -178,8 +178,8 @@ void SayWhatWasWritten(const models::MapExport& map,
       report::Count(static_cast<long long>(map.num_checked), "row")));
   if (map.deviations.inside > models::AllowedDeviation(map.precision)) {
     Warn(
-        "warning: the map's own sums cancel; a penalised map (poly:ridge) "
-        "would be steadier");
+        "warning: terms of the map cancel; a penalised map (poly:ridge) would "
+        "be more stable");
   }
 }
 
@@ -236,10 +236,11 @@ void CheckArguments(const ExportArguments& arguments) {
   if (arguments.single && (arguments.python || arguments.hal ||
                            !(arguments.c || !arguments.text.empty()))) {
     throw UsageError(
-        "export: --float goes with --c, --st, --scl and --plcopen alone");
+        "export: --float is only for --c, --st, --scl and --plcopen");
   }
   if (arguments.linuxcnc && (program || arguments.table)) {
-    throw UsageError("export: --linuxcnc writes one file and goes alone");
+    throw UsageError(
+        "export: --linuxcnc writes one file; give no other format");
   }
   const bool increasing = !arguments.tables.increasing.empty();
   const bool decreasing = !arguments.tables.decreasing.empty();
@@ -251,7 +252,7 @@ void CheckArguments(const ExportArguments& arguments) {
         "--decreasing FILE.json, the directions of motion");
   }
   if (arguments.table && arguments.model.empty()) {
-    throw UsageError("export: --table is of one map");
+    throw UsageError("export: --table takes one map");
   }
 }
 

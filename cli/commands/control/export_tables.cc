@@ -111,7 +111,7 @@ void CheckTableArguments(const TableArguments& arguments) {
     throw UsageError("export: --at or --log, not both");
   }
   if (arguments.row >= 0 && arguments.log.empty()) {
-    throw UsageError("export: --row goes with --log");
+    throw UsageError("export: --row needs --log");
   }
 }
 
@@ -174,9 +174,9 @@ void SayOfLinuxcnc(const models::CompFile& file,
            ? fmt::format("forward column (position increases): {}; reverse: {}",
                          forward,
                          data::PrintablePath(maps.reverse.file))
-           : fmt::format("{} fills both columns: the directions of motion are "
-                         "taken as alike",
-                         forward));
+           : fmt::format(
+                 "{} fills both columns: both directions are assumed equal",
+                 forward));
   Warn(fmt::format(
       "errors forward: {}; reverse: {}",
       LimitText(
@@ -184,7 +184,7 @@ void SayOfLinuxcnc(const models::CompFile& file,
       LimitText(
           decreasing, file.reverse_at_limit, file.num_points, unit.symbol)));
   Warn(models::StateText(increasing));
-  Warn(fmt::format("between the points it errs by up to {}",
+  Warn(fmt::format("between the points it is off by up to {}",
                    text(file.interpolation_error)));
   if (arguments.resolution > 0.0) {
     Warn(fmt::format("in steps of {:g} {} by up to {}",
@@ -253,8 +253,8 @@ models::ExportedFile ExportTable(const models::FittedModel& fitted,
       map.name + ": ",
       [&] { return models::CompensationGrid(curve, options); });
   *said = fmt::format(
-      "{}.csv: compensation = -error, {}; {}{}; between its points it errs by "
-      "up to {}",
+      "{}.csv: compensation = -error, {}; {}{}; between its points it is off "
+      "by up to {}",
       map.name,
       models::StateText(curve),
       LimitText(curve,

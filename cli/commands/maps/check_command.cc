@@ -165,7 +165,7 @@ models::Missing MissingBeforeProbe(const models::MapRows& rows, Index probe) {
 }
 
 // Probes since the map's memory is full, where the log began inside the
-// session; all where there are none.
+// session; all if there are none.
 std::vector<Index> ProbesWithMemory(const models::MapRows& rows,
                                     const std::vector<Index>& probes) {
   std::vector<Index> kept;
@@ -177,7 +177,7 @@ std::vector<Index> ProbesWithMemory(const models::MapRows& rows,
   return kept.empty() ? probes : kept;
 }
 
-// Those at positions that the map was fitted to; all where there are none.
+// Those at positions that the map was fitted to; all if there are none.
 std::vector<Index> ProbesWithinTravel(const std::vector<models::RowFlag>& flags,
                                       const std::vector<Index>& probes,
                                       bool quiet) {
@@ -234,8 +234,8 @@ models::SessionProbes ProbesOf(const models::FittedModel& fitted,
   if (positions.size() > 0) probes.position = positions(kept);
   if (kept.size() < probes_given.size()) {
     SayUnless(arguments.quiet,
-              {fmt::format("{} of {} probes are judged: before the others the "
-                           "map's memory is not full",
+              {fmt::format("{} of {} probes are judged: at the others the "
+                           "map's memory is incomplete",
                            kept.size(),
                            probes_given.size())});
   }
@@ -246,7 +246,7 @@ int RunCheck(const ProbeArguments& arguments, const std::string& command_line) {
   const models::FittedModel fitted = LoadMap(arguments.model, arguments.quiet);
   if (fitted.held_out == nullptr) {
     throw data::InputError(fmt::format(
-        "{}: holds no errors of unseen days to judge probes by; fit the map "
+        "{}: has no held-out errors to judge probes by; fit the map "
         "with compare, or with fit and without --no-interval",
         data::PrintablePath(arguments.model)));
   }

@@ -207,8 +207,8 @@ int RunEvaluate(const EvaluateArguments& arguments,
   }
   if (!(found.metrics.rmse <= models::kLargestRmse)) {
     Warn(
-        fmt::format("{}: the predictions err by {:.3g} RMSE, too much to be "
-                    "squared; the map does not serve there",
+        fmt::format("{}: the predictions are off by {:.3g} RMSE, too large to "
+                    "be squared; do not use the map there",
                     data::PrintablePath(files),
                     found.metrics.rmse));
     return kEveryFitFailed;

@@ -102,7 +102,7 @@ std::unique_ptr<models::KeptFits> OpenJournal(const LearnArguments& arguments) {
   return journal;
 }
 
-// Fits of the curve, resumed from those of an earlier run where there are any.
+// Fits of the curve, resumed from those of an earlier run if there are any.
 models::StudyResult RunLearning(
     const LearnArguments& arguments,
     const data::Dataset& dataset,

@@ -44,7 +44,7 @@ models::FittedModel LoadMap(const std::string& file, bool quiet) {
 void RequireAges(const models::FittedModel& fitted, const std::string& model) {
   if (!models::KnowsAges(fitted)) {
     throw data::InputError(fmt::format(
-        "{}: holds no errors of unseen sessions with times; fit the map to two "
+        "{}: has no held-out errors with times; fit the map to two "
         "sessions or more and a column of times (without --no-interval)",
         data::PrintablePath(model)));
   }
@@ -87,16 +87,15 @@ Json LearntJson(const RowsLearnt& learnt) {
 
 std::string LearntText(const RowsLearnt& learnt) {
   if (learnt.file) {
-    return "The map was fitted to this file: what follows is no promise for "
-           "new rows.\n";
+    return "The map was fitted to this file: these figures do not apply to new "
+           "rows.\n";
   }
-  return learnt.rows == 0
-             ? ""
-             : fmt::format(
-                   "{} of {} rows are ones that the map was trained on: what "
-                   "follows is no promise for new ones.\n",
-                   learnt.rows,
-                   learnt.of);
+  return learnt.rows == 0 ? ""
+                          : fmt::format(
+                                "The map was fitted to {} of {} rows: these "
+                                "figures do not apply to new ones.\n",
+                                learnt.rows,
+                                learnt.of);
 }
 
 void SayRead(const data::TableForMap& read, bool quiet) {
@@ -163,8 +162,8 @@ bool SayNotFinite(const VectorXd& predicted,
   }
   if (count == 0) return false;
   Warn(
-      fmt::format("{}: {} of {} not finite, the first in data row {}; the map "
-                  "does not serve there",
+      fmt::format("{}: {} of {} not finite, the first in data row {}; do not "
+                  "use the map there",
                   data::PrintablePath(file),
                   count,
                   report::Count(predicted.size(), "prediction"),

@@ -102,7 +102,7 @@ models::ProbeCorrection Correct(const models::FittedModel& fitted,
                                 const PredictArguments& arguments) {
   if (fitted.held_out == nullptr) {
     throw data::InputError(
-        "the map holds no errors of unseen days to weigh probes by; fit it "
+        "the map has no held-out errors to weight probes by; fit it "
         "with compare, or with fit and without --no-interval");
   }
   data::TableForMap read =
@@ -269,7 +269,7 @@ void SayWhatIsPredicted(const Predicted& found) {
   const models::FittedModel& fitted = found.fitted;
   const std::string& unit = fitted.target.unit.symbol;
   const bool aligned = fitted.align == data::Alignment::kFirst;
-  Warn(fmt::format("{} predicted as {}{}{}; compensate by minus that",
+  Warn(fmt::format("{} predicted as {}{}{}; the compensation is minus that",
                    report::Count(found.NumWhole(), "row"),
                    fitted.target.name,
                    unit.empty() ? "" : " in " + unit,
@@ -381,8 +381,8 @@ void SayAll(const Predicted& found, const WholeRows& whole) {
           models::CountLearntRows(found.fitted, inputs, nullptr);
       learnt > 0) {
     Warn(
-        fmt::format("the readings of {} of {} are ones that the map was "
-                    "trained on: on new ones it errs more",
+        fmt::format("the map was trained on the readings of {} of {}: its "
+                    "error on new ones is larger",
                     learnt,
                     report::Count(inputs.rows(), "row")));
   }

@@ -126,7 +126,7 @@ KnownFiles FindKnown(const UpdateArguments& arguments) {
 std::string LostText(const KnownFiles& known) {
   if (known.lost.empty() && known.any) return "";
   return fmt::format(
-      "{} not at hand as it was, so the new map would not learn from it; name "
+      "{} missing or changed, so the new map would not learn from it; name "
       "all that it was fitted to with --known\n",
       known.lost.empty() ? "what the map was fitted to is"
                          : data::ListOfNames(known.lost) + " is");
@@ -195,9 +195,8 @@ models::FittedModel FitSuccessor(const models::FittedModel& old_map,
 std::string KnownRowsText(Index learnt, Index rows) {
   return learnt == 0 ? ""
                      : fmt::format(
-                           "{} of {} are ones that the old map was fitted to, "
-                           "so it looks better here than it is: give new "
-                           "sessions alone\n",
+                           "the old map was fitted to {} of {}, so it looks "
+                           "better here than it is: give only new sessions\n",
                            learnt,
                            report::Count(rows, "row"));
 }
@@ -275,7 +274,7 @@ int RunUpdate(const UpdateArguments& arguments,
         LostText(known_files),
         KnownRowsText(learnt, fresh.num_rows()),
         report::TrialText(trial, old_map.target.unit, learnt == 0),
-        better ? "the new map is better and stands in " + arguments.out
+        better ? "the new map is better and is written to " + arguments.out
                : "the new map is no better: " + arguments.out +
                      " is the old one"));
   }

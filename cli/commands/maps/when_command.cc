@@ -128,7 +128,7 @@ Json WhenJson(const models::FittedModel& fitted,
 int RunWhen(const WhenArguments& arguments, const std::string& command_line) {
   if (!arguments.log.after.empty() && !arguments.goal) {
     throw UsageError(
-        "--after tells whether a probe is due, which needs a goal: --goal 2um");
+        "--after needs a goal to say whether a probe is due: --goal 2um");
   }
   const models::FittedModel fitted = LoadMap(arguments.model, false);
   RequireAges(fitted, arguments.model);

@@ -41,7 +41,7 @@ bool AnyJudged(const models::ComponentStudy& component) {
 
 int StatusOf(const study_setup::StudyRun& run) {
   if (run.interrupted) {
-    Warn("interrupted; what was finished is shown");
+    Warn("interrupted; finished results are shown");
     return kInterrupted;
   }
   bool any = false;
@@ -64,10 +64,10 @@ void SayShortOfMemory(const study_setup::StudyRun& run) {
     fits += component.study.short_of_memory;
   }
   if (fits == 0) return;
-  Warn(fmt::format(
-      "{} of the fits found not enough memory; fewer --jobs need less, and "
-      "with --out the same command with --resume makes just these again",
-      fits));
+  Warn(
+      fmt::format("{} of the fits ran out of memory; use fewer --jobs. With "
+                  "--out, the same command with --resume repeats only these",
+                  fits));
 }
 
 void SaveSplit(const models::ComponentStudy& comparison,
@@ -128,10 +128,10 @@ void CheckPlaces(const study_setup::StudyPlan& plan,
   // Without it a browser shows the source; and --out may have been meant.
   if (const std::filesystem::path page = arguments.page;
       page.has_filename() && !page.has_extension()) {
-    throw UsageError(fmt::format(
-        "-o writes a page alone: {0}.html; a folder with it, all maps and "
-        "figures: --out {0}",
-        data::PrintablePath(arguments.page)));
+    throw UsageError(
+        fmt::format("-o writes only a page: {0}.html; --out {0} writes a "
+                    "folder with the page, all maps and figures",
+                    data::PrintablePath(arguments.page)));
   }
   RequirePlaceFor(arguments.page);
 }

@@ -67,7 +67,7 @@ study_setup::StudyFile ReadChanged(const CompareArguments& arguments) {
   });
 }
 
-// Flags of one component that are no keys of study files.
+// Flags of one component that are not keys of study files.
 constexpr std::array kFilesOfOne = {"--split", "--save-split", "--predictions"};
 
 // Puts what was given on the command line in the place of what a file says;

@@ -137,7 +137,7 @@ TimedFit FitTimed(const models::ModelRecipe& recipe,
   return fit;
 }
 
-// Why there is no map to write; nothing where there is one.
+// Why there is no map to write; nothing if there is one.
 std::optional<std::string> WhyFailed(const models::FittedModel& fitted,
                                      const VectorXd& predicted) {
   if (!predicted.allFinite()) return "a prediction is not finite";
@@ -161,8 +161,8 @@ void RefuseBothWays(const data::Reading& reading,
                     const data::DatasetSelection& selection) {
   if (data::DirectionsOf(reading, selection).empty()) return;
   throw UsageError(fmt::format(
-      "rows go both ways along {}, which err differently; fit each way by "
-      "itself with --direction up and --direction down, or both into a folder: "
+      "rows go both ways along {}, and the error depends on the direction; fit "
+      "each with --direction up and --direction down, or both into a folder: "
       "-o FOLDER/",
       data::QuotedName(
           reading.position.column.value_or(*reading.direction.column))));
@@ -254,7 +254,7 @@ bool NamesFolder(const std::string& out) {
 }
 
 // The ways along the axis, and what their maps are called: by the file of each
-// way where there is one, else by the first file and the way.
+// way if there is one, else by the first file and the way.
 std::vector<std::pair<std::string, std::string>> MapsOfWays(
     const DataArguments& arguments,
     const std::vector<std::string>& ways,
@@ -287,7 +287,7 @@ int FitIntoFolder(const FitArguments& arguments,
       !data::DirectionsOf(reading, arguments.data.selection).empty();
   if (both_ways && arguments.format == "json") {
     throw UsageError(
-        "--format json tells of one map; name the way with --direction up or "
+        "--format json describes one map; choose it with --direction up or "
         "--direction down");
   }
   std::filesystem::create_directories(folder);

@@ -37,10 +37,10 @@ std::string PathFrom(const std::string& study_file, const std::string& data) {
 int RunInit(const InitArguments& arguments) {
   CheckOutputName("-o", arguments.out, {arguments.data});
   if (!arguments.force && std::filesystem::exists(arguments.out)) {
-    throw UsageError(fmt::format(
-        "{} is there already; write another with -o, or replace it with "
-        "--force",
-        data::PrintablePath(arguments.out)));
+    throw UsageError(
+        fmt::format("{} exists; write another with -o, or replace it with "
+                    "--force",
+                    data::PrintablePath(arguments.out)));
   }
   if (std::filesystem::is_directory(arguments.data)) {
     for (const Slice& slice : Slices()) {
@@ -65,7 +65,7 @@ int RunInit(const InitArguments& arguments) {
           PathFrom(arguments.out, arguments.data),
           "errmap compare --config THIS_FILE [--out DIR]"));
   PrintFitted(fmt::format(
-      "{}: {} component{}; look it over, then\nerrmap compare --config {}\n",
+      "{}: {} component{}; check it, then\nerrmap compare --config {}\n",
       data::PrintablePath(arguments.out),
       plan.components.size(),
       plan.components.size() == 1 ? "" : "s",

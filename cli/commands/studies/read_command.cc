@@ -30,7 +30,7 @@ struct ReadArguments {
 
 // The rows that are used, in the order in which they were read, to be read
 // again as they were: with the columns that were found in the others, session
-// and time_s, which takes the place of a clock that is no date.
+// and time_s, which takes the place of a clock that is not a date.
 std::string CleanCsv(const data::CsvTable& table,
                      const data::ReadTable& read,
                      const std::vector<Index>& in_use) {

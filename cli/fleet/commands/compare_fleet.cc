@@ -46,7 +46,7 @@ std::string PlanText(const fleet::FleetPlan& plan,
                      int jobs,
                      const std::string& out) {
   std::string text = fmt::format(
-      "{}, of which {} were looked at\nsome {:.0f} fits in all; roughly {} on "
+      "{}, of which {} were examined\nsome {:.0f} fits in all; roughly {} on "
       "{} of {}\n",
       report::Count(plan.components, "component"),
       plan.looked_at,
@@ -70,9 +70,8 @@ void CheckWords(const CompareArguments& arguments,
                 const study_setup::StudyConfig& config) {
   if (!arguments.page.empty()) {
     throw UsageError(
-        "-o writes the page of one study, and this is one of many components; "
-        "leave it out: each has its page in --out, and report.html there is "
-        "of all");
+        "-o writes the page of one component, but this study has many; leave "
+        "it out: --out has a page for each, and report.html for all");
   }
   if (arguments.out.empty() && !arguments.dry_run) {
     throw UsageError(
@@ -84,8 +83,8 @@ void CheckWords(const CompareArguments& arguments,
       continue;
     }
     throw UsageError(
-        "--split, --save-split and --predictions are for one component, and "
-        "here are many");
+        "--split, --save-split and --predictions are for one component, but "
+        "this study has many");
   }
 }
 
@@ -198,7 +197,7 @@ class FleetMode : public CompareMode {
         result.fitted,
         result.kept,
         result.failed,
-        result.interrupted ? "; interrupted, the same command goes on" : ""));
+        result.interrupted ? "; interrupted: the same command continues" : ""));
   }
 
   std::optional<std::string> shard_;
@@ -210,7 +209,7 @@ void ClaimStore(const fleet::StorePaths& paths, bool force) {
   // In this order: it may become a store meanwhile.
   if (!force && !IsFree(paths.store) && !fleet::IsStore(paths.store)) {
     throw UsageError(fmt::format(
-        "{} is no store and not empty; choose another folder with --out, or "
+        "{} is not a store and not empty; choose another folder with --out, or "
         "use it with --force",
         data::PrintablePath(paths.store)));
   }

@@ -36,7 +36,7 @@ struct DeployArguments {
   std::string model;
 };
 
-// A packed file of a component, "" where there is none.
+// A packed file of a component, "" if there is none.
 std::string Unpacked(const fleet::StorePaths& paths,
                      const std::string& component,
                      const char* file) {
@@ -230,7 +230,7 @@ int RunDeploy(const DeployArguments& arguments) {
     throw UsageError("name components, or --all for every one with a map");
   }
   if (!arguments.model.empty() && arguments.components.size() != 1) {
-    throw UsageError("--model is of one component: name that alone");
+    throw UsageError("--model is for one component: name only that");
   }
   const fleet::StorePaths paths{arguments.store};
   fleet::ReadFleet(paths);

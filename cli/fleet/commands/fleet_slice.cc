@@ -73,7 +73,7 @@ void InitFleet(const InitFolder& arguments) {
   data::WriteFileAtomically(arguments.out, proposal.text);
   const std::string path = data::PrintablePath(arguments.out);
   PrintFitted(fmt::format(
-      "{}: {}{}; look it over, then\n"
+      "{}: {}{}; check it, then\n"
       "errmap compare --config {} --out STORE\n",
       path,
       report::Count(proposal.files, "file"),

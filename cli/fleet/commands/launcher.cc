@@ -67,11 +67,11 @@ class Launcher {
                               std::int64_t count) {
     const fleet::Share share{.index = index, .count = count};
     if (IsShare(share)) return share;
-    throw UsageError(
-        fmt::format("--shard env: {} {} of {} is no share; write --shard I/N",
-                    name,
-                    index,
-                    count));
+    throw UsageError(fmt::format(
+        "--shard env: {} {} of {} is not a share; write --shard I/N",
+        name,
+        index,
+        count));
   }
 
   fleet::Share FromArray() const {

@@ -99,7 +99,7 @@ std::string ShardsScript(const SlurmJob& job) {
 std::string MergeScript(const SlurmJob& job) {
   return fmt::format(
       "#!/bin/sh\n"
-      "# Puts the shares together and says what is missing.\n"
+      "# Joins the shares and says what is missing.\n"
       "#SBATCH --job-name=errmap-merge\n"
       "#SBATCH --ntasks=1\n"
       "#SBATCH --time=00:10:00\n"
@@ -118,8 +118,8 @@ std::string SubmitScript(const SlurmJob& job) {
   return fmt::format(
       "#!/bin/sh\n"
       "set -eu\n"
-      "# A node of which Slurm was not told how much memory it has (1 MB) "
-      "refuses any\n# --mem: it is asked for where some node has so much.\n"
+      "# A node whose memory Slurm does not know (1 MB) refuses any --mem, so "
+      "it is\n# requested only if some node has that much.\n"
       "largest=$(sinfo -h -o %m 2>/dev/null | tr -d + | sort -n | tail -n 1)\n"
       "mem=\n"
       "if [ \"${{largest:-0}}\" -ge {1} ]; then mem=--mem={1}M; fi\n"
@@ -170,10 +170,10 @@ int RunSubmit(const SubmitArguments& arguments,
   if (arguments.now) {
     return RunScript(folder + "/submit.sh") == 0 ? kDone : kOtherFailure;
   }
-  PrintFitted(fmt::format(
-      "{0}/shards.sh, merge.sh and submit.sh are written; look them over, then "
-      "sh {0}/submit.sh\n",
-      data::PrintablePath(folder)));
+  PrintFitted(
+      fmt::format("{0}/shards.sh, merge.sh and submit.sh are written; check "
+                  "them, then run sh {0}/submit.sh\n",
+                  data::PrintablePath(folder)));
   return kDone;
 }
 

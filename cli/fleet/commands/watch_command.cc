@@ -54,7 +54,8 @@ fleet::WatchedFiles FilesOf(const WatchArguments& arguments,
   }
   if (files.files.empty()) {
     throw data::InputError(
-        "no file is of a component with a map deployed: keep the names and "
+        "no file belongs to a component with a deployed map: keep the names "
+        "and "
         "folders of the study, or write COMPONENT=FILE");
   }
   return files;
@@ -175,7 +176,7 @@ int RunWatch(const WatchArguments& arguments) {
       std::ranges::none_of(components, [](const auto& component) {
         return component.status == WatchStatus::kDoubtful;
       })) {
-    Warn("none of the maps could be judged: what is said of each tells why");
+    Warn("none of the maps could be judged, for the reasons given");
   }
   return status;
 }

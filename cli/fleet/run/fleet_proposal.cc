@@ -33,7 +33,7 @@ constexpr auto kMotionWords = std::to_array<std::string_view>({
     // clang-format on
 });
 
-// "x_down" taken apart; no direction where there is none.
+// "x_down" taken apart; no direction if there is none.
 struct Stem {
   std::string component;
   std::string direction;
@@ -121,7 +121,7 @@ class LevelPatterns {
     };
     std::map<std::string, Looks> looks;
     for (std::size_t i = 0; i < level.stems.size(); ++i) {
-      // Names that are all different are no kinds of files.
+      // Names that are all different are not kinds of files.
       constexpr std::size_t kMostKinds = 60;
       constexpr int kMostOfAKind = 3;
       const std::string& stem = level.stems[i];
@@ -240,10 +240,11 @@ FleetProposal ProposeFleet(const std::string& folder,
   FleetProposal proposal;
   proposal.text =
       "# A study of many components: " + usage +
-      "\n# {fields} of a path stand for what differs; words after a colon "
-      "are all that a\n# field may be. Each component is studied by itself; "
-      "one that fails stops no\n# other.\n\nseed = 1\n# models = [\"mean\", "
-      "\"poly:ridge:view=history\", \"net:scg\"]   # default: all that suit\n"
+      "\n# {fields} of a path stand for the parts that differ; words after a "
+      "colon are a\n# field's only values. Each component is studied "
+      "separately, and a failed one\n# does not stop the others.\n\nseed = "
+      "1\n# models = [\"mean\", "
+      "\"poly:ridge:view=history\", \"net:scg\"]   # default: all suitable\n"
       "# holdouts = [\"sessions:5\"]\n";
   for (const auto& [depth, level] : LevelsOf(folder)) {
     const LevelPatterns patterns(folder, level, target);

@@ -107,7 +107,7 @@ std::string KeyOf(const std::string& asked,
   return HashOf(text);
 }
 
-// The recommended map as compare --out would write it, "" where there is none.
+// The recommended map as compare --out would write it, "" if there is none.
 std::string MapOf(const StudyRun& run) {
   const models::ComponentStudy& component = run.components.front();
   if (!component.judgement.recommendation) return "";

@@ -81,7 +81,7 @@ class FleetPage {
     }
     if (std::isfinite(all_.Left())) {
       card += fmt::format(
-          "<p>Of the error without a map {:.0f} % are left (geometric "
+          "<p>{:.0f} % of the error without a map is left (geometric "
           "mean).</p>",
           report::kPercent * all_.Left());
     }

@@ -32,7 +32,7 @@ std::string MissingWords(const FleetSummaries& found) {
 
 namespace {
 
-// Nothing where there is none, or one of another study.
+// Nothing if there is none, or one of another study.
 std::optional<ComponentSummary> ReadSummary(
     const StorePaths& paths, const FleetComponentRecord& component) {
   const std::string path = paths.InFolder(component.name, kSummaryFile);
@@ -96,7 +96,7 @@ void DrawFleetReport(const StorePaths& paths, const FleetSummaries& found) {
 
 FleetSummaries MergeStore(const StorePaths& paths) {
   FleetSummaries found;
-  ReadFleet(paths);  // no lock is left where there is no store
+  ReadFleet(paths);  // no lock is left if there is no store
   const StoreLock lock(paths);
   found = ReadSummaries(paths);
   const auto write = [&] {

@@ -12,7 +12,7 @@ namespace errmap::fleet {
 
 /// The results that the shards of a study have written so far.
 struct FleetSummaries {
-  FleetRecord fleet;  // with a component for each way, where there are two
+  FleetRecord fleet;  // with a component for each way, if there are two
   std::vector<ComponentSummary> summaries;  // in order of the fleet
   std::vector<std::string> missing;         // not there, or of another study
   std::string damaged;  // where a damaged errmap.sqlite was set aside, or ""

@@ -32,16 +32,17 @@ constexpr std::int64_t kApplication = 0x6572726d;
 std::int64_t VersionOf(Database* database, const std::string& path) {
   const std::string shown = data::PrintablePath(path);
   if (database->WholeOf("PRAGMA application_id") != kApplication) {
-    throw data::InputError(shown + " is no store of errmap's");
+    throw data::InputError(shown + " is not a store of errmap");
   }
   const std::int64_t version = database->WholeOf("PRAGMA user_version");
   if (version > kStoreVersion) {
-    throw data::InputError(fmt::format(
-        "{} is of schema {}, this errmap knows schemas up to {}; use the newer "
-        "errmap that wrote it",
-        shown,
-        version,
-        kStoreVersion));
+    throw data::InputError(
+        fmt::format("{} has schema {}, but this errmap reads schemas up to {}; "
+                    "use the newer "
+                    "errmap that wrote it",
+                    shown,
+                    version,
+                    kStoreVersion));
   }
   return version;
 }
@@ -279,13 +280,13 @@ Database OpenStore(const StorePaths& paths) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) {
     throw data::InputError(
-        fmt::format("{} is not there; errmap merge STORE makes it",
+        fmt::format("{} is missing; errmap merge STORE makes it",
                     data::PrintablePath(path)));
   }
   // A named pipe would be waited for.
   if (!fs::is_regular_file(path, ignored)) {
     throw data::InputError(
-        fmt::format("{}: is no plain file; move it away, and errmap merge "
+        fmt::format("{}: is not a plain file; move it away, and errmap merge "
                     "STORE makes another",
                     data::PrintablePath(path)));
   }
@@ -322,11 +323,11 @@ void ChangeStore(const StorePaths& paths,
     }
     copy.TakePlaceOf(path);
   } catch (const SqliteError& error) {
-    throw std::runtime_error(fmt::format("cannot write {}: {}; it is as it was",
+    throw std::runtime_error(fmt::format("cannot write {}: {}; it is unchanged",
                                          data::PrintablePath(path),
                                          error.what()));
   } catch (const std::system_error& error) {
-    throw std::runtime_error(fmt::format("cannot write {}: {}; it is as it was",
+    throw std::runtime_error(fmt::format("cannot write {}: {}; it is unchanged",
                                          data::PrintablePath(path),
                                          error.code().message()));
   }

@@ -73,9 +73,10 @@ bool IsStore(const std::string& folder) {
 FleetRecord ReadFleet(const StorePaths& paths) {
   std::error_code ignored;
   if (!IsStore(paths.store)) {
-    throw data::InputError(fmt::format(
-        "{} is no store; errmap compare --config STUDY --out STORE makes one",
-        data::PrintablePath(paths.store)));
+    throw data::InputError(
+        fmt::format("{} is not a store; errmap compare --config STUDY --out "
+                    "STORE makes one",
+                    data::PrintablePath(paths.store)));
   }
   const std::string text =
       data::ReadFile(paths.Fleet(), data::kMostTextOfPrograms);
@@ -121,7 +122,7 @@ models::StudyRecord ReadResultsOf(const StorePaths& paths,
   }
   if (summary && summary->ways) {
     throw data::InputError(
-        fmt::format("{} was measured both ways; its components are {}",
+        fmt::format("{} was measured in both directions; its components are {}",
                     data::QuotedName(component),
                     data::ListOfNames(*summary->ways)));
   }

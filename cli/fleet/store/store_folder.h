@@ -37,7 +37,7 @@ struct StorePaths {
   /// Returns the component's folder below the store. It is the name if that is
   /// a valid file name, else its safe characters and a hash. For
   /// "machine/component" the folder is within that of the machine, unless an
-  /// older store has it beside the others.
+  /// older store has it next to the others.
   std::string FolderOf(const std::string& component) const;
   std::string InFolder(const std::string& component, const char* file) const {
     return In(FolderOf(component) + "/" + file);

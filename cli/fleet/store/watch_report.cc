@@ -70,7 +70,7 @@ std::string WatchedComponent::Proposal(const std::string& store) const {
   // update judges each session by a map that has seen the others.
   const auto measure = [&](const char* what) {
     return fmt::format(
-        "measure {}{}, then errmap update {} {} -o new.json; where that is "
+        "measure {}{}, then errmap update {} {} -o new.json; if that is "
         "better, errmap deploy {} {} --model new.json",
         what,
         file_sessions < 2 ? " until the file has two sessions or more" : "",
@@ -94,7 +94,7 @@ std::string WatchedComponent::Proposal(const std::string& store) const {
     case WatchStatus::kOutside:
       return measure("these states");
     case WatchStatus::kTooFewRows:
-      return fmt::format("errmap check {} {} tells more from so few",
+      return fmt::format("errmap check {} {} says more about so few rows",
                          map,
                          report::ShellWord(file));
     case WatchStatus::kAsPromised:
@@ -214,11 +214,11 @@ std::string WatchHtml(const std::string& store,
       fmt::format(
           "<div class=\"card\"><p class=\"sentence\">{}.</p></div>\n{}<div "
           "class=\"figures\">{}</div>\n<details><summary>All "
-          "components</summary>\n{}</details>\n<p class=\"soft small\">p by t "
-          "statistics of sessions against what those held out when the map was "
-          "made show of rows at such times and places; worse or changed is a "
-          "component whose own p is below {:g}, and worse one that errs {:g} % "
-          "more than promised.</p>\n",
+          "components</summary>\n{}</details>\n<p class=\"soft small\">p "
+          "compares each session with held-out sessions at similar times and "
+          "places, by t statistics. A component is worse or changed if its p "
+          "is below {:g}. Worse also needs an error {:g} % above the promised "
+          "one.</p>\n",
           report::HtmlText(WatchHeadline(components)),
           report::HtmlTable(ToDo(store, sorted)),
           figures,

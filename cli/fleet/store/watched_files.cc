@@ -86,7 +86,7 @@ class Finder {
     const std::string file = path.substr(equals + 1);
     if (!fs::is_regular_file(file, ignored)) {
       throw data::InputError(data::PrintablePath(file) +
-                             ": is no file that can be read");
+                             ": is not a file that can be read");
     }
     found_.files.push_back({file, &*named});
   }

@@ -60,9 +60,9 @@ struct WatchedFiles {
 /// Finds the deployment to which each file of new measurements belongs. `paths`
 /// are CSV files, folders of such files, or COMPONENT=FILE. A file belongs to
 /// the component whose data file has the same name and shares most folders
-/// above it, whether or not a map is deployed on it. It belongs to none in a
-/// tie, or if it lies in a folder of the study without such a component. Throws
-/// data::InputError if a path does not exist.
+/// above it. That component need not have a deployed map. It belongs to none in
+/// a tie, or if it lies in a folder of the study without such a component.
+/// Throws data::InputError if a path does not exist.
 WatchedFiles FindWatchedFiles(const FleetRecord& study,
                               const std::vector<Deployment>& deployments,
                               const std::vector<std::string>& paths);

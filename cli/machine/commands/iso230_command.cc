@@ -88,7 +88,7 @@ VectorXd Targets(const VectorXd& positions) {
   return targets;
 }
 
-// By the column of directions where there is one, else by the motion.
+// By the column of directions if there is one, else by the motion.
 std::vector<bool> DirectionsOf(const data::CsvTable& table,
                                const std::vector<Index>& rows,
                                const VectorXd& positions,
@@ -109,11 +109,11 @@ std::vector<bool> DirectionsOf(const data::CsvTable& table,
     } else if (const auto up = data::IsUpwards(word)) {
       upwards[i] = *up;
     } else if (named) {
-      throw data::InputError(fmt::format(
-          "{}: {} is no direction: up or down, + or -, 1 or -1; without "
-          "--direction the order of the positions tells",
-          table.Where(row, words.name),
-          data::QuotedName(word)));
+      throw data::InputError(
+          fmt::format("{}: {} is not a direction: up or down, + or -, 1 or -1; "
+                      "without --direction the order of the positions decides",
+                      table.Where(row, words.name),
+                      data::QuotedName(word)));
     }
   }
   return upwards;

@@ -42,7 +42,7 @@ class CompareMachine : public CompareMode {
   std::optional<int> Begin(const CompareArguments& arguments) override {
     if (machine_.empty()) {
       if (arguments.given.contains("--later")) {
-        throw UsageError("--later goes with --machine");
+        throw UsageError("--later needs --machine");
       }
       return std::nullopt;
     }

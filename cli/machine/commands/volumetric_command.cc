@@ -142,7 +142,7 @@ void SayErrors(const Synthesis& s) {
   const report::ErrorText text(s.machine.length, most);
   Warn(fmt::format(
       "{} of {}: tool minus work, in {} at most {}, 95 % within {}. "
-      "Compensate by minus that",
+      "The compensation is minus that",
       report::Count(s.sensitive.size(), "point"),
       data::QuotedText(s.machine.name),
       SensitiveText(s.machine),
@@ -184,7 +184,7 @@ void SayRest(const Synthesis& s, const MatrixX3d& truth) {
   };
   const double before = rms(truth);
   const report::ErrorText text(s.machine.length, before);
-  Warn(fmt::format("measured there {} RMS, {} less what the maps say",
+  Warn(fmt::format("measured there {} RMS, {} after subtracting the maps",
                    text.WithUnit(before),
                    text.WithUnit(rms(truth - s.errors.exact))));
 }

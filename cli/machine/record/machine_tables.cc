@@ -78,8 +78,7 @@ std::string CalibrationOf(const MachineChoiceRecord& choice) {
     return "of the components' intervals, taken as independent";
   }
   return fmt::format(
-      "by the errors at the tool on {}, each session held out of the fits in "
-      "its turn",
+      "by the errors at the tool on {}, each session held out in turn",
       data::JoinWords(choice.held_out, ", "));
 }
 
@@ -194,7 +193,7 @@ Table MachinePartTable(const MachineRecord& machine) {
                            shown.symbol),
       .note =
           "Readings of those sessions minus the map, noise included, times the "
-          "RMS of what one unit of it moves the tool by.",
+          "RMS movement of the tool per unit of it.",
       .columns = {{"component", false}}};
   std::vector<const MachineChoiceRecord*> shown_choices;
   for (const MachineChoiceRecord& choice : machine.choices) {

@@ -138,7 +138,7 @@ Json StudyJson(const netcg::NetcgStudy& study) {
 
 // ---- The command.
 
-// Writes into the folder of --out, where there is one; files of a run file
+// Writes into the folder of --out, if there is one; files of a run file
 // without it are named by that file. Devices that it names are written to.
 void WriteFiles(const std::vector<netcg::NetcgOutputFile>& files,
                 const NetcgArguments& arguments,

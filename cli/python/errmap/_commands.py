@@ -14,22 +14,22 @@ Json = dict[str, Any]
 
 
 def read_csv(path: str | os.PathLike[str]) -> Any:
-    """Read a table as errmap does: delimiter and decimal comma are found.
+    """Read a table like errmap, which finds delimiter and decimal comma.
 
     Parameters
     ----------
     path : str or path
-        A CSV file, also packed by gzip, or a sheet: ``"book.xlsx:Monday"``.
+        A CSV file, which may be gzipped, or a sheet: ``"book.xlsx:Monday"``.
 
     Returns
     -------
     pandas.DataFrame
-        Without pandas a dict of arrays (numbers) and lists (texts).
+        A dict of arrays (numbers) and lists (texts) if pandas is missing.
 
     Raises
     ------
     ValueError
-        Where the file is no table; the message names line and column.
+        If the file is not a table; the message names line and column.
     """
     name = os.fspath(path)
     file_name, colon, _ = name.rpartition(":")
@@ -40,13 +40,13 @@ def read_csv(path: str | os.PathLike[str]) -> Any:
 
 def residuals(frame: Measurements, column: str, *,
               units: Mapping[str, str] | None = None, **options: Any) -> Json:
-    """Statistics of a column of residuals, or of anything.
+    """Statistics of a column of residuals, or of any numbers.
 
     Parameters
     ----------
     frame : measurements
     column : str
-        The column to be judged.
+        The column to examine.
     units : mapping, optional
         Units of columns, such as ``{"error": "um"}``.
     **options
@@ -76,14 +76,14 @@ def residuals(frame: Measurements, column: str, *,
 def learn(frame: Measurements, by: str | None = None, *,
           next: Measurements | None = None,
           units: Mapping[str, str] | None = None, **options: Any) -> Json:
-    """What more days, more cycles or fewer sensors would do to the error.
+    """Show what more days, more cycles or fewer sensors do to the error.
 
     Parameters
     ----------
     frame : measurements
     by : {"sessions", "cycles", "sensors"}, optional
     next : measurements, optional
-        States that could be measured next, a row each with the inputs.
+        States that could be measured next: one row of inputs each.
     units : mapping, optional
         Units of columns.
     **options
@@ -105,7 +105,7 @@ def learn(frame: Measurements, by: str | None = None, *,
 
 
 def evaluate(map: Any, frame: Measurements, **options: Any) -> Json:
-    """Judge a map on measurements that it may not know.
+    """Judge a map on other measurements.
 
     See :meth:`errmap.MapFile.evaluate`.
     """
@@ -113,7 +113,7 @@ def evaluate(map: Any, frame: Measurements, **options: Any) -> Json:
 
 
 def certify(part: str = "all") -> Json:
-    """Prove solvers and statistics on problems whose answers are known.
+    """Test solvers and statistics on problems with known answers.
 
     Parameters
     ----------
@@ -138,16 +138,16 @@ def simulate(machine: str = "turning-centre", *,
              out: str | os.PathLike[str] | None = None,
              components: Sequence[str] | None = None,
              **options: Any) -> dict[str, Any]:
-    """Make measurements of a machine whose truth is known.
+    """Simulate measurements of a machine with known errors.
 
     Parameters
     ----------
     machine : str
         ``"turning-centre"``.
     out : path, optional
-        A folder that keeps the files; without it none are left.
+        A folder for the files; if left out, no files are kept.
     components : sequence of str, optional
-        Names of the components that are wanted; all, if left out.
+        Names of the wanted components; all, if left out.
     **options
         Those of ``errmap simulate``: ``days``, ``cycles``, ``seed``, ``noise``,
         ``dead``, ``drifting``, ``truth``, ...
@@ -155,7 +155,7 @@ def simulate(machine: str = "turning-centre", *,
     Returns
     -------
     dict
-        A frame per component, by the name of its file.
+        A frame for each component, by the name of its file.
 
     Examples
     --------

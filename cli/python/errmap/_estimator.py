@@ -43,19 +43,19 @@ class Map(RegressorMixin, BaseEstimator):
     model : str
         ``"auto"``: the map that :func:`errmap.compare` recommends for these
         rows. Inside ``GridSearchCV``, ``cross_val_score`` and the like it is
-        the blend, without a comparison in each fold. Else a model, such as
-        ``"poly:ridge"``, whose options may follow after colons.
+        the blend, without a comparison in each fold. Otherwise a model such as
+        ``"poly:ridge"``, with options after colons.
     session, time : str, optional
-        Columns of ``X`` with sessions (days) and times, for maps with a memory.
-        Found by names and values, as on the command line, if left out.
+        Columns of ``X`` with sessions (days) and times, for maps with a
+        memory. If left out, names and values decide, as on the command line.
     seed : int
-        Of all random choices.
+        Seed of all random choices.
     interval : bool, optional
-        Whether the map is fitted again with sessions held out, for
+        Whether to fit again with sessions held out, for
         :meth:`predict_interval`. If left out: yes, but not inside a search.
     jobs : int, optional
-        Threads of a fit; they change no figure. If left out one per core, and
-        one alone inside a search.
+        Threads of a fit; they do not change the result. If left out, one per
+        core, but only one inside a search.
     budget : float, optional
         Seconds for the comparison of ``"auto"``. The slowest models are left
         out until the rest is expected to take no longer.
@@ -67,10 +67,10 @@ class Map(RegressorMixin, BaseEstimator):
     Attributes
     ----------
     map_ : MapFile
-        The fitted map, with all that it can do.
+        The fitted map.
     n_features_in_ : int
     feature_names_in_ : ndarray of str
-        Where ``X`` has names.
+        The names, if ``X`` has them.
 
     Examples
     --------
@@ -131,17 +131,16 @@ class Map(RegressorMixin, BaseEstimator):
             sample_weight: Any = None) -> Map:
         """Fit the map to all rows.
 
-        With ``model="auto"`` it first says on stderr how long the comparison
-        takes, unless it is done at once.
+        With ``model="auto"`` it first prints on stderr how long the comparison
+        takes, unless it is short.
 
         Parameters
         ----------
         X : array or frame (rows x inputs)
-            The columns of a frame are read as the command line reads a file:
-            units, position, sessions, times and inputs. Those of an array are
-            all inputs.
+            A frame is read like a file on the command line: units, position,
+            sessions, times and inputs. All columns of an array are inputs.
         y : array (rows)
-            The error; its unit is read from the name of a Series.
+            The error; the name of a Series states its unit.
         groups : array (rows), optional
             The session of each row.
         sample_weight : array (rows), optional
@@ -158,7 +157,7 @@ class Map(RegressorMixin, BaseEstimator):
         errors = check_array(errors, dtype="float64", ensure_2d=False)
         check_consistent_length(errors, next(iter(columns.values())))
         if len(errors) < 2:
-            raise ValueError("a map needs two rows at least, found 1 sample")
+            raise ValueError("a map needs at least two rows, found 1 sample")
         read = {"session": self.session, "time": self.time, "seed": self.seed}
         if not hasattr(self, "feature_names_in_"):
             read.update(inputs=list(columns), keep_dead=True, session="none",
@@ -212,8 +211,8 @@ class Map(RegressorMixin, BaseEstimator):
         study = compare(columns, models=[m for m, _ in costs if m in kept],
                         progress=slow, **read)
         if len(study.components) > 1:
-            raise ValueError("rows go both ways along the axis, which err "
-                             "differently; fit a map to the rows of each way")
+            raise ValueError("rows go both ways along the axis, and the error "
+                             "depends on the direction; fit a map to each")
         if study.recommendation is None:
             warn(["warning: too few rows to recommend a map: this is the blend, "
                   "and its error is not known"])
@@ -222,7 +221,7 @@ class Map(RegressorMixin, BaseEstimator):
 
     @property
     def equation_(self) -> str | None:
-        """The map as a formula; None of a net and of a blend."""
+        """The map as a formula; None for a net or a blend."""
         check_is_fitted(self)
         return self.map_.equation
 
@@ -232,12 +231,12 @@ class Map(RegressorMixin, BaseEstimator):
         return self.map_.predict(self._columns(X, reset=False), **self._where())
 
     def predict_interval(self, X: Any, coverage: int = 90) -> Any:
-        """Where the error lies with a probability (rows x 2).
+        """Interval that contains the error with this probability (rows x 2).
 
         Warns
         -----
         ErrmapWarning
-            Once, where it is NaN: the map states no interval.
+            Once, if the interval is NaN because the map states none.
         """
         check_is_fitted(self)
         return self.map_.interval(self._columns(X, reset=False), coverage,
@@ -279,7 +278,7 @@ def _option_text(value: Any) -> str:
 
 
 def _is_searched() -> bool:
-    """Whether a search or a cross-validation of scikit-learn calls."""
+    """Whether the caller is a search or cross-validation of scikit-learn."""
     frame = sys._getframe(1)
     while frame is not None:
         if frame.f_globals.get("__name__", "").startswith(
@@ -290,7 +289,7 @@ def _is_searched() -> bool:
 
 
 def _note_names(estimator: Any, X: Any, reset: bool) -> None:
-    """Sets or compares feature_names_in_, as every release has it."""
+    """Set or compare feature_names_in_ in a way that all releases have."""
     check = getattr(estimator, "_check_feature_names", None)
     if check is not None:  # before 1.6
         check(X, reset=reset)
@@ -301,16 +300,16 @@ def _note_names(estimator: Any, X: Any, reset: bool) -> None:
 
 
 class SessionSplit:
-    """A splitter that holds whole sessions out, as errmap does.
+    """A splitter that holds out whole sessions, like errmap.
 
     Parameters
     ----------
     n_splits : int
         Folds.
     forward : bool
-        Whether only earlier sessions are learnt from, as in ``forward:K``.
+        Whether to train only on earlier sessions, as in ``forward:K``.
     gap : int
-        With ``forward``: sessions left out before those that judge.
+        With ``forward``: sessions left out just before the test sessions.
 
     Examples
     --------
@@ -334,20 +333,20 @@ class SessionSplit:
 
     def split(self, X: Any, y: Any = None,
               groups: Any = None) -> Iterator[tuple[Any, Any]]:
-        """Indices of the rows learnt from and of those that judge.
+        """Indices of training and test rows.
 
         Parameters
         ----------
         X : rows
         y : ignored
         groups : array (rows)
-            The session of each row, in the order in which they were measured.
+            The session of each row, in the order of measurement.
         """
         if groups is None:
-            raise ValueError("SessionSplit: say by groups= which session each "
-                             "row is of")
+            raise ValueError("SessionSplit: give the session of each row as "
+                             "groups=")
         if self.gap and not self.forward:
-            raise ValueError("SessionSplit: gap goes with forward=True")
+            raise ValueError("SessionSplit: gap needs forward=True")
         codes: dict[Any, int] = {}
         labels = numpy.asarray(groups)
         try:

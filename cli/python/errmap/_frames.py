@@ -70,7 +70,7 @@ def _add_column(table: _core.Table, name: str, column: Any) -> None:
     try:
         cells = [_cell(cell) for cell in column]
     except TypeError:
-        raise ValueError(f"{FRAME}: column '{name}' is no list of cells") from None
+        raise ValueError(f"{FRAME}: column '{name}' is not a list of cells") from None
     table.add_cells(name, cells)
 
 
@@ -78,7 +78,7 @@ def _name(label: Any) -> str:
     # Of several levels: "temperature t1".
     if isinstance(label, tuple):
         label = " ".join(str(part) for part in label if str(part))
-    # Half a surrogate pair is no character.
+    # Half a surrogate pair is not a character.
     return str(label).encode("utf-8", "replace").decode()
 
 
@@ -109,7 +109,7 @@ def columns_of(frame: Measurements) -> Iterable[tuple[str, Any]]:
 
 def table_of(frame: Measurements, units: Mapping[str, str] | None = None,
              name: str = FRAME) -> _core.Table:
-    """The frame as errmap reads it; a unit goes into the column's name."""
+    """The frame in errmap's form, with units in the columns' names."""
     columns = list(columns_of(frame))
     units = dict(units or {})
     unknown = set(units) - {column for column, _ in columns}
@@ -169,7 +169,7 @@ def words_of(options: Mapping[str, Any],
 
 
 class Files:
-    """What stands for files in one call."""
+    """Frames that serve as files in one call."""
 
     def __init__(self) -> None:
         self.tables: dict[str, _core.Table] = {}
@@ -177,7 +177,7 @@ class Files:
 
     def data(self, frame: Measurements, units: Mapping[str, str] | None = None,
              name: str = FRAME) -> str:
-        """The name under which the measurements can be read."""
+        """The file name by which a command reads the measurements."""
         if isinstance(frame, (str, os.PathLike)):
             if units:
                 raise ValueError("units: a file has them in its header")
@@ -191,7 +191,7 @@ class Files:
 
     def run(self, *words: str, accept: tuple[int, ...] = (0,)) \
             -> tuple[int, str, list[str]]:
-        """A command: its exit status, what it prints, what it says."""
+        """Run a command; return its exit status, output and messages."""
         status, printed, messages = _core.run(
             list(words), self.tables, self.texts)
         if status in accept:
@@ -203,7 +203,7 @@ class Files:
 
 
 def frame_of(columns: Mapping[str, Any]) -> Any:
-    """A DataFrame; where there is no pandas, a dict of arrays or lists."""
+    """A DataFrame; a dict of arrays or lists if pandas is missing."""
     arrays = {name: column if isinstance(column, list) else _array(column)
               for name, column in columns.items()}
     try:
@@ -222,16 +222,16 @@ def _array(column: Any) -> Any:
 
 
 class ErrmapWarning(UserWarning):
-    """What errmap warns of: rows that a map cannot know, a study cut short.
+    """A warning of errmap: rows unlike the training data, an interrupted study.
 
-    Where rows begin inside a session that a map's memory needs whole,
-    give the rows before them with ``after``. Say ``from_rest=True`` where the
-    machine was at rest before the first of them.
+    If a map with a memory gets rows that begin inside a session, give the
+    earlier rows with ``after``. Say ``from_rest=True`` if the machine was at
+    rest before the first row.
     """
 
 
 def warn(messages: Iterable[str]) -> bool:
-    """Tells in one warning what errmap warns of; False where it is nothing."""
+    """Issue errmap's warnings as one; return False if there are none."""
     lines = [line[len("warning: "):] for line in messages
              if line.startswith("warning: ")]
     if lines:

@@ -12,19 +12,19 @@ from errmap._frames import Files, Measurements, columns_of, frame_of, warn, word
 
 
 class MapFile:
-    """A fitted map: the text of its model file, and what can be done with it.
+    """A fitted map, made from the text of its model file.
 
-    Two maps are equal where their texts are; a pickle is that text.
+    Two maps are equal if their texts are. A pickle contains that text.
 
     Parameters
     ----------
     text : str
-        What a model file holds.
+        The content of a model file.
 
     Raises
     ------
     ValueError
-        Where it is no model file.
+        Where it is not a model file.
     """
 
     _FILE = "map.json"
@@ -36,7 +36,7 @@ class MapFile:
         self._told: set[str] = set()
 
     def _warn_once(self, what: str, messages: Iterable[str]) -> None:
-        """Warns, the first time of each kind."""
+        """Warn once for each kind."""
         if what not in self._told and warn(messages):
             self._told.add(what)
 
@@ -79,23 +79,23 @@ class MapFile:
 
     @property
     def equation(self) -> str | None:
-        """The map as a formula; None of a net and of a blend."""
+        """The map as a formula; None for a net or a blend."""
         return self._document.get("polynomial", {}).get("equation")
 
     def predictions(self, frame: Measurements, *,
                     after: Measurements | None = None,
                     probes: Measurements | None = None,
                     **options: Any) -> Any:
-        """Predict every row, with intervals and with what the row is unlike in.
+        """Predict every row, with intervals and how it differs from training.
 
         Parameters
         ----------
         frame : measurements
             The inputs; columns in another unit are converted.
         after : measurements, optional
-            The rows before these, through which the map's memory runs.
+            Earlier rows of the session, for a map with a memory.
         probes : measurements, optional
-            Measurements of the same session, by which the map is moved.
+            Measurements of the same session, which correct the map's offset.
         **options
             ``time`` and ``session``: names of columns; ``from_rest=True``: the
             machine was at rest before the first row.
@@ -103,16 +103,16 @@ class MapFile:
         Returns
         -------
         pandas.DataFrame
-            The columns of ``errmap predict``: cycle, time and position where
-            the rows have them, ``predicted``, ``lower_90``,
-            ``upper_90``, ``lower_95``, ``upper_95`` (target's unit), ``inside``
-            (1 or 0), ``why``, ``offender`` and ``unit``.
+            The columns of ``errmap predict``: cycle, time and position if the
+            rows have them, ``predicted``, ``lower_90``, ``upper_90``,
+            ``lower_95``, ``upper_95`` (target's unit), ``inside`` (1 or 0),
+            ``why``, ``offender`` and ``unit``.
 
         Warns
         -----
         ErrmapWarning
-            Once a map: rows are unlike those of training, or begin inside
-            a session, so that the map's memory is not full.
+            Once per map, if rows are unlike the training rows, or begin inside
+            a session, so that the map's memory is incomplete.
         """
         columns = self._predict(frame, after, probes, options)
         for name in ("why", "offender", "unit"):
@@ -140,7 +140,7 @@ class MapFile:
     def predict(self, frame: Measurements, **options: Any) -> Any:
         """Predicted error of every row, in the target's unit.
 
-        The control must apply minus that. See :meth:`predictions`.
+        The compensation is minus that. See :meth:`predictions`.
 
         Returns
         -------
@@ -153,7 +153,7 @@ class MapFile:
 
     def interval(self, frame: Measurements, coverage: int = 90,
                  **options: Any) -> Any:
-        """Where the error lies with a probability, in the target's unit.
+        """Interval that contains the error with this probability.
 
         Parameters
         ----------
@@ -164,7 +164,7 @@ class MapFile:
         Returns
         -------
         numpy.ndarray
-            (rows x 2): lower and upper; NaN where the map promises none.
+            (rows x 2): lower and upper; NaN if the map states none.
         """
         import numpy
 
@@ -181,7 +181,7 @@ class MapFile:
         return bounds
 
     def inside(self, frame: Measurements, **options: Any) -> Any:
-        """Whether each row is like those of training.
+        """Whether each row is like the training rows.
 
         Returns
         -------
@@ -195,7 +195,7 @@ class MapFile:
 
     def check(self, probes: Measurements, *, after: Measurements | None = None,
               **options: Any) -> dict[str, Any]:
-        """Tell from a few probes whether the map holds in this session.
+        """Check with a few probes whether the map holds in this session.
 
         Parameters
         ----------
@@ -217,7 +217,7 @@ class MapFile:
     def evaluate(self, frame: Measurements, *,
                  after: Measurements | None = None,
                  **options: Any) -> dict[str, Any]:
-        """Judge the map on measurements that it may not know.
+        """Judge the map on other measurements.
 
         Returns
         -------
@@ -244,13 +244,13 @@ class MapFile:
     def when(self, goal: float | str | None = None, *,
              after: Measurements | None = None,
              **options: Any) -> dict[str, Any]:
-        """Tell when the map wants its next probe.
+        """Say when the map needs its next probe.
 
         Parameters
         ----------
         goal : float or str, optional
-            What 90 % of the errors are to stay within: in the target's unit,
-            or with its own, ``"2um"``.
+            Limit for 90 % of the errors, in the target's unit, or with its
+            own: ``"2um"``.
         after : measurements, optional
             Readings from the last probe to now.
         **options
@@ -279,10 +279,10 @@ class MapFile:
         Parameters
         ----------
         frame : measurements
-            New sessions, two at least.
+            At least two new sessions.
         *known : measurements
-            The rows that the map was fitted to; the files that it names, if
-            left out.
+            The rows that the map was fitted to. If left out: the files that it
+            names.
         **options
             Those of ``errmap update``: ``time``, ``session``, ``seed``, ...
 
@@ -291,7 +291,7 @@ class MapFile:
         MapFile
             The new map, or this one.
         dict
-            The document of ``errmap update --format json``: why.
+            The document of ``errmap update --format json``, with the reason.
         """
         files = self._files()
         words = [files.data(frame), *words_of(options)]
@@ -321,7 +321,7 @@ class MapFile:
         Returns
         -------
         list of str
-            What errmap says of the files.
+            errmap's messages about the files.
         """
         flags = words_of({language: True for language in languages})
         _, _, messages = self._files().run(
@@ -339,7 +339,7 @@ class MapFile:
         frame : measurements
             Inputs and target.
         ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure, if left out.
+            The axes to draw on; a new figure, if left out.
         **options
             Those of :meth:`predictions`.
 
@@ -392,7 +392,7 @@ def fitted(frame: Measurements, model: str,
 
 
 def loads(text: str) -> MapFile:
-    """The map of a model file's text."""
+    """Return the map in the text of a model file."""
     return MapFile(text)
 
 
@@ -402,7 +402,7 @@ def load(path: str | os.PathLike[str]) -> MapFile:
     Parameters
     ----------
     path : path
-        What ``errmap fit`` or ``errmap compare --out`` wrote.
+        A file written by ``errmap fit`` or ``errmap compare --out``.
 
     Returns
     -------
@@ -411,7 +411,7 @@ def load(path: str | os.PathLike[str]) -> MapFile:
     Raises
     ------
     ValueError
-        Where it is no model file; OSError where it cannot be read.
+        If it is not a model file; OSError if it cannot be read.
     """
     with open(path, encoding="utf-8", newline="") as file:
         return MapFile(file.read())

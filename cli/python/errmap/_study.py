@@ -37,13 +37,13 @@ class Foreign:
 def foreign(name: str, regressor: Any) -> Foreign:
     """Let a scikit-learn regressor take part in a study.
 
-    A clone of it is fitted to the training rows of every fold, and judged in
-    the same tables and by the same tests as errmap's own maps.
+    A clone of it is fitted to the training rows of every fold. It appears in
+    the same tables and tests as errmap's own maps.
 
     Parameters
     ----------
     name : str
-        What it is called in the tables.
+        Its name in the tables.
     regressor : estimator
         With ``fit`` and ``predict``, such as a pipeline.
 
@@ -63,7 +63,7 @@ def foreign(name: str, regressor: Any) -> Foreign:
 
 
 class _Progress:
-    """A bar of tqdm, where it is installed."""
+    """A progress bar, if tqdm is installed."""
 
     def __init__(self, wanted: bool) -> None:
         self._bar: Any = None
@@ -88,7 +88,7 @@ class _Progress:
 
 
 class Study:
-    """What :func:`compare` found."""
+    """Result of :func:`compare`."""
 
     def __init__(self, found: _core.Study) -> None:
         self._found = found
@@ -119,19 +119,19 @@ class Study:
 
     @property
     def interrupted(self) -> bool:
-        """Whether Ctrl-C ended it; what was finished is here."""
+        """Whether Ctrl-C ended it, so that results are incomplete."""
         return self._found.interrupted
 
     @property
     def remarks(self) -> list[str]:
-        """What was found in the data, a line each."""
+        """Remarks on the data, one line each."""
         return self._found.messages
 
     @property
     def recommendation(self) -> dict[str, Any] | None:
-        """The map to use: ``"model"``, ``"rmse"`` on what it never saw,
+        """The map to use: ``"model"``, ``"rmse"`` on unseen rows,
         ``"ci95"``, ``"reasons"``, ``"caveats"``, ``"sentence"`` and more, in the
-        target's unit; None where there is none."""
+        target's unit; None if there is none."""
         return self._component(None)["recommendation"]
 
     @property
@@ -161,7 +161,7 @@ class Study:
 
     @property
     def predictions(self) -> Any:
-        """What every model predicted of the rows held out.
+        """Every model's predictions of the held-out rows.
 
         A row per held-out row: ``holdout``, ``fold``, ``row``, the group, the
         target, ``inside``, and a column per model (target's unit).
@@ -170,7 +170,7 @@ class Study:
 
     @property
     def residuals(self) -> Any:
-        """The same with target - predicted in place of the prediction."""
+        """The same table with target - predicted instead of predictions."""
         return frame_of(self._residuals(None))
 
     def _predictions(self, component: str | None) -> dict[str, Any]:
@@ -196,7 +196,7 @@ class Study:
         model : str, optional
             Its name in the table; the recommended one, if left out.
         component : str, optional
-            Of a study of several.
+            Needed if the study has several.
 
         Returns
         -------
@@ -216,7 +216,7 @@ class Study:
         self._found.write(os.fspath(folder), force)
 
     def to_html(self) -> str:
-        """The report as one page, which needs no network."""
+        """The report as one HTML page that needs no network."""
         return self._found.html()
 
     def __str__(self) -> str:
@@ -251,33 +251,34 @@ def compare(frame: Measurements = None, *,
     Parameters
     ----------
     frame : measurements
-        A row per reading; left out where ``config`` names a study file.
+        One row per reading; leave it out if ``config`` names a study file.
     target : str, optional
         Column of the error (default: the only one named ``error*``).
     inputs, exclude : sequence of str, optional
-        Input columns (default: all other numeric ones), and columns that never are.
+        Input columns (default: all other numeric ones), and columns to leave
+        out.
     groups, session, time : str, optional
-        Columns of warm-up cycles, of sessions (days) and of times; found by
-        their names, if left out.
+        Columns of warm-up cycles, of sessions (days) and of times. If left
+        out, their names decide.
     models : sequence, optional
-        SPECs such as ``"poly:eq8"`` and :func:`foreign` regressors; all that
-        suit, if left out. ``...`` in it stands for all that suit.
+        Models such as ``"poly:eq8"`` and :func:`foreign` regressors; all
+        suitable maps, if left out. ``...`` stands for all suitable maps.
     holdouts : sequence of str, optional
         Such as ``"sessions:5"``.
     goal : float or str, optional
-        RMSE wanted, in the target's unit, or with its own: ``"2um"``.
+        Wanted RMSE, in the target's unit, or with its own: ``"2um"``.
     seed : int
-        Of all random choices: the same seed gives the same bits.
+        Seed of all random choices; the same seed gives the same bits.
     jobs : int, optional
-        Fits at the same time (default: one per core); changes no figure.
+        Simultaneous fits (default: one per core); does not change the result.
     units : mapping, optional
         Units of columns whose names have none: ``{"error": "um"}``.
     progress : bool
-        Whether a bar is drawn, where tqdm is installed.
+        Whether to draw a progress bar, if tqdm is installed.
     **options
-        The others of ``errmap compare``: ``rezero``, ``choose``, ``prefer``,
-        ``align``, ``weight``, ``missing``, ``faults``, ``keep_dead``,
-        ``no_cache``, ...
+        Other options of ``errmap compare``: ``rezero``, ``choose``,
+        ``prefer``, ``align``, ``weight``, ``missing``, ``faults``,
+        ``keep_dead``, ``no_cache``, ...
 
     Returns
     -------
@@ -286,12 +287,10 @@ def compare(frame: Measurements = None, *,
     Raises
     ------
     ValueError
-        Where data or options cannot be used, with errmap's own line.
+        If data or options cannot be used, with errmap's message.
 
-    Notes
-    -----
-    Python's lock is free while maps are fitted. Ctrl-C ends the study early;
-    what was finished is returned, with a warning.
+    Notes ----- Python's lock is released while maps are fitted. Ctrl-C ends
+    the study early; finished results are returned with a warning.
 
     Examples
     --------
@@ -335,5 +334,5 @@ def compare(frame: Measurements = None, *,
     finally:
         bar.close()
     if found.interrupted:
-        warn(["warning: interrupted; what was finished is shown"])
+        warn(["warning: interrupted; finished results are shown"])
     return Study(found)

@@ -55,7 +55,7 @@ std::string StartsText(const std::vector<models::StartResult>& starts,
                        const ErrorText& error) {
   if (starts.empty()) return "";
   std::string text = fmt::format(
-      "{} starts, * the one taken: lowest cost\n"
+      "{} starts, * chosen: lowest cost\n"
       "{:>22}  {:>12}  {:>10}  {:>14}  stop\n",
       starts.size(),
       "seed",
@@ -198,7 +198,7 @@ std::string FitText(const models::FittedModel& fitted,
   }
   say(SensitivityLine(sensitivity, error));
   say(fmt::format(
-      "written to {}; it predicts {}, compensate by minus that",
+      "written to {}; it predicts {}; the compensation is minus that",
       options.out,
       fitted.target.unit.symbol.empty()
           ? fitted.target.name

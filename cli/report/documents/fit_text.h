@@ -18,9 +18,9 @@ struct FitTextOptions {
   Terminal terminal;
 };
 
-/// Returns the report of `errmap fit` on a map fitted to all rows of `dataset`:
-/// errors there (`train`), equation, end of the fit, starts, interval, and
-/// correlations and regression as tables.
+/// Returns the report of `errmap fit` on a map fitted to all rows of `dataset`.
+/// It has the errors there (`train`), equation, end of the fit, starts and
+/// interval. Correlations and regression are tables.
 std::string FitText(const models::FittedModel& fitted,
                     const models::Sensitivity& sensitivity,
                     const stats::ErrorMetrics& train,

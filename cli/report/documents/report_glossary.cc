@@ -36,7 +36,8 @@ constexpr std::array kExplained = {
     Explained{"holdout",
               "hold-out",
               "Rows kept back to judge a map. every:3 keeps back every third "
-              "row, whose neighbours are known, and flatters; groups:5 keeps "
+              "row, whose neighbours are known, so its error looks too small; "
+              "groups:5 keeps "
               "back whole cycles, sessions:5 whole days."},
     Explained{"blend",
               "blend",

@@ -5,7 +5,7 @@
 namespace errmap::report {
 
 const char* const kSignConvention =
-    "Error = actual - nominal: compensate by minus the predicted error. "
+    "Error = actual - nominal; the compensation is minus the predicted error. "
     "Residual = measured - predicted error.";
 
 Headline HeadlineOf(const ReportView& view) {

@@ -36,7 +36,7 @@ std::string List(const std::string& title,
   return html + "</ul>\n";
 }
 
-// "" where there is nothing to unfold.
+// "" if there is nothing to unfold.
 std::string Collapsed(const std::string& title,
                       const std::string& content,
                       const std::string& id = "") {
@@ -142,9 +142,8 @@ std::string Notices(const models::StudyRecord& record) {
   std::string html;
   if (record.interrupted) {
     html +=
-        "<p class=\"notice\">The run was interrupted: only what was "
-        "finished is shown, and models that are missing were not "
-        "fitted.</p>\n";
+        "<p class=\"notice\">The run was interrupted: only finished results "
+        "are shown, and missing models were not fitted.</p>\n";
   }
   if (const std::string doubt = DoubtText(record); !doubt.empty()) {
     html += "<p class=\"notice\">" + doubt + "</p>\n";
@@ -211,9 +210,8 @@ std::string IndexOf(const models::StudyRecord& record,
          "on each held-out day, cycle or block, from 0 to the largest. Proven: "
          "better than the best baseline." +
          (figures.IsBrief()
-              ? " Of each there is what matters most; <code>errmap "
-                "report DIR --component NAME</code> draws the "
-                "whole page of one."
+              ? " Each shows only the main results; <code>errmap "
+                "report DIR --component NAME</code> draws the full page of one."
               : "") +
          "</p>" + links + "</nav>\n";
 }

@@ -69,7 +69,7 @@ std::string Component(const ReportView& view) {
 std::string ReportMarkdown(const models::StudyRecord& record) {
   std::string text = "# Error maps\n\n";
   if (record.interrupted) {
-    text += "The run was interrupted: only what was finished is shown.\n\n";
+    text += "The run was interrupted: only finished results are shown.\n\n";
   }
   if (record.doubt) text += DoubtText(record) + "\n\n";
   if (record.components.empty()) {

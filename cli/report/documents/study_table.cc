@@ -28,7 +28,7 @@ namespace {
 constexpr std::size_t kMostRows = 12;
 
 constexpr const char* kSign =
-    "Error = actual - nominal; compensate by minus the predicted error.";
+    "Error = actual - nominal; the compensation is minus the predicted error.";
 
 // "net:scg: 7 of 7 fits ended without converging (iteration_limit 7)": such
 // figures are usable, but another run length or start would give others.

@@ -143,7 +143,7 @@ Series LinksOf(const ReportView& view,
 Figure GapFigure(const ReportView& view, const std::string& prefix) {
   Figure figure;
   figure.place = FigurePlace::kAnswer;
-  figure.title = "Error on rows never seen, by model";
+  figure.title = "Error on unseen rows, by model";
   figure.plot.name = prefix + "gap";
   std::vector<const ModelRecord*> models;
   for (const ModelRecord* model : view.models) {

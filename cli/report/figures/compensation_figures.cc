@@ -180,7 +180,7 @@ std::string WhatDiffers(const ReportView& view,
     if (sums.size() <= kFewestOthers || !(beyond > most)) continue;
     most = beyond;
     const models::FigureInputRecord& input = view.component->figures.inputs[j];
-    words = fmt::format(" There {} is {} in the mean, elsewhere {} to {}{}{}.",
+    words = fmt::format(" There {} is {} on average, elsewhere {} to {}{}{}.",
                         data::ReadHeader(input.name).base,
                         Plain(here),
                         Plain(low),
@@ -237,7 +237,7 @@ std::vector<Figure> UnitFigures(const ReportView& view,
   figure.plot.x.quantity = Shortened(holdout->unit_of_analysis, 30);
   const std::size_t worst = static_cast<std::size_t>(
       std::ranges::max_element(result->unit_rmse) - result->unit_rmse.begin());
-  // Bars of fewer pixels are no bars.
+  // Bars of fewer pixels are not bars.
   constexpr std::size_t kMostBars = 80;
   constexpr double kBar = 0.8;
   const bool as_line = labels.size() > kMostBars;

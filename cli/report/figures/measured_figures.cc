@@ -61,7 +61,7 @@ class Course {
     return trace;
   }
 
-  // Dashed lines where sessions begin; without points where there is one.
+  // Dashed lines where sessions begin; without points if there is one.
   Series Starts(double low, double high) const {
     Series lines{.mark = Mark::kLine, .colour = kGrey, .dashed = true};
     for (std::size_t i = 1; i < starts_.size(); ++i) {

@@ -42,7 +42,7 @@ double Widest(const std::vector<Tic>& tics) {
   return widest;
 }
 
-// Names of categories; where there is no room for all, every k-th.
+// Names of categories; if there is no room for all, every k-th.
 std::vector<Tic> NamedTics(const Axis& axis, const Scale& scale, TicRoom room) {
   std::vector<Tic> tics;
   for (std::size_t every = 1; every <= axis.names.size(); ++every) {

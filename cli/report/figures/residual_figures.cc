@@ -25,7 +25,7 @@ Series Means(const std::vector<double>& x, const std::vector<double>& y) {
   for (std::size_t i = 0; i < order.size();) {
     double sum = 0.0;
     std::size_t j = i;
-    do {  // a level that is no number equals none, not even itself
+    do {  // a level that is not a number equals none, not even itself
       sum += y[order[j]];
       ++j;
     } while (j < order.size() && x[order[j]] == x[order[i]]);

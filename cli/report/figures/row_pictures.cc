@@ -37,7 +37,7 @@ std::string Dot(double x, double y, double radius) {
       kBlue);
 }
 
-// The largest of neighbours, where there are more than `most`.
+// The largest of neighbours, if there are more than `most`.
 std::vector<double> Thinned(const std::vector<double>& values,
                             std::size_t most) {
   if (values.size() <= most) return values;

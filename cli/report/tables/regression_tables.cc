@@ -88,7 +88,7 @@ Table StepTable(const RegressionRecord& regression) {
   table.note = fmt::format(
       "Ended: {}. AIC = n ln(RSS/n) + 2k with k coefficients, as R's step() "
       "has "
-      "it; BIC with k ln n; F and p are of the term that came or went.",
+      "it; BIC with k ln n; F and p belong to the term that entered or left.",
       regression.ended);
   return table;
 }
@@ -106,7 +106,7 @@ Table CoefficientTable(const RegressionRecord& regression) {
   }
   if (regression.penalised.value) {
     table.note +=
-        " Shrunken estimates have no honest standard errors or p-values, so "
+        " Shrunken estimates have no valid standard errors or p-values, so "
         "none are shown.";
   }
   if (fit.bootstrap.repetitions > 0) {

@@ -180,7 +180,7 @@ Table ComparisonTable(const ReportView& view, const std::string& holdout) {
 }
 
 Table StabilityTable(const ReportView& view) {
-  Table table{.title = "Would other cuts choose the same?"};
+  Table table{.title = "Would other splits choose the same?"};
   for (const models::StabilityRecord& entry : view.component->stability) {
     for (const models::WinShare& win : entry.wins) {
       table.Add({{{"hold-out", false}, entry.holdout},
@@ -190,8 +190,8 @@ Table StabilityTable(const ReportView& view) {
     }
   }
   table.SayIfEmpty(
-      "The groups were cut once only; --holdout groups:5:repeats=20 tells how "
-      "stable the choice is.");
+      "The groups were split only once; --holdout groups:5:repeats=20 shows "
+      "how stable the choice is.");
   return table;
 }
 

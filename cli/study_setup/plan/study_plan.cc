@@ -84,7 +84,7 @@ class TableReader {
   std::deque<data::CsvTable> joined_;
 };
 
-// Makes one component ready; remarks tell which where there are several.
+// Makes one component ready; remarks tell which if there are several.
 class ComponentPlanner {
  public:
   ComponentPlanner(const StudyConfig& study,
@@ -182,7 +182,7 @@ class ComponentPlanner {
     }
     if (rows.size() == codes.size()) {
       throw data::InputError(fmt::format(
-          "{}: no session but those that are to judge; more days are needed",
+          "{}: all sessions are kept for judging; more days are needed",
           data::PrintablePath(component_.data)));
     }
     return data::WithoutRows(dataset, rows);
@@ -259,8 +259,8 @@ class ComponentPlanner {
   void TellOfRowsLearnt(const models::Holdout& holdout) const {
     if (holdout.rows_of_training == 0) return;
     Tell(
-        fmt::format("{}: {} of its {} rows stand in {} too; its figures tell "
-                    "nothing of another day",
+        fmt::format("{}: {} of its {} rows are also in {}; its figures say "
+                    "nothing about another day",
                     data::PrintablePath(holdout.test_data->source()),
                     holdout.rows_of_training,
                     holdout.test_data->num_rows(),

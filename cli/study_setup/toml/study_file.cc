@@ -268,7 +268,7 @@ std::size_t FindEquals(const std::string& text) {
   return std::string::npos;
 }
 
-// An override as a small TOML document. A value that is no TOML is text.
+// An override as a small TOML document. A value that is not TOML is text.
 toml::table ParseOverride(const std::string& text) {
   const std::size_t equals = FindEquals(text);
   if (equals == std::string::npos || equals == 0) {

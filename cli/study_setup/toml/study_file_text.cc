@@ -68,7 +68,7 @@ std::string ListKey(const char* key,
                     const std::vector<std::string>& list,
                     const std::vector<std::string>& of_first) {
   if (!list.empty()) return fmt::format("{} = {}\n", key, TomlList(list));
-  return "# Left to the defaults, since they differ between components.\n" +
+  return "# Not set, since they differ between components.\n" +
          Commented(fmt::format("{} = {}", key, TomlList(of_first))) + "\n";
 }
 
@@ -80,8 +80,7 @@ std::string StudyKeys(const StudyPlan& plan) {
       plan.config.seed,
       Commented(report::WrapText(
           "Rows to judge by: " + stats::HoldoutFormsText() +
-              ". Whole sessions held out tell how a map does on "
-              "another day.",
+              ". Whole held-out sessions show the error on another day.",
           kWidth)));
   text += ListKey(
       "holdouts", plan.config.holdouts, plan.components.front().HoldoutNames());
@@ -217,7 +216,7 @@ std::string StudyFileText(const StudyPlan& plan,
                           const std::string& usage) {
   std::string text =
       "# A study for errmap: " + usage +
-      "\n# Keys behind # are examples or defaults. Lengths are in the "
+      "\n# Keys after # are examples or defaults. Lengths are in the "
       "target's unit.\n\n";
   text += StudyKeys(plan);
   for (std::size_t i = 0; i < plan.components.size(); ++i) {

@@ -76,7 +76,7 @@ toml::table ParseToml(const std::string& text, const std::string& path) {
     const auto before = std::count(
         text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
     throw data::InputError(
-        fmt::format("{}: line {}: a NUL byte; this is no text file",
+        fmt::format("{}: line {}: a NUL byte; this is not a text file",
                     data::PrintablePath(path),
                     before + 1));
   }

@@ -2,7 +2,7 @@
 
 // toml++ 3.3 tests any character for white space, and tells the compiler that
 // most characters beyond ASCII cannot occur there. But they can: after a bare
-// value, or where a line of a string is continued. Here they are no white
+// value, or where a line of a string is continued. Here they are not white
 // space, as in toml++ since its pull request 305.
 #include <toml++/impl/preprocessor.h>
 #pragma push_macro("TOML_UNREACHABLE")

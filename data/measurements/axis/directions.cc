@@ -17,7 +17,7 @@ using Eigen::Index;
 namespace {
 
 // Whether a column of this name holds 1, "yes" or alike in rows that go up, or
-// in those that go down; nothing where its name is no way.
+// in those that go down; nothing if its name is not a direction.
 std::optional<bool> WayOfFlag(std::string_view name) {
   std::optional<bool> up;
   for (const std::string& word : WordsOf(name)) {

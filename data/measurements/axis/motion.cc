@@ -50,7 +50,7 @@ bool ComeAlike(const std::vector<Value>& distinct) {
 }
 
 // Where to part ascending values, so that the parts are far narrower than what
-// is between them; infinite where there is no such place.
+// is between them; infinite if there is no such place.
 double PartsAt(const std::vector<Value>& distinct, double far_below) {
   std::vector<double> gaps;
   for (std::size_t i = 1; i < distinct.size(); ++i) {
@@ -127,7 +127,7 @@ void PartStandsAtTurns(const Levels& levels,
 }
 
 // Where all rows go one way: steps back to where the pass began begin the next
-// one, as after a pass that was broken off. They are no steps of the way.
+// one, as after a pass that was broken off. They are not steps of the way.
 void BeginAnew(const Levels& levels, int way, std::vector<int>* signs) {
   Index first = -1;
   Index last = -1;

@@ -53,7 +53,7 @@ void DatasetRemarks::ReportIdle(const std::string& input,
                                 const IdleInput& idle) {
   if (!idle.dead) {
     remarks.push_back("input " + NameInRemark(input) + " is " + idle.how +
-                      " and is kept: what it does rests on the others");
+                      " and is kept: its effect depends on the others");
     return;
   }
   const std::string why = "is dead (" + idle.how + ")";

@@ -18,7 +18,7 @@ ChosenInputs ChooseInputsAsRead(const CsvTable& table,
                                 const ReadTable& read,
                                 DatasetRemarks* said) {
   DatasetSelection with_axis = selection;
-  // An axis by its values is no error, whatever its unit.
+  // An axis by its values is not an error, whatever its unit.
   if (with_axis.position.empty()) with_axis.position = read.position;
   ChosenInputs chosen = ChooseInputs(table, with_axis, read.roles, read.found);
   std::ranges::move(chosen.dropped, std::back_inserter(said->dropped));

@@ -127,7 +127,7 @@ class LeakFinder {
     const std::set<double> levels(candidate.values.begin(),
                                   candidate.values.end());
     candidate.settings = 3 * levels.size() <= rows_.size();
-    // What is set is no rounded reading.
+    // What is set is not a rounded reading.
     candidate.resolution =
         candidate.settings ? 0.0 : ResolutionOf(candidate.values);
     candidate.values.array() -= candidate.values.mean();
@@ -203,7 +203,7 @@ class LeakFinder {
     }
   }
 
-  // "= 8 - tolerance_left"; "" where the size is no line of the values.
+  // "= 8 - tolerance_left"; "" where the size is not a line of the values.
   std::string LineOf(const VectorXd& size,
                      Index input,
                      const VectorXd& values) const {

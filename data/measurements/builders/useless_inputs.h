@@ -24,9 +24,10 @@ struct UselessInput {
 std::vector<UselessInput> LeakingInputs(const Dataset::Parts& parts);
 
 /// Finds inputs that number the cycles through all sessions (a code for each
-/// row, of `num_sessions`), or that never fall from the first row to the last
-/// (hours, kilometres, energy). These are not thermal states. A count that
-/// restarts with each session, such as hours since the start, may be one.
+/// row, of `num_sessions`). Also finds those that never fall from the first row
+/// to the last (hours, kilometres, energy). These are not thermal states. A
+/// count that restarts with each session, such as hours since the start, may be
+/// one.
 std::vector<UselessInput> CountingInputs(
     const Dataset::Parts& parts,
     const std::vector<Eigen::Index>& sessions,

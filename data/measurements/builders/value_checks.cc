@@ -30,7 +30,7 @@ std::optional<std::string> UnlikelySize(const ColumnInfo& target,
   if (size == 0.0 || (size >= kLeast && size <= kMost)) return std::nullopt;
   return NameInRemark(target.name) + " is " + Rounded(rms) + " " +
          target.unit.symbol + " RMS, " + (size > kMost ? "more" : "less") +
-         " than machine tools err by; if it is in another unit, write that "
+         " than errors of machine tools; if it is in another unit, write that "
          "into its name: error_um, 'error [mm]'";
 }
 
@@ -55,8 +55,8 @@ std::optional<std::string> LikelyFahrenheit(
     names.push_back(name);
   }
   if (names.empty()) return std::nullopt;
-  return ListOfNames(names) +
-         " read as in degF, but name no unit; if they are, write it: " +
+  return "readings of " + ListOfNames(names) +
+         " look like degF, but have no unit; if they are, write it: " +
          QuotedText(names.front() + " [degF]");
 }
 
@@ -193,7 +193,7 @@ void RequireSquares(const CsvTable& table,
       table.Where(static_cast<std::size_t>(rows[static_cast<std::size_t>(row)]),
                   column) +
       ": the largest " + what + ", " + CsvNumber(values[row]) +
-      ", is no size between 1e-100 and 1e100, whose squares can be summed; "
+      ", is not a size between 1e-100 and 1e100, whose squares can be summed; "
       "correct it or choose another unit");
 }
 

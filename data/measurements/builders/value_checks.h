@@ -29,8 +29,9 @@ std::optional<std::string> OtherUnitInSession(
     const std::vector<Eigen::Index>& starts);
 
 /// Throws OpenQuestion if the target's unit is not stated, and the values (RMS
-/// above 1), or columns in inches and degF, contradict the assumed mm. Also if
-/// no unit can be assumed ("Abweichung") and the target was not `named`.
+/// above 1), or columns in inches and degF, contradict the assumed mm. Also
+/// throws if no unit can be assumed ("Abweichung") and the target was not
+/// `named`.
 void AskForUnit(const CsvTable& table,
                 const std::string& target,
                 const Eigen::VectorXd& values,

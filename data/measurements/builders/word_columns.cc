@@ -121,9 +121,9 @@ std::string PartingText(const PartingColumn& column,
     values += (values.empty() ? "" : ", ") + NameInRemark(value);
   }
   return "Rows differ by " + NameInRemark(column.name) + " (" + values +
-         "): plain linear maps, one for each, miss by " + shown(effect.each) +
-         ", one for all by " + shown(effect.one) +
-         "; give each a map of its own, by " + ArgumentName("where") + ".";
+         "): separate linear maps leave " + shown(effect.each) +
+         ", one for all leaves " + shown(effect.one) +
+         "; fit each separately with " + ArgumentName("where") + ".";
 }
 
 }  // namespace

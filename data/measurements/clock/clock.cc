@@ -97,7 +97,7 @@ class ClockFinder : private RowColumns {
       } else if (as_numbers || !times.seconds[at]) {
         PassOver(named,
                  table_.Where(row, column.name) + ": " + QuotedText(text) +
-                     " is no time",
+                     " is not a time",
                  "write seconds, or dates and times such as "
                  "2024-03-01T12:00:05, or name another column with " +
                      ArgumentName("time"),
@@ -307,9 +307,10 @@ class ClockFinder : private RowColumns {
     if (!selection_.time_unit.empty()) {
       unit = FindTimeUnit(selection_.time_unit);
       if (unit == nullptr) {
-        throw InputError(ArgumentName("time_unit", selection_.time_unit) +
-                         ": is no unit of time; give s, ms, us, ns, min, h or "
-                         "days");
+        throw InputError(
+            ArgumentName("time_unit", selection_.time_unit) +
+            ": is not a unit of time; give s, ms, us, ns, min, h or "
+            "days");
       }
       const std::optional<Epoch> epoch =
           EpochOf(PaceOf(*values), Named::kNothing);

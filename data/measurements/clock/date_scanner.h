@@ -91,7 +91,7 @@ class DateScanner {
   bool TookPoint() const { return took_point_; }
 
   // Of a point or comma and digits, or a colon and three of them, as some
-  // loggers write milliseconds; 0 where there is none.
+  // loggers write milliseconds; 0 if there is none.
   double TakeFraction() {
     constexpr std::size_t kMilliseconds = 4;  // with the colon
     const bool after_colon = rest_.starts_with(':') &&

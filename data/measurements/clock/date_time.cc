@@ -242,7 +242,7 @@ std::optional<double> TakeTime(Scanner* text, bool points, DateTime* parsed) {
 }
 
 // What a zone's letters add to the hours of its winter: they are the same down
-// a file but for summer time. Nothing where they are no zone's.
+// a file but for summer time. Nothing if they match no zone.
 std::optional<double> SecondsOfZone(std::string_view zone) {
   constexpr std::size_t kMostLetters = 5;
   const bool are_capitals =

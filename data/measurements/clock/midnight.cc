@@ -61,10 +61,9 @@ void GoOnOverMidnight(const CsvTable& table,
     } else if (halves && back > kHalfADay - kHour && added == 0.0) {
       added = kHalfADay;
       if (clock->remarks.empty()) {
-        clock->remarks.push_back(
-            NameInRemark(table.At(clock->column).name) +
-            " has hours from 1 to 12: those behind 12 on one day are of its "
-            "second half");
+        clock->remarks.push_back(NameInRemark(table.At(clock->column).name) +
+                                 " has hours from 1 to 12: those after 12 on "
+                                 "one day are in the afternoon");
       }
     } else if (clock->dated && clock->unit == "date" && back > 0.0 &&
                back <= kHour + most_off) {
@@ -76,7 +75,7 @@ void GoOnOverMidnight(const CsvTable& table,
               static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]),
               table.At(clock->column).name) +
           ": the clock is set back by " +
-          (is_hour ? "an hour, as where summer time ends; an hour is"
+          (is_hour ? "an hour, as when summer time ends; an hour is"
                    : Rounded(back / 60.0) + " min; " + Rounded(lost / 60.0) +
                          " min are") +
           " added from here on");

@@ -33,7 +33,7 @@ void RowColumns::PassOver(bool named,
                           const std::string& remedy,
                           std::vector<std::string>* remarks) {
   if (named) throw InputError(why + "; " + remedy);
-  remarks->push_back(why + "; the column is passed over");
+  remarks->push_back(why + "; the column is skipped");
 }
 
 bool RowColumns::MayBeMissing(std::size_t column,

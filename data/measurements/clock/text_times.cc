@@ -34,7 +34,7 @@ TextTimes ReadTimes(const CsvColumn& column, DateOrder order) {
     if (parsed) {
       times.any = true;
       times.all_dates = times.all_dates && parsed->has_date;
-      // Midnight in every row is no hour: a sheet's date.
+      // Midnight in every row is not an hour: a sheet's date.
       const bool tells_hour =
           parsed->has_time &&
           (!parsed->has_date || std::fmod(parsed->seconds, kSecondsOfDay) != 0);
@@ -106,8 +106,8 @@ bool LooksLikeTime(const std::string& text) {
   return digits >= kFewestDigits && numbers >= 2;
 }
 
-// The first row whose cell is no time in a column that looks like times by most
-// of its cells; else nothing.
+// The first row whose cell is not a time in a column that looks like times by
+// most of its cells; else nothing.
 std::optional<std::size_t> FirstUnreadTime(const CsvColumn& column) {
   if (!column.is_text()) return std::nullopt;
   const TextTimes times = ReadTimes(column);
@@ -149,8 +149,8 @@ void RefuseUnreadTimes(const CsvTable& table) {
     if (!row) continue;
     throw InputError(table.Where(*row, column.name) + ": " +
                      QuotedText(table.CellText(column, *row)) +
-                     " is no time; write it as 2024-03-01T12:00:05, or go "
-                     "without a clock, by " +
+                     " is not a time; write it as 2024-03-01T12:00:05, or use "
+                     "no clock, with " +
                      ArgumentName("time", "none"));
   }
 }

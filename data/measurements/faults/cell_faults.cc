@@ -48,7 +48,7 @@ bool IsCode(double value) {
          digits.find_first_not_of('9') == std::string::npos;
 }
 
-// How many of the extreme values, outermost first, are no part of the rest.
+// How many of the extreme values, outermost first, are not part of the rest.
 // `extremes` has one more than may be; `other_end` bounds the rest's range.
 Index NumOutlying(const std::vector<double>& extremes, double other_end) {
   Index found = 0;
@@ -285,7 +285,7 @@ class CellFaultFinder {
     return rows;
   }
 
-  // One number for "no reading" in up to half of the rows is no fault of the
+  // One number for "no reading" in up to half of the rows is not a fault of the
   // column as a whole.
   void SingleOutCodes(const VectorXd& values) {
     ColumnFault& fault = found_.faults.back();
@@ -324,7 +324,7 @@ class CellFaultFinder {
           std::move(jumps),
           first,
           {neighbour, neighbour});
-      // Where it jumps all the time it is no thermometer to go by.
+      // Where it jumps all the time it is not a reliable thermometer.
       if (!found_.faults.back().of_cells) return;
     }
     found_.thermometers.push_back(std::move(t));

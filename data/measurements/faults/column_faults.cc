@@ -72,7 +72,7 @@ std::string DoubtOfRows(const ColumnFault& fault,
             ? measured.target
             : measured.inputs[static_cast<std::size_t>(fault.input)];
     what = " rows have " + NameInRemark(column.name) + " " +
-           Rounded(fault.value) + ", which is no reading";
+           Rounded(fault.value) + ", which is not a reading";
   } else {
     return "";
   }

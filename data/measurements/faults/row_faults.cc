@@ -213,7 +213,7 @@ Sizes SmoothedSizes(const VectorXd& target) {
 }
 
 // Two sizes that part the rows: the middle between them, and how many times
-// larger the larger is; 1 where they are no units apart, or sizes lie between.
+// larger the larger is; 1 where they are not units apart, or sizes lie between.
 struct TwoSizes {
   double middle = 0.0;  // logarithm
   double ratio = 1.0;
@@ -351,13 +351,14 @@ std::vector<Index> LeaveOutRowsOfWords(const CsvTable& table,
       }
       continue;
     }
-    throw InputError(table.Where(row, column.name) + ": " +
-                     QuotedText(table.CellText(column, row)) +
-                     " where the other rows have " +
-                     (column.is_text() ? "times" : "numbers") +
-                     ": a row of totals or a remark is no measurement; remove "
-                     "it, start it with #, or leave it out with " +
-                     ArgumentName("missing", "drop-rows"));
+    throw InputError(
+        table.Where(row, column.name) + ": " +
+        QuotedText(table.CellText(column, row)) +
+        " where the other rows have " +
+        (column.is_text() ? "times" : "numbers") +
+        ": a row of totals or a remark is not a measurement; remove "
+        "it, start it with #, or leave it out with " +
+        ArgumentName("missing", "drop-rows"));
   }
   return left_out;
 }
@@ -438,7 +439,7 @@ std::vector<ColumnFault> FindSlippedPoints(const MeasuredColumns& measured) {
       fault.high = std::max(fault.high, value);
     }
   }
-  // Many are heavy tails; and what others have, too, is no slip.
+  // Many are heavy tails; and what others have, too, is not a slip.
   if (fault.rows.empty() || sd == 0.0 ||
       kRowsPerSlip * std::ssize(fault.rows) > target.size()) {
     return {};

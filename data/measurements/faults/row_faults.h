@@ -21,9 +21,9 @@ std::vector<Eigen::Index> LeaveOutRowsOfWords(
     std::vector<bool>* passing);
 
 /// Returns, in ascending order, the rows that pass and repeat an earlier row in
-/// all named columns. Where this may be chance, a neighbour must also repeat
-/// that row's neighbour; returns none if the target has so few distinct values
-/// that rows may be equal.
+/// all named columns. If this may be chance, a neighbour must also repeat that
+/// row's neighbour; returns none if the target has so few distinct values that
+/// rows may be equal.
 std::vector<Eigen::Index> RepeatedRows(const CsvTable& table,
                                        std::size_t target,
                                        const std::vector<bool>& passes,

@@ -13,7 +13,7 @@ using Eigen::Index;
 using Rows = std::vector<Index>;
 
 constexpr double kLeastStep = 2.0;    // degC
-constexpr double kStillNoise = 5.0;   // less than that is no movement
+constexpr double kStillNoise = 5.0;   // less than that is not movement
 constexpr double kStillShare = 0.03;  // nor less than that of the step
 
 constexpr double kNoisyTimes = 10.0;

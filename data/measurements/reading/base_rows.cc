@@ -40,7 +40,7 @@ void LeaveOutWords(TableInReading* in, std::vector<bool>* passes) {
     in->read.reading.rows_left_out.push_back(
         {.row = row, .why = "holds words where the others have numbers"});
   }
-  // Their words are no times either.
+  // Their words are not times either.
   for (CsvColumn& column : in->read.table.columns) {
     if (column.is_text()) column = TakeRows(column, kept);
   }
@@ -87,7 +87,7 @@ bool LeaveOutSavedTwice(TableInReading* in) {
   for (const Index row : again) {
     is_kept[static_cast<std::size_t>(row)] = false;
     in->read.reading.rows_left_out.push_back(
-        {.row = row, .why = "stands twice, with its time"});
+        {.row = row, .why = "occurs twice, with its time"});
   }
   std::erase_if(in->base_rows, [&](Index row) {
     return !is_kept[static_cast<std::size_t>(row)];
@@ -95,8 +95,8 @@ bool LeaveOutSavedTwice(TableInReading* in) {
   in->read.table.Remark(
       CountText(again.size(), "row") +
       (again.size() == 1
-           ? " stands twice, with its time; it is read once"
-           : " stand twice, with their times; each is read once"));
+           ? " occurs twice, with its time; it is read once"
+           : " occur twice, with their times; each is read once"));
   return true;
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr Index kBeside = 3;  // rows, whose median is no spike
+constexpr Index kBeside = 3;  // rows, whose median is not a spike
 
 // What a thermometer does at each row, in parts of its range, and of several
 // the upper median: what most of them reach at least.

@@ -66,7 +66,7 @@ void DescribeSessions(const CsvTable& table,
   }
   if (!read->repeated_rows.empty() && found.by == "clock") {
     sessions.sure = false;
-    sessions.alternative = "fewer, without the rows that stand twice";
+    sessions.alternative = "fewer, without the rows that occur twice";
   }
   if (clock.hours_alone && found.by != "column" && !AreAlike(found)) {
     sessions.sure = false;

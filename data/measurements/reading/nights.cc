@@ -85,7 +85,7 @@ Nights FindNights(const Clock& clock,
   const std::optional<double> gap = ParseInterval(selection.gap);
   if (!gap) {
     throw InputError(ArgumentName("gap", selection.gap) +
-                     ": is no length of time; give 2h, 90min or 30s");
+                     ": is not a length of time; give 2h, 90min or 30s");
   }
   nights.gap = *gap;
   return nights;

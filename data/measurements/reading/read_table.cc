@@ -38,7 +38,7 @@ void TakeTarget(TableInReading* in) {
   const std::string& target = in->selection.target;
   std::optional<DerivedTarget> derived = FindDerivedTarget(in->given, target);
   if (!derived) return;  // a column, or to be refused by its name
-  // In the place of the only one: its values are no axis and no input.
+  // In the place of the only one: its values are neither an axis nor an input.
   in->PutColumn(derived->of.value_or(in->table().columns.size()),
                 std::move(derived->column));
   if (target.starts_with('-')) in->read.reading.target.sign = -1;

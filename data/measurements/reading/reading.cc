@@ -132,7 +132,7 @@ std::vector<std::string> ReadingLines(const Reading& reading) {
                     " calls " + NameInRemark(labels[0]) + " go to lower " +
                     NameInRemark(reading.position.column.value_or("")) +
                     ", those called " + NameInRemark(labels[1]) +
-                    " to higher. The words are taken; swap them where up is to "
+                    " to higher. The words are kept; swap them if up should "
                     "mean higher positions.");
   }
   if (!reading.sessions.sure) {

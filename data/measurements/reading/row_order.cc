@@ -140,7 +140,7 @@ std::vector<std::string> SessionLabels(const TableInReading& in) {
   return labels;
 }
 
-// False where there is no such order.
+// False if there is no such order.
 bool SortByTime(TableInReading* in) {
   const auto places = OrderOfTime(in->clock, SessionLabels(*in));
   if (!places) return false;

@@ -15,7 +15,7 @@ from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent
 
-# One copy in circulation has 1.20196866396E-0, which is no minimum.
+# One copy in circulation has 1.20196866396E-0, which is not a minimum.
 CORRECTIONS = {("Roszman1", "b1"): "2.0196866396E-01"}
 
 LEVELS = {

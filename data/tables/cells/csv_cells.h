@@ -115,7 +115,7 @@ class CsvCells {
     throw InputError(place_(line) + ": " + what);
   }
 
-  /// Removes the line at the end that starts at `start`.
+  /// Removes the last line, which starts at `start`.
   void LeaveOutEnd(const char* start) { end_ = start; }
 
  private:

@@ -13,8 +13,8 @@ struct CutLine {
   std::string number;  // what is left of its last cell
 };
 
-/// Looks for a cut line at the end of a table's rows: it has no line end, and
-/// its last number has fewer decimals than each of the many numbers above it.
+/// Looks for a cut line at the end of a table's rows. It has no line end, and
+/// its last number has fewer decimals than the many numbers above it.
 std::optional<CutLine> FindCutLine(std::string_view rows, char delimiter);
 
 }  // namespace errmap::data

@@ -41,7 +41,7 @@ std::string_view MarkOf(std::string_view text) {
 }
 
 // The digits of "25 000" or "1.234.567", without their marks, off the front of
-// `text`; none where there are no groups.
+// `text`; none if there are no groups.
 std::string TakeGroups(std::string_view* text,
                        std::string_view* mark,
                        int* count) {
@@ -200,7 +200,7 @@ std::vector<std::string> LooseNumbers::Remarks() const {
        " with a dash for the minus",
        " without marks between thousands",
        " without the remark after it",
-       " with the minus that stands behind, which changes the sign",
+       " with a minus after the number, which changes the sign",
        " with D for the exponent",
        " without the uncertainty behind them",
        " whose parentheses are a minus"});
@@ -304,7 +304,7 @@ void TakeUnitsOfCells(bool decimal_comma, CsvTable* table) {
       TakeNumbers(*cells, &column);
       table->Remark("the cells of " + QuotedName(column.name) +
                     (cells->label.is_axis
-                         ? " are words of a program, read as positions "
+                         ? " are program words, read as positions "
                          : " begin with their name, ") +
                     label);
       if (column.name == unnamed ||

@@ -54,8 +54,8 @@ CellLabel TakeLabel(std::string_view* cell);
 class LooseNumbers {
  public:
   void Add(Loose kind, std::size_t line);
-  /// "3 cells are read as numbers with the minus behind them, which changes
-  /// their sign (the first on line 5)".
+  /// "3 cells are read as numbers with a minus after the number, which changes
+  /// the sign (the first on line 5)".
   std::vector<std::string> Remarks() const;
 
  private:

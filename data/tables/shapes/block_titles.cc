@@ -16,7 +16,7 @@
 namespace errmap::data {
 namespace {
 
-// "2024-07-14" of "day 1, 2024-07-14"; "" where there is none.
+// "2024-07-14" of "day 1, 2024-07-14"; "" if there is none.
 std::string DateTokenIn(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789";
   for (std::size_t at = text.find_first_of(kDigits); at != text.npos;) {
@@ -122,7 +122,7 @@ void PartByTitles(const std::vector<TitleLine>& lines,
     codes.resize(end, code);
   }
   table->Remark(std::to_string(blocks.size()) +
-                " lines that part the rows are read as a column " +
+                " lines that separate the rows are read as a column " +
                 QuotedName(name) + ": " + QuotedText(blocks[0].text) + ", " +
                 QuotedText(blocks[1].text) +
                 (blocks.size() > 2 ? ", ..." : ""));

@@ -416,7 +416,7 @@ void MentionNumbered(CsvTable* table) {
     if (names.size() < kFewestPositions) continue;
     table->Remark(
         names.front() + " to " + names.back() +
-        " are columns of their own; a column for each position is called "
+        " stay separate columns; a column for each position is called "
         "error_um@50mm, one for each run 'Run 1 [um]'");
   }
 }

@@ -17,7 +17,7 @@ namespace errmap::data {
 void FoldPositions(CsvTable* table);
 
 /// True if bare numbers in names are positions (mm): three or more that always
-/// rise or always fall, but not in steps of one, like numbers of runs.
+/// rise or always fall. Steps of one are numbers of runs.
 bool AreSpacedPositions(const std::vector<double>& numbers);
 
 }  // namespace errmap::data

@@ -83,7 +83,7 @@ std::string Gunzip(std::string_view compressed, std::size_t most) {
   inflateEnd(&stream);
   if (text.size() > most) throw InputError("is too long when unpacked");
   if (state != Z_STREAM_END) {
-    throw InputError("is no gzip, or is cut off");
+    throw InputError("is not gzip, or is cut off");
   }
   return text;
 }

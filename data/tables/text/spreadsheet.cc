@@ -50,7 +50,7 @@ ShownTime BuiltIn(std::size_t format) {
           .hours = within(18, 22) || within(45, 47)};
 }
 
-// By the letters that are no literal text: "yyyy-mm-dd", "[h]:mm", "0.00 \m".
+// By the letters that are not literal text: "yyyy-mm-dd", "[h]:mm", "0.00 \m".
 ShownTime ShownBy(std::string_view code) {
   ShownTime shown;
   bool months_or_minutes = false;
@@ -153,7 +153,7 @@ std::vector<pugi::xml_node> Children(pugi::xml_node parent,
   return found;
 }
 
-// "" where there is none.
+// "" if there is none.
 std::string Attribute(pugi::xml_node node, std::string_view name) {
   return node
       .find_attribute([&](pugi::xml_attribute attribute) {
@@ -242,7 +242,7 @@ class Workbook {
             text.data(),
             text.size(),
             pugi::parse_default | pugi::parse_ws_pcdata_single)) {
-      throw InputError("is damaged: its XML breaks off or is none");
+      throw InputError("is damaged: its XML is incomplete or invalid");
     }
     return document->document_element();
   }
@@ -371,8 +371,8 @@ std::string TextOfRows(const std::vector<SparseRow>& rows, std::size_t width) {
   if (width > 0 && with_cells > kMostCells / width) {
     throw InputError("has " + std::to_string(with_cells) + " rows and " +
                      std::to_string(width) +
-                     " columns, more than can be read; delete what stands far "
-                     "from the table, or save it as CSV");
+                     " columns, more than can be read; delete cells far from "
+                     "the table, or save it as CSV");
   }
   std::string text;
   for (const SparseRow& row : rows) {

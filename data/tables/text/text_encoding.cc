@@ -110,7 +110,7 @@ int CountKnownWords(std::string_view text) {
   return count;
 }
 
-// What makes known words of the first lines where they are no UTF-8; null:
+// What makes known words of the first lines where they are not UTF-8; null:
 // Latin-1 does as well, which is read cell by cell.
 const char* EncodingByWords(std::string_view bytes) {
   constexpr std::size_t kLooked = 1U << 14U;

@@ -253,7 +253,7 @@ void AddJudgement(const FittedModel& fitted,
   form->most_spread = (trained.leverage_limit - 1.0 / rows) * (rows - 1.0);
   form->has_relations = sensors > 1;  // one alone has no others to go with
   if (!form->has_relations) return;
-  // Readings that are no sensors, such as positions, have no doubt.
+  // Readings that are not sensors, such as positions, have no doubt.
   MatrixXd told = MatrixXd::Zero(std::ssize(program->readings), directions);
   for (Index i = 0; i < sensors; ++i) {
     told.row(reading_of(i)) = -per_limit[i] * trained.directions.row(i);
@@ -480,7 +480,7 @@ constexpr StatusBit kStatusBits[] = {
     {kMapClipped, "CLIPPED", "a guard clipped an input or the error"},
     {kMapInvalid,
      "INVALID",
-     "an input, the time or the error is no number: not taken"},
+     "an input, the time or the error is not a number: not taken"},
     {kMapDead, "DEAD", "a sensor reads as if not connected: not taken"},
     {kMapFrozen,
      "FROZEN",

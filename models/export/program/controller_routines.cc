@@ -514,7 +514,7 @@ Routine MoveRoutine(const ControllerLimits& limits) {
   const Expression limit{Cell::kBound};
   const Expression room{Cell::kRoom};
   const Expression target{Cell::kTarget};
-  // What is no number is 0.
+  // What is not a number is 0.
   const auto to_limit = [&](Cell cell) {
     return If(Read(cell) > limit,
               {Set(cell, limit)},

@@ -29,7 +29,7 @@ int RequirePosition(const MapProgram& program) {
   const int position = PositionOf(program);
   if (position < 0) {
     throw std::invalid_argument(
-        "it reads no position, so it is no table of positions");
+        "it reads no position, so it is not a table of positions");
   }
   return position;
 }

@@ -186,7 +186,7 @@ struct MapProgram {
   bool has_memory() const { return size(Space::kState) > 0; }
   bool has_directions() const { return forms.size() > 1; }
   const Instructions& part(Part part, int form = 0) const;
-  /// Returns all parts, those of the forms last.
+  /// Returns all parts; parts that belong to a form come last.
   std::vector<const Instructions*> parts() const;
   /// True if the values of a table are always double.
   bool IsTableDouble(std::size_t table) const;

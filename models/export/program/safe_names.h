@@ -20,8 +20,8 @@ std::vector<std::string> SafeIdentifiers(const std::vector<std::string>& texts,
                                          std::size_t longest);
 
 /// Returns the text in a form that neither begins nor ends a comment in C,
-/// Python or IEC 61131-3: printable ASCII without * \ ? and double quotes, cut
-/// at 80 characters.
+/// Python or IEC 61131-3. It is printable ASCII without * \ ? and double
+/// quotes, cut at 80 characters.
 std::string CommentText(std::string_view text);
 
 /// Returns the number with a decimal point, in the fewest digits that read back

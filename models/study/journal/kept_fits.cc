@@ -59,9 +59,10 @@ void KeptFits::RequireNoOther(const std::string& folder, bool force) {
   const fs::file_status status = fs::status(path, absent);
   if (!fs::exists(status)) return;
   if (!fs::is_regular_file(status)) {
-    throw data::InputError(data::PrintablePath(path) +
-                           ": is no plain file; move it away or choose another "
-                           "folder");
+    throw data::InputError(
+        data::PrintablePath(path) +
+        ": is not a plain file; move it away or choose another "
+        "folder");
   }
   std::string begin(kOwnerAt + kOwner.size(), '\0');
   std::ifstream stream(path, std::ios::binary);
@@ -106,10 +107,9 @@ KeptFits::KeptFits(const std::string& folder, Opening opening) try
 } catch (const data::SqliteError& error) {
   const std::string path = data::PrintablePath(PathIn(folder));
   if (error.is_busy()) {
-    throw std::runtime_error(
-        path +
-        ": another errmap is at work in this folder; wait for its end or "
-        "choose another folder");
+    throw std::runtime_error(path +
+                             ": another errmap is using this folder; wait "
+                             "until it ends or choose another folder");
   }
   throw std::system_error(
       error.system_error(), std::generic_category(), "cannot write " + path);

@@ -18,8 +18,8 @@ struct BlendOrSimpler {
 /// near-equals. It is used unless separate days establish that a single map is
 /// better, or a baseline beats it (in later sessions, too, if these were
 /// predicted). Folds lack sessions, so a map of many columns looks worse there
-/// than it is. So a simple map can veto it only if it errs less than half as
-/// much.
+/// than it is. So a simple map can veto it only if its error is less than half
+/// as large.
 ///
 /// `decides` chooses among the models that `is_map` accepts. `strictest` and
 /// `forward` (which may be null) can veto.

@@ -69,8 +69,8 @@ Confidence ThatTheyDiffer(const stats::Comparison& tests,
 
 /// Checks whether the RMSE of `model` exceeds that of `than` by at most
 /// `margin`. Both one-sided 95 % upper bounds, resampled and with memory, must
-/// be within it. Neighbours must not resemble each other, and there must be
-/// enough units.
+/// be within it. The errors of neighbouring units must not be correlated, and
+/// there must be enough units.
 Confidence ThatItLosesAtMost(double margin,
                              const stats::Comparison& tests,
                              Index model,

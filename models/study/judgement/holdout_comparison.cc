@@ -58,7 +58,7 @@ std::vector<WinShare> CountWins(const stats::FoldLosses& folds,
 }
 
 // What a comparison is about before anything is measured: the first blend, or
-// the only model that is no yardstick.
+// the only model that is not a yardstick.
 std::optional<Index> FirstInTurn(const StudyResult& study,
                                  const std::vector<std::size_t>& models) {
   std::vector<Index> others;

@@ -33,8 +33,8 @@ struct Recommendation {
   /// For a single map: the blend that it beats, as established by separate
   /// days.
   std::optional<std::size_t> proven_better_than;
-  /// For a simple map: the hold-out in which the blend errs more than twice as
-  /// much; "" if there is none.
+  /// For a simple map: the hold-out in which the blend has more than twice its
+  /// error; "" if there is none.
   std::string fails_in;
   /// Predictions without a map that beat every map, if any.
   std::optional<std::size_t> better_but_no_map;
@@ -76,20 +76,25 @@ inline constexpr Index kFewestRowsToRecommend = 12;
 /// Returns the map to use, or nothing if no map could be judged: too few rows,
 /// or no hold-out with a fit of every fold.
 ///
-/// Errors come from the first hold-out of at least two whole sessions, else of
-/// whole unseen groups, else of another file, else of blocks, else the first.
-/// The same hold-out chooses the map. With fewer than kFewestSessionsToDecide
-/// sessions, it does so only if there is no other. By default a blend is
-/// recommended if there is one, with three exceptions. One is a baseline with
-/// lower RMSE (and lower typical error in later sessions, if forward:K
-/// predicted these). Another is a single map that separate sessions establish
-/// to be better. The third is a simple map (a baseline, a plane) that typically
-/// errs less than half as much, in the first hold-out or in later sessions.
-/// Without a blend it is the simplest map of the first tier: fewest sensors
-/// (data::IsReadBySensor), then fewest parameters, then lowest RMSE. A baseline
-/// in that tier comes first, since nothing is known to be better. The choice
-/// must be worth its sensors (BetterWithoutSensors), or the best baseline
-/// without sensors is recommended.
+/// The error comes from the first of these hold-outs: at least two whole
+/// sessions, whole unseen groups, another file, blocks, any other. The same
+/// hold-out chooses the map, unless it has fewer than kFewestSessionsToDecide
+/// sessions and there is another one.
+///
+/// By default a blend is recommended, if there is one, unless one of these is
+/// better:
+/// - a baseline with lower RMSE (and lower typical error in later sessions, if
+///   forward:K predicted these);
+/// - a single map, established as better by separate sessions;
+/// - a simple map (a baseline, a plane) with less than half the typical error,
+///   in the first hold-out or in later sessions.
+///
+/// Without a blend it is a baseline of the first tier, since nothing is known
+/// to be better. A tier without a baseline gives its simplest map: fewest
+/// sensors (data::IsReadBySensor), then fewest parameters, then lowest RMSE.
+///
+/// If the map is not worth its sensors (BetterWithoutSensors), the best
+/// baseline without sensors is recommended instead.
 std::optional<Recommendation> Recommend(
     const data::Dataset& dataset,
     const std::vector<Holdout>& holdouts,

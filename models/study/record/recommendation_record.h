@@ -119,8 +119,8 @@ struct RecommendationRecord {
   LeftOut<std::string> single;
   /// For a single map: the blend that it beats, established by separate days.
   LeftOut<std::string> proven_better_than;
-  /// For a simple map: the hold-out in which the blend errs more than twice as
-  /// much.
+  /// For a simple map: the hold-out in which the blend has more than twice its
+  /// error.
   LeftOut<std::string> fails_in;
   /// Predictions without a map that are better.
   LeftOut<std::string> better_without_map;

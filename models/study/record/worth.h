@@ -8,10 +8,11 @@
 namespace errmap::models {
 
 /// Refits `recipe` to the training rows of every fold of `holdout` without one
-/// of their sessions (another in each fold). Compares its error on the fold's
-/// test rows with that in `result`. Needs 4 to 50 whole sessions held out (with
-/// more, another one is not worth a fit). Returns nothing otherwise, or if a
-/// fit fails. Fits run on options.jobs threads, without effect on the result.
+/// of their sessions (a different one in each fold). Compares its error on the
+/// fold's test rows with that in `result`. Needs 4 to 50 whole sessions held
+/// out (with more, another one is not worth a fit). Returns nothing otherwise,
+/// or if a fit fails. Fits run on options.jobs threads, without effect on the
+/// result.
 std::optional<SessionWorth> WorthOfASession(const data::Dataset& dataset,
                                             const Holdout& holdout,
                                             const ModelRecipe& recipe,

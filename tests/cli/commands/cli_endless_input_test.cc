@@ -65,7 +65,7 @@ TEST_F(CliEndlessInput, AFolderWithAPipeForItsFitsIsRefused) {
         RefusalOf(
             Run({"compare", kDown, "--models", "mean", "--out", "study", flag}),
             kUnusable),
-        HasSubstr("study/fits.sqlite: is no plain file"));
+        HasSubstr("study/fits.sqlite: is not a plain file"));
   }
 }
 

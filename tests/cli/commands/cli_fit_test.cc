@@ -104,7 +104,7 @@ TEST_F(CliFit, GivesTheSameAsJson) {
 TEST_F(CliFit, ShrunkenFitsShowNoPValues) {
   const std::string text = OneLine(Print("poly:ridge"));
   EXPECT_THAT(text, HasSubstr("by cross-validation over groups:5 of cycle"));
-  EXPECT_THAT(text, HasSubstr("no honest standard errors or p-values"));
+  EXPECT_THAT(text, HasSubstr("no valid standard errors or p-values"));
   EXPECT_THAT(text, ::testing::Not(HasSubstr("std. error")));
 }
 
@@ -202,7 +202,7 @@ TEST_F(CliFit, RefusesBadSpecsInOneClearLine) {
 TEST_F(CliFit, ShowsEveryStartAndTheirSpread) {
   const std::string model = "net:scg:starts=3:iterations=5";
   const std::string text = Print(model);
-  for (const char* part : {"3 starts, * the one taken: lowest cost",
+  for (const char* part : {"3 starts, * chosen: lowest cost",
                            "held-out RMSE",
                            "iteration_limit",
                            "costs from "}) {

@@ -200,8 +200,8 @@ TEST_F(CliMemory, CountsTheRowsThatTheMapIsMadeFor) {
   Write("no_day.csv", "x_mm,t1_degC,error_um\n0,20,1\n50,21,2\n");
   EXPECT_THAT(
       RefusalOf(Run({"predict", "one.json", "no_day.csv"}), kCliMemoryUnusable),
-      HasSubstr("no column 'day', which tells the map's memory where a "
-                "session begins; add it, or name another with --session"));
+      HasSubstr("no column 'day', which shows the map's memory where a session "
+                "begins; add it, or name another with --session"));
 }
 
 TEST_F(CliMemory, RunsThroughEarlierRowsFirst) {
@@ -248,7 +248,7 @@ TEST_F(CliMemory, WarnsOncePerSessionThatBeginsInside) {
   EXPECT_THAT(ColumnOf(rested, "inside"), ::testing::Each(1.0));
   EXPECT_THAT(
       Run({"predict", "map.json", "later.csv", "--after", "later.csv"}).err,
-      HasSubstr("no session of later.csv goes on in later.csv"));
+      HasSubstr("no session of later.csv continues in later.csv"));
 }
 
 TEST_F(CliMemory, RefusesDataWithoutTimes) {

@@ -65,7 +65,7 @@ TEST_F(CliOutputs, OutputsThatAreInputsAreRefusedBeforeAnyWork) {
     EXPECT_EQ(Read("x.csv"), data);
     EXPECT_EQ(Read("m.json"), map);
   }
-  // What is no input is replaced, as ever.
+  // What is not an input is replaced, as ever.
   Write("old.json", "old");
   EXPECT_EQ(Run({"fit", "x.csv", "--model", "mean", "-o", "old.json"}).status,
             0);
@@ -100,7 +100,7 @@ TEST_F(CliOutputs, FitsThatAreRefusedLeaveNoFolder) {
                              "--format",
                              "json"}),
                         kWrongCommandLine),
-              HasSubstr("tells of one map"));
+              HasSubstr("describes one map"));
   EXPECT_FALSE(Exists("maps"));
 }
 
@@ -220,7 +220,7 @@ TEST_F(CliOutputs, AReportOfAResultThatWasChangedByHandSaysSo) {
   results["provenance"].erase("content_sha256");
   Write("study/results.json", results.dump(1));
   EXPECT_THAT(Run({"report", "study", "--force"}).err,
-              HasSubstr("holds no hash"));
+              HasSubstr("has no hash"));
 }
 
 // It was written for a single study only, and not at all here, with status 0.
@@ -238,7 +238,7 @@ TEST_F(CliOutputs, OnePageOfManyComponentsIsRefused) {
                              "-o",
                              "page.html"}),
                         kWrongCommandLine),
-              HasSubstr("-o writes the page of one study"));
+              HasSubstr("-o writes the page of one component"));
 }
 
 TEST_F(CliOutputs, MoreJobsThanCoresAreTakenWithoutAWord) {

@@ -180,7 +180,7 @@ TEST_F(CliPlantedFaults, AnUnknownUnitIsRefusedWithTheList) {
   file.header[kT1] = "t1 [brix]";
   EXPECT_THAT(
       Compare(file.Csv()).err,
-      HasSubstr("errmap: no unit is read from 't1 [brix]': 'brix' is no "
+      HasSubstr("errmap: no unit is read from 't1 [brix]': 'brix' is not a "
                 "unit known here\n"));
   file.header[kT1] = "travel_m";
   EXPECT_THAT(Compare(file.Csv()).err,
@@ -215,14 +215,15 @@ TEST_F(CliPlantedFaults, SentinelsInTheTargetAreNamedAndCanBeLeftOut) {
       AllOf(HasSubstr("warning: error_mm 9999 mm in data rows 10, 77 is far "
                       "beyond all others"),
             HasSubstr("--faults drop-rows leaves these 2 rows out: a "
-                      "linear map misses the other rows by"),
-            HasSubstr(" um RMSE with them, by 0.")));
+                      "linear map's error on the other rows is"),
+            HasSubstr(" um RMSE with them, 0.")));
   const Json faults = Component(outcome)["data"]["faults"];
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0]["column"], "error_mm");
   EXPECT_EQ(faults[0]["rows"], Json::parse("[10,77]"));
   const Outcome dropped = Compare(file.Csv(), {"--faults", "drop-rows"});
-  EXPECT_THAT(dropped.err, HasSubstr("errmap: 2 rows left out for them\n"));
+  EXPECT_THAT(dropped.err,
+              HasSubstr("errmap: 2 rows left out because of them\n"));
   const Json component = Component(dropped);
   EXPECT_EQ(component["data"]["rows"], 118);
   EXPECT_NEAR(RmseUm(component), 0.1, 0.03);
@@ -316,7 +317,7 @@ TEST_F(CliPlantedFaults, PositionsAsTextStopTheStudy) {
                                   return "left";
                                 }).Csv()),
                         kUnusable),
-              HasSubstr("column 'position_mm': 'left' is no number"));
+              HasSubstr("column 'position_mm': 'left' is not a number"));
 }
 
 TEST_F(CliPlantedFaults, APositionInAnyCaseIsThePosition) {
@@ -429,7 +430,7 @@ TEST_F(CliPlantedFaults, PredictionsThatAreNotFiniteAreCountedAndFail) {
   const Outcome large = Run({"evaluate", "m.json", "other.csv", "--quiet"});
   EXPECT_EQ(large.out, "");
   EXPECT_THAT(RefusalOf(large, kEveryFitFailed),
-              HasSubstr("too much to be squared"));
+              HasSubstr("too large to be squared"));
 }
 
 }  // namespace

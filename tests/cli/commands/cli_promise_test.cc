@@ -155,8 +155,8 @@ TEST_F(CliPromise, EvaluateAdvisesNothingByTooFewRows) {
     return OneLine(Run({"evaluate", "map.json", "few.csv"}).out);
   };
   EXPECT_THAT(first(1),
-              AllOf(HasSubstr("1 row cannot tell whether an offset explains"),
-                    Not(HasSubstr("a constant would do better")),
+              AllOf(HasSubstr("1 row cannot show whether an offset explains"),
+                    Not(HasSubstr("a constant would be better")),
                     Not(HasSubstr("re-zero, which leaves"))));
   EXPECT_THAT(first(23), Not(HasSubstr("re-zero, which leaves")));
   EXPECT_THAT(first(24), Not(HasSubstr("cannot tell")));
@@ -419,7 +419,7 @@ TEST_F(CliPromise, CheckKnowsNothingWhereReadingsBetweenProbesAreMissing) {
 TEST_F(CliPromise, CheckSaysWhichProbesTheMapLearntFrom) {
   Write("known.csv", DaysInCliPromise(10, 11, 0.0, 0.0, 13));
   EXPECT_THAT(OneLine(Run({"check", "map.json", "known.csv"}).out),
-              HasSubstr("4 of 8 rows are ones that the map was trained on"));
+              HasSubstr("The map was fitted to 4 of 8 rows"));
   Write("new.csv", DaysInCliPromise(11, 11, 0.0, 0.0, 13));
   EXPECT_THAT(Run({"check", "map.json", "new.csv"}).out,
               Not(HasSubstr("trained on")));
@@ -476,7 +476,7 @@ TEST_F(CliPromise, CheckNeedsHeldOutErrors) {
   Write("probes.csv", DaysInCliPromise(11, 11, 0.0, 0.0, 13));
   EXPECT_THAT(RefusalOf(Run({"check", "bare.json", "probes.csv", "--quiet"}),
                         kUnusable),
-              HasSubstr("holds no errors of unseen days"));
+              HasSubstr("has no held-out errors to judge probes by"));
 }
 
 TEST_F(CliPromise, ProbesMoveLaterRowsAndNarrowTheInterval) {

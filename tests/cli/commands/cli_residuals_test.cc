@@ -64,11 +64,11 @@ TEST_F(CliResiduals, OneScreenSaysWhatTheReportSawAndWhatIsThere) {
   EXPECT_EQ(outcome.status, 0);
   EXPECT_THAT(OneLine(outcome.out),
               AllOf(HasSubstr("So it calls them not normal"),
-                    HasSubstr("K-S D 0.0915 for 0.0380"),
-                    HasSubstr("the slip decided"),
+                    HasSubstr("K-S D 0.0915, not 0.0380"),
+                    HasSubstr("the wrong divisors changed the verdict"),
                     HasSubstr("The shape is close to normal"),
                     HasSubstr("They are not independent"),
-                    HasSubstr("biased by cycle: its means explain 48 %")));
+                    HasSubstr("mean depends on cycle, which explains 48 %")));
   const std::vector<std::string> lines = SplitLines(outcome.out);
   EXPECT_LE(lines.size(), 50U);
   for (std::size_t i = 1; i < lines.size(); ++i) {  // the first has the path
@@ -89,7 +89,7 @@ TEST_F(CliResiduals, BlamesTheSlipOnlyWhereNoTestRejects) {
       text,
       AllOf(HasSubstr("So it calls them not normal"),
             HasSubstr("by Lilliefors' test, but other tests reject at 1 %."),
-            Not(HasSubstr("the slip decided"))));
+            Not(HasSubstr("the wrong divisors changed the verdict"))));
 }
 
 // With the right divisors Eq. 140 says the same, so they are not to blame.
@@ -104,7 +104,7 @@ TEST_F(CliResiduals, BlamesTheGivenMeanAndSdWhereTheDivisorsChangeNothing) {
               AllOf(HasSubstr("So it calls them normal, as it would with the "
                               "right divisors (p 0.3"),
                     HasSubstr("Lilliefors' test allows for their estimate"),
-                    Not(HasSubstr("the slip decided"))));
+                    Not(HasSubstr("the wrong divisors changed the verdict"))));
 }
 
 TEST_F(CliResiduals, JsonHasEveryStatistic) {
@@ -221,7 +221,7 @@ TEST_F(CliResiduals, FewOrEqualValuesAreAnsweredOrRefusedNeverNaN) {
       HasSubstr("r.csv: line 3 (data row 1), column 'r'"));
 }
 
-// An instrument of 1 um on a scatter of 1 um: ties are no modes.
+// An instrument of 1 um on a scatter of 1 um: ties are not modes.
 TEST_F(CliResiduals, RoundedReadingsAreComparedWithRoundedNormals) {
   std::vector<std::string> values;
   for (int i = 0; i < 400; ++i) {
@@ -231,7 +231,7 @@ TEST_F(CliResiduals, RoundedReadingsAreComparedWithRoundedNormals) {
   std::string text = TextOf(values);
   std::ranges::replace(text, '\n', ' ');
   EXPECT_THAT(text,
-              AllOf(HasSubstr("The values stand in steps of 1"),
+              AllOf(HasSubstr("The values come in steps of 1"),
                     HasSubstr("consistent with a normal distribution"),
                     HasSubstr("for values without steps"),
                     Not(HasSubstr("more than one mode")),
@@ -261,7 +261,7 @@ TEST_F(CliResiduals, SaysThatNoMemoryShowsOnlyWhereNoTestShowsOne) {
   EXPECT_THAT(text,
               AllOf(HasSubstr("They are not independent"),
                     HasSubstr("Tests that reject at 1 %: Durbin-Watson."),
-                    Not(HasSubstr("No memory shows"))));
+                    Not(HasSubstr("The order shows no autocorrelation"))));
 }
 
 TEST_F(CliResiduals, DroppedRowsAreDroppedFromEveryColumn) {

@@ -213,7 +213,7 @@ TEST_F(Resume, RefusesAFolderThatAnotherRunIsUsing) {
   }
   const std::string message =
       RefusalOf(Run(Command("study", {"--quiet"})), kFailure);
-  EXPECT_THAT(message, HasSubstr("another errmap is at work in this folder"));
+  EXPECT_THAT(message, HasSubstr("another errmap is using this folder"));
 }
 
 // Limits the length of files that the program may write, as a full disk would.

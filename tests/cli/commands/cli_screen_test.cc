@@ -384,8 +384,7 @@ TEST_F(Screens, WriteThePageAlone) {
   EXPECT_THAT(outcome.out, ContainsRegex("the page +page.html\n"));
   EXPECT_THAT(Read("page.html"), HasSubstr("</html>"));
   EXPECT_THAT(Run({"compare", kDown, "-o", "study"}).err,
-              HasSubstr("study.html; a folder with it, all maps and figures: "
-                        "--out study"));
+              HasSubstr("study.html; --out study writes a folder"));
   EXPECT_EQ(Run(With({"compare", kDown, "-o", kDown}, kQuick)).status,
             kWrongCommandLine);
 }
@@ -427,9 +426,9 @@ TEST_F(Screens, GuessWhatWasMeant) {
               HasSubstr("no option '--hlep'; did you mean '--help'?"));
   EXPECT_THAT(err({"compare", kDown, "-m", "mean"}),
               HasSubstr("no option '-m'; see errmap compare --help"));
-  EXPECT_THAT(RefusalOf(Run({"evaluate", kDown, "map.json"}), kUnusable),
-              HasSubstr("is no map, which is JSON that errmap wrote; a map is "
-                        "named first"));
+  EXPECT_THAT(
+      RefusalOf(Run({"evaluate", kDown, "map.json"}), kUnusable),
+      HasSubstr("is not a map (JSON written by errmap); name the map first"));
   EXPECT_THAT(err({"help", "comprae"}), HasSubstr("did you mean 'compare'?"));
   EXPECT_THAT(err({"compare", kDown, "--modles", "mean"}),
               HasSubstr("no option '--modles'; did you mean '--models'?"));
@@ -455,7 +454,7 @@ TEST_F(Screens, GuessWhatWasMeant) {
 }
 
 // A figure that stands in several places is written alike in all of them: no
-// length is another one rounded. The goal is no figure of the study.
+// length is another one rounded. The goal is not a figure of the study.
 TEST_F(Screens, SayEachFigureInOneWay) {
   const Outcome outcome = Run(
       With({"compare", kDown, "--details", "--goal", "7um", "--out", "study"},
@@ -508,7 +507,7 @@ TEST_F(Screens, TakeAGoalWithItsUnit) {
                         "more than the error itself; write 20um if that was "
                         "meant"));
   EXPECT_THAT(RefusalOf(compare("2 arcsec"), kUnusable),
-              HasSubstr("goal is 2 arcsec, and the target is in mm"));
+              HasSubstr("goal is 2 arcsec, but the target is in mm"));
   EXPECT_THAT(Run({"compare",
                    kDown,
                    "--models",

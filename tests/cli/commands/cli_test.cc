@@ -326,7 +326,7 @@ TEST_F(Cli, PredictKeepsIdColumnsAndMarksExtrapolation) {
   EXPECT_EQ(records[0].at("inside"), "1");
   EXPECT_EQ(records[1].at("inside"), "0");
   EXPECT_THAT(outcome.err, HasSubstr("1 row outside the trained range"));
-  EXPECT_THAT(outcome.err, HasSubstr("compensate by minus that"));
+  EXPECT_THAT(outcome.err, HasSubstr("the compensation is minus that"));
   EXPECT_EQ(Run({"predict", "m.json", "p.csv", "-o", "p.out"}).out, "");
   EXPECT_EQ(Read("p.out"), outcome.out);
   Write("q.csv", "position_mm\n-12.7\n");

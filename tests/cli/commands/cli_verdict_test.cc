@@ -126,7 +126,7 @@ TEST_F(Cli, TakesPredictionsFromElsewhereIntoTheTable) {
   EXPECT_EQ(theirs["results"]["groups:5"]["test"],
             ours["results"]["groups:5"]["test"]);
   EXPECT_EQ(theirs["parameters"], nullptr);
-  // Predictions alone are no map to compensate with.
+  // Predictions alone are not a map to compensate with.
   EXPECT_EQ(component["recommendation"]["model"], "poly:full:degree=3");
 }
 
@@ -173,7 +173,7 @@ TEST_F(Cli, SaysWhereHoldOutsOfUnseenCyclesDisagree) {
                                   "--quiet"});
   EXPECT_EQ(component["recommendation"]["model"], "poly:full:degree=3");
   EXPECT_THAT(component["recommendation"]["caveats"].dump(),
-              HasSubstr("Disagreement: poly:position errs less under "
+              HasSubstr("Disagreement: poly:position has a lower error under "
                         "forward:5: "));
 }
 

@@ -50,7 +50,7 @@ std::vector<std::string> Paragraphs(const std::string& text) {
   return paragraphs;
 }
 
-// A row of a table is no sentence, and a list of names is one word.
+// A row of a table is not a sentence, and a list of names is one word.
 void ExpectShortSentences(const std::string& command, const std::string& text) {
   static const std::regex list("([^ ,]+, ){3,}[^ ,]*[^ ,.]");
   static const std::regex end("[.?!]\\)?( |$)");

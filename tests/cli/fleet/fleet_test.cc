@@ -64,7 +64,7 @@ TEST_F(Fleet, InitProposesAStudyOfAFolder) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out,
               HasSubstr("8 files; left out, since they cannot be mapped: "
-                        "'notes', 'yaw_up';\nlook it over"));
+                        "'notes', 'yaw_up';\ncheck it"));
   EXPECT_THAT(
       Read("study.toml"),
       AllOf(HasSubstr("name = \"{machine}/{component}, {direction}\""),
@@ -172,12 +172,12 @@ TEST_F(Fleet, WrongCommandLinesGetOneLine) {
                 HasSubstr("give I/N"));
   }
   EXPECT_THAT(RefusalOf(Study("data"), kWrongCommandLine),
-              HasSubstr("is no store and not empty"));
+              HasSubstr("is not a store and not empty"));
   EXPECT_THAT(
       RefusalOf(Run({"compare", "x.csv", "--shard", "0/1"}), kWrongCommandLine),
       HasSubstr("--config"));
   EXPECT_THAT(RefusalOf(Run({"merge", "data"}), kUnusable),
-              HasSubstr("is no store"));
+              HasSubstr("is not a store"));
   Write("bad.toml", "[[component]]\nname = \"{a}\"\ndata = \"{b}.csv\"\n");
   EXPECT_THAT(RefusalOf(Run({"compare", "--config", "bad.toml", "--out", "s"}),
                         kUnusable),
@@ -256,7 +256,7 @@ TEST_F(FleetQuery, NewerSchemasAndOtherFilesAreRefusedByName) {
   for (const Outcome& outcome :
        {Run({"deploy", "store", "--all"}), Run({"merge", "store"})}) {
     EXPECT_THAT(RefusalOf(outcome, kUnusable),
-                AllOf(HasSubstr("store/errmap.sqlite is of schema 99"),
+                AllOf(HasSubstr("store/errmap.sqlite has schema 99"),
                       HasSubstr("use the newer errmap")));
   }
   EXPECT_EQ(Read("store/errmap.sqlite"), store);
@@ -269,7 +269,7 @@ TEST_F(FleetQuery, NewerSchemasAndOtherFilesAreRefusedByName) {
   // A pipe would be waited for.
   ASSERT_EQ(mkfifo((scratch_ / "store/errmap.sqlite").c_str(), 0600), 0);
   EXPECT_THAT(RefusalOf(Run({"deploy", "store", "--all"}), kUnusable),
-              HasSubstr("store/errmap.sqlite: is no plain file"));
+              HasSubstr("store/errmap.sqlite: is not a plain file"));
 }
 
 // Bytes that a disk lost, in any page: named, and merged anew.
@@ -299,7 +299,7 @@ TEST_F(FleetQuery, AFullDiskIsOneLineAndTheStoreStaysAsItWas) {
   const std::string before = Read("store/errmap.sqlite");
   EXPECT_THAT(RefusalOf(RunWithFilesUpTo(40000, {"merge", "store"}), kFailure),
               AllOf(HasSubstr("cannot write store/errmap.sqlite"),
-                    HasSubstr("it is as it was")));
+                    HasSubstr("it is unchanged")));
   EXPECT_EQ(Read("store/errmap.sqlite"), before);
   EXPECT_FALSE(Exists("store/errmap.sqlite.new"));
 }

@@ -278,7 +278,7 @@ TEST_F(WatchedFiles, AreOfTheirOwnMachineOnly) {
   for (const char* file : {"m02/x_down.csv", "m02/w_up.csv"}) {
     WriteComponent(std::string("new/") + file, 30);
     EXPECT_THAT(Run({"watch", "store", "new"}).err,
-                HasSubstr("no file is of a component with a map deployed"))
+                HasSubstr("no file belongs to a component with a deployed map"))
         << file;
   }
   EXPECT_EQ(Run({"watch", "store", "new"}).status, kUnusable);
@@ -366,7 +366,7 @@ TEST_F(Watch, FullDisksAndNewerSchemasChangeNothing) {
   const std::string newer = Read("store/errmap.sqlite");
   for (const std::vector<std::string>& words : commands) {
     EXPECT_THAT(RefusalOf(Run(words), kUnusable),
-                HasSubstr("store/errmap.sqlite is of schema 99"))
+                HasSubstr("store/errmap.sqlite has schema 99"))
         << words.front();
   }
   EXPECT_EQ(Read("store/errmap.sqlite"), newer);

@@ -74,7 +74,7 @@ TEST(ShareOf, RefusesAnArrayWithGapsAndWhatIsHalfSet) {
   EXPECT_THAT(Found("env", {{"PMI_RANK", "1"}}),
               HasSubstr("PMI_SIZE is not set"));
   EXPECT_THAT(Found("env", {{"PMI_RANK", "2"}, {"PMI_SIZE", "2"}}),
-              HasSubstr("is no share"));
+              HasSubstr("is not a share"));
   EXPECT_THAT(Found("env", {{"PMI_RANK", "x"}, {"PMI_SIZE", "2"}}),
               HasSubstr("no whole number"));
 }

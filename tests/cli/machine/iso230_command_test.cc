@@ -154,7 +154,7 @@ TEST_F(Iso230, WhatCannotBeJudgedIsSaid) {
   Write("words.csv", "position_mm,way,error_um\n0,here,1\n1,there,2\n");
   EXPECT_THAT(
       RefusalOf(Run({"iso230", "words.csv", "--direction", "way"}), kUnusable),
-      HasSubstr("'here' is no direction"));
+      HasSubstr("'here' is not a direction"));
   RefusalOf(Run({"iso230",
                  "both.csv",
                  "up.csv",

@@ -280,7 +280,7 @@ TEST_F(MachineStudy, StatesIntervalsByTheToolOnSessionsHeldOut) {
   EXPECT_THAT(OneLine(screen.out),
               AllOf(HasSubstr("Stated 90 % intervals of the error at the tool"),
                     HasSubstr("by the errors at the tool on 1, 2, 3, 4, each "
-                              "session held out of the fits in its turn")));
+                              "session held out in turn")));
 }
 
 // The folder by an absolute path, which the record does not keep.
@@ -363,7 +363,7 @@ TEST_F(MachineStudy, RefusesWhatCannotBeJudged) {
   const std::vector<Case> cases = {
       {{"compare", "s/x_yaw.csv", "--later", "2"},
        kWrongCommandLine,
-       "--later goes with --machine"},
+       "--later needs --machine"},
       {{"compare", "--machine", "s/machine.toml"},
        kWrongCommandLine,
        "--machine needs the folder"},
@@ -398,7 +398,7 @@ TEST_F(MachineStudy, RefusesWhatCannotBeJudged) {
       {{"compare", "--machine", "bare.toml", "askew"},
        kUnusable,
        "askew/diagonals.csv: line 2 (data row 0), column 'diagonal': 'up' is "
-       "no diagonal"}};
+       "not a diagonal"}};
   for (const Case& c : cases) {
     SCOPED_TRACE(::testing::PrintToString(c.words));
     EXPECT_THAT(RefusalOf(Run(c.words), c.status), HasSubstr(c.says));

@@ -125,7 +125,7 @@ TEST_F(VolumetricCommand, TheLatheOfTheReportCutsTheErrorOfAnotherDay) {
   EXPECT_THAT(outcome.err,
               AllOf(HasSubstr("tool minus work, in X, Z at most"),
                     HasSubstr("exact and first order differ by at most"),
-                    HasSubstr("Compensate by minus that")));
+                    HasSubstr("The compensation is minus that")));
   const std::vector<Record> points = Records(Read("out.csv"));
   const std::vector<Record> truth = Records(Process::TextOf(file));
   ASSERT_EQ(points.size(), truth.size());
@@ -257,7 +257,7 @@ TEST_F(VolumetricCommand, SaysWhatIsLeftAlongTheDiagonals) {
                     HasSubstr("measured: ppp "),
                     HasSubstr("; minus the maps: ppp "),
                     HasSubstr("measured there 1"),
-                    HasSubstr(" less what the maps say")));
+                    HasSubstr(" after subtracting the maps")));
   EXPECT_EQ(Records(Read("out.csv"))[9].at("diagonal"), "ppp");
   EXPECT_EQ(Records(Read("out.csv"))[9].at("diagonal_direction"), "reverse");
 }
@@ -275,7 +275,7 @@ TEST_F(VolumetricCommand, RefusesDiagonalsThatAreNone) {
              "p.csv: line 2 (data row 0), column 'diagonal_direction': 'up' is "
              "neither forward nor reverse"},
         Case{"diagonal,diagonal_direction,x_mm\np00,forward,1\n",
-             "'p00' is no diagonal: give the signs"},
+             "'p00' is not a diagonal: give the signs"},
         Case{"diagonal,diagonal_direction,x_mm\npp0,forward,1\n",
              "p.csv: diagonal 'pp0': AlongDiagonal: all points are one"}}) {
     Write("p.csv", c.text);
@@ -509,10 +509,11 @@ TEST_F(VolumetricCommand, SuspectsConstantsInAnotherUnit) {
   Write("p.csv", "x_mm\n1\n");
   const Outcome outcome = Volumetric("m.toml", "p.csv");
   EXPECT_EQ(outcome.status, 0);
-  EXPECT_THAT(outcome.err,
-              AllOf(HasSubstr("m.toml:7:18: warning: EXX = 3.5 mm is no error"),
-                    HasSubstr("EBX = 12 rad is no error of a machine tool; the "
-                              "file's angles are in rad")));
+  EXPECT_THAT(
+      outcome.err,
+      AllOf(HasSubstr("m.toml:7:18: warning: EXX = 3.5 mm is not an error"),
+            HasSubstr("EBX = 12 rad is not an error of a machine tool; the "
+                      "file's angles are in rad")));
   Write("m.toml",
         "length = \"um\"\nangle = \"arcsec\"\n" +
             OneSlide("EXX = 3.5, EBX = 12"));

@@ -5,7 +5,7 @@
 
 Six simulated logs are each written in twenty-two ways that do not change what
 was measured: other names, units, orders of rows and columns, forms of time,
-files, and columns that are no readings. The recommended map and its RMSE on
+files, and columns that are not readings. The recommended map and its RMSE on
 unseen sessions (to 1e-6 of it) must be those of the plain file. EXCEPTIONS has
 the relations that cannot hold for a set, each with the line that the program
 then prints; at most six of the 132.

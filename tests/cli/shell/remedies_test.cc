@@ -26,7 +26,7 @@ TEST(WithOwnRemedies, LeavesOutWhatTheCommandLacks) {
 TEST(WithOwnRemedies, LeavesQuotationsAndOtherCommandsAlone) {
   for (const char* message :
        {"no option '--quiet'; see errmap residuals --help",
-        "column 'a; b --exclude c' is no number; correct it",
+        "column 'a; b --exclude c' is not a number; correct it",
         "no map; errmap fit DATA.csv --model mean -o map.json makes one",
         "--by rows is no such choice",
         "the machine's rows; --time names them"}) {

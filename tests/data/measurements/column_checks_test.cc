@@ -60,11 +60,11 @@ TEST(ColumnChecks, BadCellsAreNamedWithTheirPlaceAndRemedy) {
   EXPECT_THAT(ErrorOf("a,error\n1,1\n1e999,2\n"),
               HasSubstr("'1e999' is beyond the range of a double"));
   EXPECT_THAT(ErrorOf("a,error\n1,1\nbroken,2\n"),
-              HasSubstr("'broken' is no number; fill it in"));
+              HasSubstr("'broken' is not a number; fill it in"));
   EXPECT_THAT(ErrorOf("a,error\n1,1\n1o5,2\n"),
-              HasSubstr("'1o5' is no number; correct it"));
+              HasSubstr("'1o5' is not a number; correct it"));
   EXPECT_THAT(ErrorOf("a,error\n1.5,1\n\"1,5\",2\n"),
-              HasSubstr("'1,5' is no number here; write a decimal point, or "
+              HasSubstr("'1,5' is not a number here; write a decimal point, or "
                         "separate the columns with ; or tab"));
 }
 
@@ -101,7 +101,7 @@ TEST(ColumnChecks, DropRowsDropsNothingButMissingCellsAndWords) {
   EXPECT_THAT(ErrorOf("a,error\n1,1\n1e999,2\n,3\n", drop),
               HasSubstr("line 3 (data row 1), column 'a': '1e999' is beyond"));
   EXPECT_THAT(ErrorOf("a,error\n1,1\n,2\n1o5,3\n", drop),
-              HasSubstr("'1o5' is no number"));
+              HasSubstr("'1o5' is not a number"));
   EXPECT_THAT(Make("a,error_um\n1,1\n--.--,2\nwarm,3\n****,3\n2,4\n", drop)
                   .dataset.rows(),
               ElementsAre(0, 4));
@@ -185,10 +185,11 @@ TEST(ColumnChecks, MissingCellsAreCountedAmongTheRowsAskedFor) {
 }
 
 TEST(ColumnChecks, RefusesUnknownUnitsInBracketsAndOnTheTarget) {
-  EXPECT_THAT(ErrorOf("a,error [furlong]\n1,2\n2,3\n"),
-              HasSubstr("f.csv: column 'error [furlong]': 'furlong' is no unit "
-                        "known here; rename the column, with one of these in "
-                        "brackets: pm, nm, um, mm, cm, m, in,"));
+  EXPECT_THAT(
+      ErrorOf("a,error [furlong]\n1,2\n2,3\n"),
+      HasSubstr("f.csv: column 'error [furlong]': 'furlong' is not a unit "
+                "known here; rename the column, with one of these in "
+                "brackets: pm, nm, um, mm, cm, m, in,"));
   EXPECT_THAT(
       ErrorOf("a,error_m\n1,2\n2,3\n"),
       HasSubstr("'m' counts as a unit in brackets or parentheses only"));
@@ -200,7 +201,7 @@ TEST(ColumnChecks, TakesInputsInUnitsThatItDoesNotKnow) {
   EXPECT_EQ(prepared.dataset.num_inputs(), 2);
   EXPECT_THAT(prepared.remarks,
               Contains("no unit is read from 'a (left)', 'b [brix]': 'left' is "
-                       "no unit known here"));
+                       "not a unit known here"));
 }
 
 TEST(ColumnChecks, TakesTargetsInUnitsOfTheirOwn) {
@@ -262,10 +263,10 @@ TEST(ColumnChecks, DropsNoRowsForAColumnThatSaysNothing) {
 TEST(ColumnChecks, RefusesNumbersThatStandThereAsText) {
   EXPECT_THAT(ErrorOf("position_mm,a,error_mm\n12.7 mm,1,2\n25 in,4,3\n"),
               HasSubstr("f.csv: line 2 (data row 0), column 'position_mm': "
-                        "'12.7 mm' is no plain number; write it without its "
+                        "'12.7 mm' is not a plain number; write it without its "
                         "unit and without thousands separators"));
   EXPECT_THAT(ErrorOf("position,a,error_mm\nleft,1,2\nright,4,3\n"),
-              HasSubstr("column 'position': 'left' is no number"));
+              HasSubstr("column 'position': 'left' is not a number"));
   EXPECT_THAT(ErrorOf("position_mm,a,error_mm\n,1,2\n,4,3\n"),
               HasSubstr("column 'position_mm': empty cell"));
   EXPECT_EQ(Make("when,a,error_mm\n2024-01-01,1,2\n2024-01-02,4,3\n")

@@ -86,8 +86,8 @@ TEST(MakeDataset, RemarksOnErrorsThatNoMachineHas) {
   };
   EXPECT_THAT(
       remarks("error_mm", 1.0),
-      ElementsAre("error_mm is 3.54 mm RMS, more than machine tools err "
-                  "by; if it is in another unit, write that into its "
+      ElementsAre("error_mm is 3.54 mm RMS, more than errors of machine tools; "
+                  "if it is in another unit, write that into its "
                   "name: error_um, 'error [mm]'"));
   EXPECT_THAT(remarks("error_um", 1e-3),
               ElementsAre(HasSubstr("0.00354 um RMS, less than")));
@@ -103,10 +103,13 @@ TEST(MakeDataset, RemarksOnThermometersWithoutAUnitThatReadAsInDegF) {
                 std::to_string(first + 15.0) + ",2\n")
         .remarks;
   };
-  EXPECT_THAT(remarks("T1", 68.0),
-              ElementsAre("'T1' read as in degF, but name no unit; if they "
-                          "are, write it: 'T1 [degF]'"));
-  EXPECT_THAT(remarks("Spindle temp", 70.0), ElementsAre(HasSubstr("in degF")));
+  EXPECT_THAT(
+      remarks("T1", 68.0),
+      ElementsAre(
+          "readings of 'T1' look like degF, but have no unit; if they are, "
+          "write it: 'T1 [degF]'"));
+  EXPECT_THAT(remarks("Spindle temp", 70.0),
+              ElementsAre(HasSubstr("like degF")));
   EXPECT_THAT(remarks("T1", 20.0), IsEmpty());
   EXPECT_THAT(remarks("T1", 140.0), IsEmpty());
   EXPECT_THAT(remarks("T1 [degC]", 68.0), IsEmpty());

@@ -99,7 +99,7 @@ TEST_F(InFolder, AComparisonsResidualsAreNoMeasurements) {
       [&] { FindFiles({folder_}); },
       ThrowsMessage<InputError>(HasSubstr("errmap report " + folder_ + " ")));
   EXPECT_THAT([&] { FindFiles({folder_ + "/residuals.csv"}); },
-              ThrowsMessage<InputError>(HasSubstr("no measurements")));
+              ThrowsMessage<InputError>(HasSubstr("not measurements")));
   std::filesystem::create_directory(folder_ + "/residuals");
   Touch("residuals/x_down.csv");
   EXPECT_TRUE(IsOfComparison(folder_ + "/residuals/x_down.csv"));

@@ -175,8 +175,9 @@ TEST(MergeLog, SaysWhyATimeIsNone) {
                  {},
                  &table);
       },
-      ThrowsMessage<InputError>(HasSubstr("'2024-W10 8h05' is no time; write "
-                                          "it as 2024-03-01T12:00:05")));
+      ThrowsMessage<InputError>(
+          HasSubstr("'2024-W10 8h05' is not a time; write "
+                    "it as 2024-03-01T12:00:05")));
 }
 
 // Times of errors.csv under this name, two hours before those of the log.

@@ -248,8 +248,8 @@ TEST(MessyFiles, AllElseIsOneLineThatSaysWhatToDo) {
       {errmap::testing::ZipOf({{"mimetype", "ods"}}), "other than xlsx; save"},
       {"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"s,
        "(xls, or with a password); save it as xlsx or CSV"},
-      {"\x1F\x8B\x08\0"s, "is no gzip, or is cut off"},
-      {Gzip(text) + Gzip(text).substr(0, 99), "is no gzip, or is cut off"},
+      {"\x1F\x8B\x08\0"s, "is not gzip, or is cut off"},
+      {Gzip(text) + Gzip(text).substr(0, 99), "is not gzip, or is cut off"},
       {"BZh91AY&SY\x1D"s, "compressed (bzip2)"},
       {"%PDF-1.4\n", "PDF"},
       {"<!doctype html><table></table>\n", "web page"},
@@ -263,7 +263,7 @@ TEST(MessyFiles, AllElseIsOneLineThatSaysWhatToDo) {
       {text + "3,Mean,4380,200,24,21,9.5\n", "column 'cycle': 'Mean'"},
       {text + text.substr(text.find('\n') + 1), "120 rows repeat others"},
       {text + text, "120 rows repeat others"},
-      {Joined(WithCell(7, kT1, "warm")), "'warm' is no number"},
+      {Joined(WithCell(7, kT1, "warm")), "'warm' is not a number"},
       {Joined(WithCell(7, kT1, "1,5")), "8 fields where the header has 7"},
   };
   for (const auto& [messy, line] : files) {
@@ -330,8 +330,8 @@ TEST(MessyFiles, StopAtATimeThatCannotBeRead) {
   };
   for (const char* begin : {"2024-W10-1 08.", "4/2024 8h", "W10 2024:"}) {
     EXPECT_THAT(ErrorOf(with_times(begin)),
-                HasSubstr("is no time; write it as 2024-03-01T12:00:05, or go "
-                          "without a clock, by time = none"));
+                HasSubstr("is not a time; write it as 2024-03-01T12:00:05, or "
+                          "use no clock, with time = none"));
     EXPECT_NO_THROW(Make(with_times(begin), {.time = "none"}));
   }
   EXPECT_NO_THROW(Make(with_times("shift ")));

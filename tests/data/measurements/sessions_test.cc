@@ -75,7 +75,7 @@ TEST(Sessions, PassOverADefaultColumnThatCountsRows) {
   EXPECT_THAT(found.sessions.labels, ElementsAre("1"));
   EXPECT_THAT(found.remarks,
               Contains(HasSubstr("column 'run' has 4 values in 4 rows, which "
-                                 "are no sessions")));
+                                 "are not sessions")));
 }
 
 TEST(Sessions, TimeIsInSecondsByItsUnit) {
@@ -223,11 +223,12 @@ TEST(Sessions, PassOverATimeWithoutOrder) {
 
 TEST(Sessions, PassOverATimeInWordsThatNobodyNamed) {
   const std::string text = "time,x\nmorning,1\nnoon,2\n";
-  EXPECT_THAT(Find(text).remarks,
-              Contains(HasSubstr("column 'time': 'morning' is no time; the "
-                                 "column is passed over")));
+  EXPECT_THAT(
+      Find(text).remarks,
+      Contains(HasSubstr(
+          "column 'time': 'morning' is not a time; the column is skipped")));
   EXPECT_THAT([&] { Find(text, {.time = "time"}); },
-              Refuses("'morning' is no time; write seconds, or dates"));
+              Refuses("'morning' is not a time; write seconds, or dates"));
 }
 
 TEST(Sessions, SayWhereACellIsMissing) {

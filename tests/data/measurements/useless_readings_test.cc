@@ -145,7 +145,7 @@ TEST(UselessReadings, WhatIsMadeOfTheErrorsSizeIsLeftOut) {
   EXPECT_THAT(DroppedNames(Make(with("load", loose))), IsEmpty());
 }
 
-// A good map is no leak: thermometers that tell the error to their rounding.
+// A good map is not a leak: thermometers that tell the error to their rounding.
 TEST(UselessReadings, StatesThatTellTheErrorAreNoLeak) {
   const Rows rows = Changed(Measured(), [](std::size_t i, auto* cells) {
     if (i == 0) return;
@@ -228,9 +228,9 @@ TEST(UselessReadings, RowsThatAreNoMeasurementsAreNamedAndLeftOutByAnOption) {
   // Codes for "no reading" change every figure: the answer says so.
   for (const std::size_t i : {3U, 4U}) {
     EXPECT_THAT(Make(cases[i].text).doubts,
-                ElementsAre(HasSubstr("-999, which is no reading; ")));
+                ElementsAre(HasSubstr("-999, which is not a reading; ")));
   }
-  // Two lost rows whose thermometer reads alike are no reference.
+  // Two lost rows whose thermometer reads alike are not a reference.
   const PreparedDataset alike = Make(changed([](int i, auto* cells) {
     if (i == 38 || i == 39 || i == 118) {
       (*cells)[kError] = "0";

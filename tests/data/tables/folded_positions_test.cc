@@ -217,8 +217,8 @@ TEST(FoldedPositions, AreNoneOfWhatMayBeSomethingElse) {
 TEST(FoldedPositions, AreAskedForInTheFormThatWorks) {
   EXPECT_THAT(
       Sheet("err_1;err_2;err_3").remarks,
-      ElementsAre("f.csv: 'err_1' to 'err_3' are columns of their own; a "
-                  "column for each position is called error_um@50mm, one for "
+      ElementsAre("f.csv: 'err_1' to 'err_3' stay separate columns; a column "
+                  "for each position is called error_um@50mm, one for "
                   "each run 'Run 1 [um]'"));
   EXPECT_THAT(Sheet("t_1;t_2;t_3").remarks, ::testing::IsEmpty());
 }

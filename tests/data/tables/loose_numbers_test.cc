@@ -50,8 +50,8 @@ TEST(LooseNumbers, AreNamedByWhatIsDoneToThem) {
           HasSubstr("1 cell is read as a number without marks between "
                     "thousands (the first on line 4)"),
           HasSubstr("1 cell is read as a number without the remark after it"),
-          HasSubstr("2 cells are read as numbers with the minus that "
-                    "stands behind, which changes the sign (the first "
+          HasSubstr("2 cells are read as numbers with a minus after the "
+                    "number, which changes the sign (the first "
                     "on line 2)")));
 }
 

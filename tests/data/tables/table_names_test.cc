@@ -82,7 +82,7 @@ TEST(TableNames, NamesColumnsByNumberWhereThereAreNoNames) {
   EXPECT_THAT(table.remarks,
               ElementsAre("f.csv: no line of names: the columns are called "
                           "column_1 to column_3"));
-  // A row whose first reading is not a number is no header.
+  // A row whose first reading is not a number is not a header.
   EXPECT_EQ(ParseCsv("1,OPEN\n2,3\n4,5\n", "f.csv").num_rows, 3U);
 }
 

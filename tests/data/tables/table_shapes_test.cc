@@ -179,7 +179,7 @@ TEST(TableShape, ReadsOnBelowTheSameNamesAndBlankLines) {
   EXPECT_EQ(table.LineOfRow(2), 6U);
   EXPECT_THAT(table.remarks,
               ElementsAre(HasSubstr("blank lines between rows"),
-                          HasSubstr("names stand between the rows again")));
+                          HasSubstr("names are repeated between the rows")));
 }
 
 // ---- Lines that part the rows.
@@ -241,7 +241,7 @@ TEST(TableShape, MakesAColumnOfLinesThatPartTheRows) {
       EXPECT_EQ(table.CellText(table.At(column), row), of.cells[row / 4]);
     }
   }
-  // What is no session and no date, or comes once.
+  // What is not a session and no date, or comes once.
   for (const std::vector<std::string>& titles :
        std::vector<std::vector<std::string>>{
            {"# zero 1", "# zero 2"},

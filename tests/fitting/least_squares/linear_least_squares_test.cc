@@ -240,7 +240,7 @@ TEST(LinearLeastSquares, KeepsWhatOnly106BitsTellApart) {
   EXPECT_NEAR(fit.coefficients[0] + fit.coefficients[1], 3.0, 1e-12);
   EXPECT_NEAR(fit.coefficients[1], 2.0, 1e-4);
   EXPECT_NEAR(fit.coefficients[2], 3.0, 1e-12);
-  // What rounding may leave is no column.
+  // What rounding may leave is not a column.
   LeastSquaresOptions options;
   options.noise = [&](const VectorXd& combination) {
     return kApart * combination.norm();

@@ -78,7 +78,7 @@ TEST(CostResolution, IsUnknownAtASaddleThatTheGradientDoesNotSee) {
   EXPECT_TRUE(
       FindCostResolution(Bowl(1.0, VectorXd{{1.0, 1e-3, 0.5}}), x, kAlways)
           .is_reached());
-  // A direction that changes nothing is no way down.
+  // A direction that changes nothing is not a way down.
   EXPECT_TRUE(
       FindCostResolution(Bowl(1.0, VectorXd{{1.0, 0.0, 0.5}}), x, kAlways)
           .is_reached());

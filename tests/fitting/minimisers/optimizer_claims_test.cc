@@ -95,7 +95,7 @@ HardCase SaturatedNet(const std::string& name, double size, double wfactor) {
 
 std::vector<HardCase> AllHardCases() {
   std::vector<HardCase> cases = {
-      // Its point of zero gradient is no minimum, and there is none.
+      // Its point of zero gradient is not a minimum, and there is none.
       Function("Saddle",
                VectorXd{{1.0, 1e-3}},
                [](const VectorXd& x, VectorXd* gradient) {

@@ -260,7 +260,7 @@ TEST(History, SaysWhatTheDataLack) {
       message("reads input 't9_degC', which memory does not have"));
   EXPECT_THAT(
       [&] { DeriveInputs(dataset, Of({SineOf(ColumnNamed("t1_degC"))})); },
-      message("'t1_degC' is no angle"));
+      message("'t1_degC' is not an angle"));
   EXPECT_THAT(
       [&] {
         DeriveInputs(dataset, Of({Ema(ColumnNamed("t1_degC"), 0.0, "s")}));

@@ -351,7 +351,7 @@ TEST(DependentTerms, ASumRoundedInStepsIsStillOne) {
             kSame);
 }
 
-// Powers about a far centre all but depend on each other; they are no copies,
+// Powers about a far centre all but depend on each other; they are not copies,
 // and R's rule in double would drop some of them.
 TEST(DependentTerms, WhatOnly106BitsTellApartIsKept) {
   MatrixXd inputs(80, 1);
@@ -367,7 +367,7 @@ TEST(DependentTerms, WhatOnly106BitsTellApartIsKept) {
   EXPECT_EQ(fitted.model->num_parameters(), 5);
   EXPECT_EQ(fitted.regression->least_squares.value->bits, 106);
   EXPECT_THAT(fitted.remarks,
-              ::testing::Contains(HasSubstr("told apart in 106 bits")));
+              ::testing::Contains(HasSubstr("distinguished in 106 bits")));
   EXPECT_THAT(fitted.remarks,
               ::testing::Contains(HasSubstr("condition number")));
   // Raw powers of 1000 evaluated in double keep about this much.

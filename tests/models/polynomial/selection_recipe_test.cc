@@ -118,14 +118,14 @@ TEST(SelectionRecipe, TakesNoMoreTermsThanAFifthOfTheRows) {
   EXPECT_EQ(size(fifth), 12U);
   EXPECT_THAT(fifth.remarks,
               Contains("max_terms ends the selection at 12 terms, a fifth of "
-                       "60 rows; max_terms=none goes on as R's step() does"));
-  EXPECT_THAT(fifth.remarks, Not(Contains(HasSubstr("to tell the error"))));
+                       "60 rows; max_terms=none continues like R's step()"));
+  EXPECT_THAT(fifth.remarks, Not(Contains(HasSubstr("to estimate the error"))));
   // What the limit is there for: as many terms as degrees of freedom.
   const FittedModel all = fit(":max_terms=none");
   EXPECT_EQ(size(all), 58U);
   EXPECT_THAT(all.remarks,
-              Contains("59 coefficients leave only 1 of 60 rows to tell the "
-                       "error: what they fit says little about other rows"));
+              Contains("59 coefficients leave only 1 of 60 rows to estimate "
+                       "the error: the fit says little about other rows"));
   EXPECT_THAT(fit(":max_terms=3").remarks,
               Contains(HasSubstr("at 3 terms; a larger one")));
   // Where it does not bind nothing is said, nor is anything else chosen.

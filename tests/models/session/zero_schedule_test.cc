@@ -158,7 +158,7 @@ TEST(ZeroSchedule, NeedsWholeSessionsWithTimes) {
   EXPECT_THROW(ScheduleZeros(errors, 1.0), std::invalid_argument);
 }
 
-// Three positions a moment: most rows are no later than the one before.
+// Three positions a moment: most rows are not later than the one before.
 TEST(ZeroSchedule, ReadsCyclesThatMeasureSeveralPositionsAtOneTime) {
   HeldOutErrors errors = DaysToZero(6, 3, true);
   for (HeldOutErrors::Unit& unit : errors.units) {

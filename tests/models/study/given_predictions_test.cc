@@ -100,7 +100,7 @@ TEST(GivenPredictions, SayWhatIsWrongWhere) {
   EXPECT_THAT(refusal("row,fold,predicted\n0,0,1\n"),
               HasSubstr("no column 'holdout'"));
   EXPECT_THAT(refusal("row,predicted\n0,abc\n"),
-              AllOf(HasSubstr("line 2"), HasSubstr("'abc' is no finite")));
+              AllOf(HasSubstr("line 2"), HasSubstr("'abc' is not a finite")));
   EXPECT_THAT(refusal("row,predicted\n0,1\n0,1\n"), HasSubstr("stands twice"));
 }
 

@@ -148,12 +148,12 @@ TEST(SessionHoldouts, TellWhetherFoldsKeepSessionsWhole) {
   EXPECT_EQ(holdouts[1].inner, InnerHoldout::kWholeSessions);
   EXPECT_EQ(holdouts[2].inner, InnerHoldout::kWholeGroups);
   EXPECT_EQ(holdouts[3].inner, InnerHoldout::kWholeSessions);
-  // One session is no two: nothing is held out whole.
+  // One session is not two: nothing is held out whole.
   EXPECT_FALSE(MakeHoldouts(DaysInSessionHoldouts(1, true), {"groups:2"})[0]
                    .whole_sessions);
 }
 
-// Weeks that are held out whole are no days, though no day is parted.
+// Weeks that are held out whole are not days, though no day is parted.
 TEST(SessionHoldouts, LeaveCoarserGroupsWhatTheyAre) {
   const data::Dataset days = DaysInSessionHoldouts(6, false);
   data::Dataset::Parts parts;

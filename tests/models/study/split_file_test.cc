@@ -64,9 +64,9 @@ TEST(SplitFile, SaysWhatIsWrongWhere) {
   EXPECT_THAT(RefusalInSplitFile(header + "9,a,0,train\n"),
               AllOf(HasSubstr("line 2"), HasSubstr("no data row 9")));
   EXPECT_THAT(RefusalInSplitFile(header + "1.5,a,0,train\n"),
-              HasSubstr("'1.5' is no whole number"));
+              HasSubstr("'1.5' is not a whole number"));
   EXPECT_THAT(RefusalInSplitFile(header + "1,a,-1,train\n"),
-              HasSubstr("'-1' is no whole number"));
+              HasSubstr("'-1' is not a whole number"));
   EXPECT_THAT(RefusalInSplitFile(header + "1,a,0,exam\n"),
               HasSubstr("'exam' is none of train, test, unused"));
   EXPECT_THAT(RefusalInSplitFile(header + "1,a,0,train\n1,a,0,test\n"),

@@ -9,7 +9,7 @@
 namespace errmap::report {
 namespace {
 
-// `group` and `session`: the columns that tell, "" where there is none.
+// `group` and `session`: the columns that tell, "" if there is none.
 std::string Units(long long groups,
                   std::string_view group,
                   long long sessions,
@@ -56,11 +56,11 @@ std::string TargetWords(const data::Dataset& dataset) {
 std::string DoubtText(const models::StudyRecord& record) {
   if (!record.doubt) return "";
   return *record.doubt == models::Doubt::kChanged
-             ? "results.json was changed after errmap wrote it: its content is "
-               "not that of its hash, so these figures may not be what was "
-               "found. Run errmap compare again."
-             : "results.json holds no hash of its content, as errmap wrote "
-               "them formerly: whether it was changed is not known.";
+             ? "results.json was changed after errmap wrote it: its content "
+               "does not match its hash, so these figures may be wrong. Run "
+               "errmap compare again."
+             : "results.json has no hash of its content, since an older errmap "
+               "wrote it: it may have been changed.";
 }
 
 }  // namespace errmap::report

@@ -69,7 +69,7 @@ Remark ErrorOf(const ComponentNumbers& of) {
   }
   text += ", largest " + of.error.WithUnit(std::max(std::abs(result.test.min),
                                                     std::abs(result.test.max)));
-  if (holdout.among_neighbours) text += ", next to rows that it learnt from";
+  if (holdout.among_neighbours) text += ", next to training rows";
   return {.label = WhereMeasured(holdout),
           .text = std::move(text),
           .must_show = true};

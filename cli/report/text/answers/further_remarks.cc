@@ -269,7 +269,7 @@ Remarks Disagreement(const Numbers& of) {
         ResultOf(of.Model(advice.model), verdict.holdout);
     if (result == nullptr || result->tier < 2) continue;
     parts.push_back(
-        fmt::format("{} errs less under {}: {}, not {}",
+        fmt::format("{} has a lower error under {}: {}, not {}",
                     verdict.model,
                     verdict.holdout,
                     of.error.WithUnit(of.Rmse(verdict.model, verdict.holdout)),
@@ -330,8 +330,8 @@ Remarks OtherCuts(const Numbers& of) {
           "{} {:.0f} %", cuts.wins[i].model, kPercent * cuts.wins[i].share));
     }
     remarks.push_back(
-        {"other cuts",
-         fmt::format("of {} cuts of {} the lowest error went to {}",
+        {"other splits",
+         fmt::format("in {} splits of {} the lowest error went to {}",
                      cuts.repeats,
                      cuts.holdout,
                      data::JoinWords(shares, ", "))});

@@ -19,8 +19,8 @@ std::string WhyRecommended(const ComponentNumbers& component) {
   }
   if (advice.fails_in) {
     return fmt::format(
-        "a simple map: under {} the average of maps errs more than twice as "
-        "much",
+        "a simple map: under {} the average of maps has more than twice the "
+        "error",
         *advice.fails_in);
   }
   if (advice.single && advice.decided_by != advice.holdout) {
@@ -36,13 +36,13 @@ std::string WhyRecommended(const ComponentNumbers& component) {
         component.RmseWithUnit(*advice.single));
   }
   if (advice.choice == models::Choice::kBaseline) {
-    return "a baseline: no map with sensors is shown to be worth them";
+    return "a baseline: no map with sensors is proven worth them";
   }
   if (advice.first_tier.size() < 2) return "";
   const std::string& lowest = advice.first_tier.front();
   return lowest == advice.model
-             ? "the simplest of those that are as good"
-             : fmt::format("the simplest of those that are as good as {} ({})",
+             ? "the simplest of the equally good maps"
+             : fmt::format("the simplest of the maps as good as {} ({})",
                            lowest,
                            component.RmseWithUnit(lowest));
 }

@@ -34,7 +34,7 @@ using Remarks = std::vector<Remark>;
 using Tone = Remark::Tone;
 
 // What the share removed is of: no compensation, or the mean of a target that
-// is no error and far from 0.
+// is not an error and far from 0.
 std::string WithoutName(const Numbers& of) {
   const RecommendationRecord& advice = of.Advice();
   const double without = advice.rmse / (1.0 - advice.removed_share);
@@ -93,7 +93,7 @@ Remarks Rival(const Numbers& of) {
                : fmt::format("{}, {}{}; {}",
                              rmse,
                              *rival,
-                             errs_less ? ", which errs less" : "",
+                             errs_less ? ", which has a lower error" : "",
                              of.Certainty(*rival))}};
 }
 
@@ -149,7 +149,7 @@ Remarks Interrupted(const Numbers& of) {
   return {{"interrupted", "the fits are incomplete", Tone::kBad}};
 }
 
-// What is left is no noise where it shifts whole cycles, or repeats along the
+// What is left is not noise where it shifts whole cycles, or repeats along the
 // position.
 Remarks WhatIsLeft(const Numbers& of) {
   constexpr double kWorthSaying = 0.25;  // of the squared residuals
@@ -182,7 +182,7 @@ Remarks WhatIsLeft(const Numbers& of) {
     remarks.push_back(
         {"what is left",
          fmt::format(
-             "{:.0f} % of it repeats along {}: a finer curve would follow",
+             "{:.0f} % of it repeats along {}: a finer curve would remove it",
              kPercent * found.by_position->explained,
              found.by_position->column)});
   }
@@ -221,11 +221,11 @@ Remarks RowsLearnt(const Numbers& of) {
   Remarks remarks;
   for (const HoldoutRecord& holdout : of.record.holdouts) {
     if (!holdout.rows_of_training) continue;
-    remarks.push_back(
-        {"ignore " + holdout.name,
-         fmt::format("{} of its rows were learnt; give a file of another day",
-                     *holdout.rows_of_training),
-         Tone::kBad});
+    remarks.push_back({"ignore " + holdout.name,
+                       fmt::format("{} of its rows were used for training; "
+                                   "give a file of another day",
+                                   *holdout.rows_of_training),
+                       Tone::kBad});
   }
   return remarks;
 }
@@ -233,7 +233,7 @@ Remarks RowsLearnt(const Numbers& of) {
 Remarks BetterWithoutMap(const Numbers& of) {
   const auto& better = of.Advice().better_without_map;
   if (!better) return {};
-  return {{"errs less",
+  return {{"lower error",
            fmt::format("{}, {}: predictions without a map to use",
                        of.RmseWithUnit(*better),
                        *better)}};
@@ -275,7 +275,7 @@ Remarks HeldAgainstGoal(const Numbers& of) {
     case GoalStanding::kNotJudged:
       return {{"goal",
                found.n < models::kFewestRowsForGoal
-                   ? fmt::format("{}: not judged on {} rows; it takes {}",
+                   ? fmt::format("{}: not judged on {} rows; {} are needed",
                                  wanted,
                                  found.n,
                                  models::kFewestRowsForGoal)

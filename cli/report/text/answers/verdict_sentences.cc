@@ -97,13 +97,13 @@ std::string TestSentence(const ComponentNumbers& component,
       component.record, verdict.holdout, verdict.model, worse));
   const HoldoutRecord& held = component.Holdout(verdict.holdout);
   const std::string text =
-      fmt::format("{} has {} less than {}{}",
+      fmt::format("{} has {} less error than {}{}",
                   verdict.model,
                   component.error.WithUnit(std::abs(pair.difference)),
                   worse,
                   component.In95(IntervalOfExcess(pair, worse)));
   if (!std::isfinite(pair.p)) {
-    return text + ": they are one map but for rounding.";
+    return text + ": they are the same map apart from rounding.";
   }
   const Confidence confidence = Require(verdict.against_rival);
   return fmt::format("{}. {}. {}{}.",
@@ -131,7 +131,7 @@ std::string ChoiceSentence(const ComponentNumbers& component,
   }
   if (verdict.obstacle && verdict.confidence == Confidence::kOutOfReach) {
     return fmt::format(
-        "This cannot be told from chance: {}.",
+        "This may be chance: {}.",
         ObstacleText(
             component, *verdict.obstacle, component.Holdout(verdict.holdout)));
   }
@@ -139,8 +139,9 @@ std::string ChoiceSentence(const ComponentNumbers& component,
   std::string text = TestSentence(component, verdict);
   if (!verdict.established &&
       Require(verdict.against_rival) == Confidence::kEstablished) {
-    text += fmt::format(" That it beats the best baseline, {}, is not.",
-                        verdict.best_baseline.value_or(""));
+    text +=
+        fmt::format(" That it beats the best baseline, {}, is not established.",
+                    verdict.best_baseline.value_or(""));
   }
   return text;
 }
@@ -190,8 +191,7 @@ std::string GapSentence(const ComponentNumbers& component) {
     text += fmt::format(" and {} more", flattered.size() - kMostNamed);
   }
   return fmt::format(
-      "{}. Its held-out rows lie next to rows of training; whole {} ({}) do "
-      "not.",
+      "{}. Its held-out rows lie next to training rows; whole {} ({}) do not.",
       text,
       PluralOfUnit(component.Holdout(gap.unseen)),
       gap.unseen);
@@ -223,8 +223,8 @@ std::string MemorisationSentence(const ModelRecord& model) {
                          figures);
     case models::NoiseLearning::kMuch:
       return fmt::format(
-          "{} can learn its rows by heart: {}. Its training error says "
-          "nothing; a larger wfactor or fewer hidden nodes would.",
+          "{} can memorise its rows: {}. Its training error says nothing; try "
+          "a larger wfactor or fewer hidden nodes.",
           model.name,
           figures);
   }

@@ -28,9 +28,10 @@ std::string BaselineText(const models::CalibrationCheck& kept,
                        error.WithUnit(kept.uncompensated));
   }
   if (!kept.better_than_constant()) {
-    return fmt::format("no compensation {}; a constant would do better, {}",
-                       error.WithUnit(kept.uncompensated),
-                       error.WithUnit(kept.constant));
+    return fmt::format(
+        "no compensation leaves {}; a constant would be better: {}",
+        error.WithUnit(kept.uncompensated),
+        error.WithUnit(kept.constant));
   }
   return fmt::format(
       "better than no compensation ({}) and than any constant "
@@ -65,8 +66,8 @@ std::string KeptPromiseText(const models::CalibrationCheck& kept,
   text += BaselineText(kept, error, enough) + "\n";
   if (!enough) {
     return text + fmt::format(
-                      "{} cannot tell whether an offset explains it: it takes "
-                      "{} rows\n",
+                      "{} cannot show whether an offset explains it: {} rows "
+                      "are needed\n",
                       Count(rows, "row"),
                       models::kFewestRowsForGoal);
   }
@@ -78,7 +79,7 @@ std::string KeptPromiseText(const models::CalibrationCheck& kept,
         kPercent * kept.offset_share,
         error.WithUnit(kept.scatter()));
   } else if (kept.shape == models::ErrorShape::kShape) {
-    text += "no offset explains what it errs by: measure here and fit again\n";
+    text += "no offset explains this error: measure here and fit again\n";
   }
   return text;
 }
@@ -104,14 +105,14 @@ std::string TrialText(const models::UpdateTrial& trial,
                       error(trial.new_rmse));
   if (trial.is_negated()) {
     text += fmt::format(
-        "the new errors have the opposite sign: so the old map errs {} in "
-        "them; if they are corrections: {}\n",
+        "the new errors seem to have the opposite sign: with it, the old map's "
+        "error is {}; if they are corrections: {}\n",
         error.WithUnit(trial.negated_rmse),
         data::ArgumentName("target", "-COL"));
   } else if (trial.is_shifted()) {
     text += fmt::format(
-        "the new errors are shifted by {}: so the old map errs {} in them; "
-        "re-zero it, or learn from the new sessions alone: {}\n",
+        "the new errors are shifted by {}: without that, the old map's error "
+        "is {}; re-zero it, or fit only the new sessions: {}\n",
         error.WithUnit(trial.shift),
         error.WithUnit(trial.shifted_rmse),
         data::ArgumentName("known", "NEW.csv"));
@@ -126,7 +127,7 @@ std::string OffsetLine(const models::ProbeCorrection& correction,
       track.used, [](Eigen::Index used) { return used > 0; });
   if (corrected == 0) {
     return fmt::format(
-        "warning: {} move{} none of {}: they are of another session, or later",
+        "warning: {} move{} none of {}: none follows a probe in its session",
         Count(correction.num_probes, "probe"),
         correction.num_probes == 1 ? "s" : "",
         Count(track.offset.size(), "row"));
@@ -163,13 +164,13 @@ std::string SensitivityLine(const models::Sensitivity& sensitivity,
   if (sensitivity.jump_of.empty()) return "";
   std::string text = fmt::format(
       "{:g} degC of noise in each thermometer moves the map by {} RMS. One "
-      "that fails to 0 moves it by up to {} ({})",
+      "that fails and reads 0 moves it by up to {} ({})",
       models::Sensitivity::kNoise,
       error.WithUnit(sensitivity.per_noise),
       error.WithUnit(sensitivity.largest_jump),
       data::Printable(sensitivity.jump_of));
   if (sensitivity.rezero_jump > 0.0) {
-    text += fmt::format(", a zero taken again by up to {}",
+    text += fmt::format(", a new zero by up to {}",
                         error.WithUnit(sensitivity.rezero_jump));
   }
   return text;

@@ -48,7 +48,7 @@ const char* LeadOf(models::SessionStatus status) {
     case models::SessionStatus::kOff:
       return "The map does not hold in this session";
     case models::SessionStatus::kHoldsSoFar:
-      return "The map holds so far, the rest of the session is not known";
+      return "The map holds so far (the rest of the session is not known)";
     case models::SessionStatus::kSensor:
     case models::SessionStatus::kUnknown:
       break;
@@ -80,10 +80,10 @@ std::string StatusText(const models::SessionCheck& check,
     return MissingText(check.missing);
   }
   if (!std::isfinite(check.session.low)) {
-    return "Not known whether the map holds: it states no error to hold.\n";
+    return "Not known whether the map holds: its file states no error.\n";
   }
   const std::string limit =
-      fmt::format("{}, {} times the promise",
+      fmt::format("{}, {} times the promised RMSE",
                   error.WithUnit(models::kOffRatio * check.promised),
                   models::kOffRatio);
   if (check.remedy == models::Remedy::kSign ||
@@ -168,7 +168,7 @@ std::string SitesText(const models::HeldOutErrors& errors,
       });
   return sites.size() < 2 || next == sites.end()
              ? ""
-             : "Probes tell most at " + SiteText(errors, *next) + ".\n";
+             : "Most useful probes: " + SiteText(errors, *next) + ".\n";
 }
 
 // When to probe next; where no time is known, where probes tell most.
@@ -226,7 +226,7 @@ std::string SensorText(const models::SensorFaultFound& found) {
     case models::SensorFault::kOff:
       break;
   }
-  return fmt::format("{}it reads {:.3g} {} too {} beside the others.\n",
+  return fmt::format("{}it reads {:.3g} {} too {} compared with the others.\n",
                      lead,
                      std::abs(found.value),
                      unit,

@@ -110,13 +110,13 @@ std::string WhatIsWrong(const ColumnFault& fault,
           fault.high);
     case FaultKind::kDrifting:
       return fmt::format(
-          "leaves the other thermometers by {:+.2g}{} from "
-          "first to last row, {:.2g} about that line{}",
+          "drifts from the other thermometers by {:+.2g}{} from first to last "
+          "row (scatter {:.2g}){}",
           fault.value,
           symbol,
           fault.high,
           fault.low < static_cast<double>(data::kFewestOthers)
-              ? ", or one of these drifts"
+              ? ", or one of them drifts"
               : "");
     case FaultKind::kRepeated:
       return fmt::format("and all else in {} repeat other rows value for value",
@@ -147,11 +147,12 @@ std::string EffectText(const models::FaultEffect& effect,
     return "";
   }
   const ErrorText error(unit, effect.rmse_without);
-  return fmt::format("a linear map misses {} by {} RMSE with {}, by {} without",
-                     rows,
-                     error.WithUnit(effect.rmse_with),
-                     what,
-                     error.WithUnit(effect.rmse_without));
+  return fmt::format(
+      "a linear map's error on {} is {} RMSE with {}, {} without",
+      rows,
+      error.WithUnit(effect.rmse_with),
+      what,
+      error.WithUnit(effect.rmse_without));
 }
 
 }  // namespace
@@ -181,7 +182,7 @@ std::vector<std::string> FaultLines(const data::PreparedDataset& prepared,
   if (rows.empty()) return lines;
   if (policy == data::FaultPolicy::kDropRows) {
     lines.push_back(
-        fmt::format("{} left out for them",
+        fmt::format("{} left out because of them",
                     Count(static_cast<long long>(rows.size()), "row")));
     return lines;
   }

@@ -15,9 +15,9 @@ namespace {
 
 std::string_view ViewWords(const std::string& view) {
   if (view == "history") return "raw and filtered";
-  if (view == "zero") return "less each session's first value";
+  if (view == "zero") return "minus each session's first value";
   if (view == "history+zero") {
-    return "through filters, less each session's first value";
+    return "through filters, minus each session's first value";
   }
   return "raw";
 }
@@ -74,8 +74,7 @@ std::string SensorsText(const models::SensorCurve& curve,
   }
   text +=
       fmt::format("  all {}  {}\n", curve.all.sensors, error(curve.all.rmse));
-  text +=
-      EnoughWords(curve) + (curve.enough ? ":\n" : "; the best of so many:\n");
+  text += EnoughWords(curve) + (curve.enough ? ":\n" : "; the best choice:\n");
   for (const models::SensorCurve::Chosen& chosen : curve.chosen) {
     text += "  " + data::Printable(chosen.sensor);
     if (std::isfinite(chosen.replaced_cost)) {

@@ -86,8 +86,8 @@ std::string StepSentence(const stats::Normality& normality,
                          const data::Unit& unit) {
   if (!(normality.step > 0.0)) return "";
   return fmt::format(
-      "The values stand in steps of {}, so each test of shape compares them "
-      "with normal samples rounded alike.",
+      "The values come in steps of {}. Each test of shape compares them with "
+      "normal samples rounded the same way.",
       ErrorText(unit, normality.step).WithUnit(normality.step));
 }
 
@@ -105,7 +105,7 @@ std::string Report1995Sentence(const stats::Normality& normality,
   const bool said_normal = printed.ks_probability > kHint;
   const bool is_normal = normality.lilliefors.p > kHint;
   const std::string figures = fmt::format(
-      "sd {:.3f} and mean {:.3f} of the true ones, K-S D {:.4f} for {:.4f}, p "
+      "sd {:.3f} and mean {:.3f} of the true ones, K-S D {:.4f}, not {:.4f}, p "
       "{:.2g}",
       printed.sd / summary.sd,
       summary.mean == 0.0 ? 1.0 : printed.mean / summary.mean,
@@ -133,7 +133,7 @@ std::string Report1995Sentence(const stats::Normality& normality,
              normality.lilliefors.p,
              CountRejections(normality).at_evidence > 0
                  ? ", but other tests reject at 1 %"
-                 : ": the slip decided");
+                 : ": the wrong divisors changed the verdict");
 }
 
 // The tests of order that show memory, by name.
@@ -166,7 +166,7 @@ std::string MemorySentence(const models::ResidualReport& report,
   const std::string figures =
       fmt::format("lag-1 autocorrelation {:.2f}{}", whole.lag1.statistic, runs);
   if (shown_by.empty()) {
-    return fmt::format("No memory shows in the order ({}).", figures);
+    return fmt::format("The order shows no autocorrelation ({}).", figures);
   }
   std::string text =
       fmt::format("They are not independent: {}. Tests that reject at 1 %: {}.",
@@ -175,9 +175,9 @@ std::string MemorySentence(const models::ResidualReport& report,
   const double r = whole.lag1.statistic;
   if (r > 0.0 && r < 1.0) {
     text += fmt::format(
-        " For the mean they count as about {:.0f} of {} values, as in a "
-        "first-order autoregression. Any p that assumes independence is only a "
-        "guide.",
+        " For the mean they count as about {:.0f} independent values, not {} "
+        "(first-order autoregression). Any p that assumes independence is only "
+        "a guide.",
         static_cast<double>(summary.n) * (1.0 - r) / (1.0 + r),
         summary.n);
   }
@@ -200,8 +200,8 @@ std::string BiasSentence(const models::NamedBias& named,
   }
   const ErrorText error(unit, sd);
   return fmt::format(
-      "They are biased by {}: its means explain {:.0f} % of the sum of "
-      "squares. The largest, {} at {} {}, is {:.1f} standard errors.",
+      "Their mean depends on {}, which explains {:.0f} % of the sum of "
+      "squares. The largest mean, {} at {} {}, is {:.1f} standard errors.",
       noun,
       100.0 * named.bias.explained,
       error.WithUnit(levels[worst].mean),
@@ -215,10 +215,9 @@ std::string WithinSentence(const models::ResidualReport& report) {
   const stats::SerialTests& within = *report.within;
   const bool memory = !TestsThatShowMemory(within).empty();
   return fmt::format(
-      "Within a {}, about its mean, {} (lag-1 autocorrelation {:.2f}, expected "
-      "{:.2f}).",
+      "Within a {}, {} ({:.2f} at lag 1, expected {:.2f}).",
       report.group_column,
-      memory ? "some memory is left" : "no memory shows",
+      memory ? "some autocorrelation is left" : "no autocorrelation is left",
       within.lag1.statistic,
       within.expected_lag1);
 }

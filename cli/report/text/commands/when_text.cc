@@ -59,7 +59,7 @@ std::string RuleSentence(const ZeroSchedule& schedule,
   }
   return fmt::format(
       "Better: {}. In sessions not used to find it, it leaves {}, not {} RMSE, "
-      "with no more probes, and errs less in {} of {}.",
+      "with no more probes, and is better in {} of {}.",
       RuleText(rule.trigger, errors),
       error(rule.rmse),
       error.WithUnit(rule.clock_rmse),
@@ -88,14 +88,14 @@ std::string IntervalsText(const ZeroSchedule& schedule,
       schedule.clocks, {}, &models::ZeroedErrors::rmse);
   if (!(best.rmse < schedule.none.rmse)) {
     return fmt::format(
-        "No probe helps: without one the map errs least, {} RMSE.\n",
+        "No probe helps: without one the error is lowest, {} RMSE.\n",
         error.WithUnit(schedule.none.rmse));
   }
-  std::string text =
-      fmt::format("A probe {} leaves least, {} RMSE; no probe {}.",
-                  EveryText(best.trigger),
-                  error.WithUnit(best.rmse),
-                  error.WithUnit(schedule.none.rmse));
+  std::string text = fmt::format(
+      "A probe {} gives the lowest error, {} RMSE; no probe gives {}.",
+      EveryText(best.trigger),
+      error.WithUnit(best.rmse),
+      error.WithUnit(schedule.none.rmse));
   // By rising interval: from the first on that, with all after it, is no
   // better than none.
   auto worse = schedule.clocks.end();
@@ -109,7 +109,7 @@ std::string IntervalsText(const ZeroSchedule& schedule,
                     EveryText(worse->trigger),
                     std::isfinite(worse->trigger.time) ? " or less often" : "");
   }
-  return text + " --goal 2um names the interval that keeps to it.\n";
+  return text + " --goal 2um finds the interval that reaches it.\n";
 }
 
 std::string NoProbeText(const ZeroSchedule& schedule,
@@ -117,12 +117,13 @@ std::string NoProbeText(const ZeroSchedule& schedule,
                         const ErrorText& error,
                         double goal) {
   std::string text = fmt::format(
-      "No probe is needed: 90 % of the errors are within {} as the map is.",
+      "No probe is needed: 90 % of the errors are within {} without one.",
       error.WithUnit(schedule.none.within_90));
   // Few sessions promise less of another than they show of themselves.
   if (fitted.interval && fitted.interval->levels[0].half_width > goal) {
     text += fmt::format(
-        " But {} {} promise only {} for a new one: take a few probes in it "
+        " But after {} {} the map promises only {} for a new one: take a few "
+        "probes in it "
         "(errmap check).",
         fitted.interval->units,
         PluralOf(fitted.interval->unit),
@@ -196,7 +197,7 @@ std::string ZeroDueText(const ZeroTrigger& advised,
       "{}: probe in {}{}.\n",
       since,
       DurationText((1.0 - spent) * advised.time),
-      advised.is_clock() ? "" : ", sooner if the temperature moves on");
+      advised.is_clock() ? "" : ", sooner if the temperature changes further");
 }
 
 }  // namespace errmap::report

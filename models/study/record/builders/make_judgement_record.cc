@@ -60,8 +60,8 @@ double JudgementRecord::TestRmseOf(const std::string& name,
 }
 
 // Of what there is without a map, on the same rows. No compensation leaves an
-// error as it is; what is no error, as the position of a focuser, would be set
-// to its mean.
+// error as it is; what is not an error, as the position of a focuser, would be
+// set to its mean.
 double JudgementRecord::RemovedShare(std::size_t holdout,
                                      const HoldoutResult& of_map) const {
   constexpr double kFarFromZero = 10.0;
@@ -364,7 +364,7 @@ std::string_view WordOf(RezeroKind kind) {
 }  // namespace
 
 IntervalRecord RmseInterval(const HoldoutComparison& tests, std::size_t model) {
-  // Two bound nothing: a factor of ten thousand either way is no statement.
+  // Two bound nothing: a factor of ten thousand either way is not a statement.
   constexpr Index kFewestUnits = 3;
   if (tests.tests.num_units < kFewestUnits) return {kNotKnown, kNotKnown};
   stats::Bounds95 bounds =

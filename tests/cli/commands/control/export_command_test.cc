@@ -488,7 +488,7 @@ TEST_F(CliExport, RefusesWhatItCannotWrite) {
   EXPECT_THAT(
       RefusalOf(Run({"export", "map.json", "--python", "--float", "-o", "."}),
                 kWrongCommandLine),
-      HasSubstr("--float goes with --c, --st, --scl and --plcopen alone"));
+      HasSubstr("--float is only for --c, --st, --scl and --plcopen"));
   Json opaque = Json::parse(Read("map.json"));
   opaque["kind"] = "opaque";
   WriteMapFile("opaque.json", opaque);

@@ -176,7 +176,7 @@ TEST_F(CliExportTables, KeepsTheInterpolationErrorThatItPrints) {
   for (int i = 0; i <= 500; ++i) {
     positions.push_back(-215.9 + i * (215.9 - 12.7) / 500.0);
   }
-  const std::string before = "it errs by up to ";
+  const std::string before = "it is off by up to ";
   const double printed =
       std::stod(outcome.err.substr(outcome.err.find(before) + before.size())) /
       kUmPerMm;
@@ -341,7 +341,7 @@ TEST_F(CliExportTables, WritesAGridThatReducesTheError) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(Read("up.csv"),
               ::testing::StartsWith("# compensation = -error in mm"));
-  EXPECT_THAT(outcome.err, HasSubstr("between its points it errs by up to"));
+  EXPECT_THAT(outcome.err, HasSubstr("between its points it is off by up to"));
   const data::CsvTable grid = data::ReadCsv(Path("up.csv"));
   ASSERT_EQ(grid.num_rows, 33);
   ASSERT_EQ(grid.columns.size(), 10);
@@ -391,8 +391,9 @@ TEST_F(CliExportTables, RefusesWhatIsNoTable) {
   Json angle = Json::parse(Read("up.json"));
   angle["target"] = {{"name", "error_urad"}, {"unit", "urad"}};
   WriteMapFile("angle.json", angle);
-  EXPECT_THAT(RefusalOf(Linuxcnc({"angle.json"}), kUnusable),
-              HasSubstr("'error_urad' is no length that can be written in mm"));
+  EXPECT_THAT(
+      RefusalOf(Linuxcnc({"angle.json"}), kUnusable),
+      HasSubstr("'error_urad' is not a length that can be written in mm"));
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ TEST_F(UpdateCommand, UpdatesOnceMoreFromAllThatWasLearnt) {
       Run({"update", "once.json", "newer.csv", "-o", "newer.json"});
   EXPECT_EQ(lost.status, 0) << lost.err;
   EXPECT_THAT(OneLine(lost.out),
-              HasSubstr("'train.csv' is not at hand as it was"));
+              HasSubstr("'train.csv' is missing or changed"));
   EXPECT_THAT(Run({"update",
                    "once.json",
                    "newer.csv",
@@ -92,7 +92,7 @@ TEST_F(UpdateCommand, UpdatesOnceMoreFromAllThatWasLearnt) {
                    "--known",
                    "new.csv"})
                   .out,
-              Not(HasSubstr("not at hand")));
+              Not(HasSubstr("missing or changed")));
 }
 
 // Where it is run from decides nothing: what the map was fitted to is looked

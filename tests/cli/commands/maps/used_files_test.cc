@@ -82,7 +82,7 @@ TEST_F(UsedFiles, AreReadInOtherLettersAndWithoutTheColumnOfSessions) {
   });
   EXPECT_EQ(Predicted({"no_day.csv"}), expected);
   EXPECT_THAT(Run({"predict", "map.json", "no_day.csv"}).err,
-              HasSubstr("no column 'day': the clock tells the sessions"));
+              HasSubstr("no column 'day': the clock gives the sessions"));
 }
 
 TEST_F(UsedFiles, TakeTheClocksUnitFromTheMap) {
@@ -196,7 +196,7 @@ TEST_F(UsedFiles, GoOnFromAnyLogOfTheDay) {
   Write("yesterday.csv", DaysInCliPromise(10, 10));
   EXPECT_THAT(
       Run({"predict", "map.json", "noon.csv", "--after", "yesterday.csv"}).err,
-      HasSubstr("no session of yesterday.csv goes on"));
+      HasSubstr("no session of yesterday.csv continues"));
 }
 
 TEST_F(UsedFiles, RefuseProbesByAnotherClock) {

@@ -61,7 +61,7 @@ TEST_F(When, AnswersWithoutAGoal) {
   const Outcome found = Run({"when", "map.json"});
   EXPECT_EQ(found.status, 0) << found.err;
   const std::string text = OneLine(found.out);
-  EXPECT_THAT(text, HasSubstr("A probe every 20 min leaves least, "));
+  EXPECT_THAT(text, HasSubstr("A probe every 20 min gives the lowest error, "));
   EXPECT_THAT(text, HasSubstr(" RMSE; no probe "));
   EXPECT_THAT(found.out, Not(EndsWith("\n\n")));
 }
@@ -77,7 +77,7 @@ TEST_F(When, SaysThatNoProbeHelpsWhereNoneDoes) {
   Write("noise.csv", text);
   Run({"fit", "noise.csv", "--model", "poly:position", "-o", "noise.json"});
   EXPECT_THAT(OneLine(Run({"when", "noise.json"}).out),
-              HasSubstr("No probe helps: without one the map errs least, "));
+              HasSubstr("No probe helps: without one the error is lowest, "));
 }
 
 TEST_F(When, SaysWhenTheNextProbeIsDue) {
@@ -108,7 +108,7 @@ TEST_F(When, EndsWithAnErrorWhereNothingCanBeSaid) {
   }
   const Outcome no_goal = Run({"when", "map.json", "--after", "empty.csv"});
   EXPECT_EQ(no_goal.status, kWrongCommandLine) << no_goal.out;
-  EXPECT_THAT(no_goal.err, HasSubstr("needs a goal: --goal 2um"));
+  EXPECT_THAT(no_goal.err, HasSubstr("needs a goal to say"));
   const Outcome never = Run({"when", "map.json", "--goal", "1nm"});
   EXPECT_EQ(never.status, kEveryFitFailed);
   EXPECT_THAT(never.out, HasSubstr("No interval keeps 90 %"));
@@ -139,7 +139,7 @@ TEST_F(When, DoesNotCallEnoughWhatUnequalDaysDoNotPromise) {
       {"when", "unequal.json", "--goal", fmt::format("{}mm", 1.001 * shown)});
   EXPECT_THAT(OneLine(narrow.out),
               AllOf(HasSubstr("No probe is needed"),
-                    HasSubstr("But 5 days promise only")));
+                    HasSubstr("But after 5 days the map promises only")));
   EXPECT_THAT(Run({"when", "unequal.json", "--goal", "20"}).err,
               HasSubstr("goal 20 is in mm, the unit of error_mm: 20000 um"));
   EXPECT_EQ(Run({"when", "unequal.json", "--goal", "0.02"}).err, "");
@@ -172,8 +172,7 @@ TEST_F(When, RefusesMapsOfOneSession) {
   const Outcome found = Run({"when", "one.json"});
   EXPECT_EQ(found.status, kUnusable);
   EXPECT_THAT(found.err,
-              HasSubstr("one.json: holds no errors of unseen sessions with "
-                        "times"));
+              HasSubstr("one.json: has no held-out errors with times"));
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST_F(InitCommand, InitNamesDroppedSensorsAndRefusesToOverwrite) {
                     HasSubstr("group = \"cycle\""),
                     Not(HasSubstr("\ngoal ="))));
   EXPECT_THAT(RefusalOf(Run({"init", data, "-o", "s.toml"}), kWrongCommandLine),
-              HasSubstr("s.toml is there already"));
+              HasSubstr("s.toml exists"));
   EXPECT_EQ(Read("s.toml"), text);
   EXPECT_EQ(Run({"init", data, "-o", "s.toml", "--force"}).status, 0);
 }

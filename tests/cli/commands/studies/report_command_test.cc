@@ -135,7 +135,7 @@ TEST_F(ReportCommand, NamesAFileThatIsMissingOrNoResults) {
   std::filesystem::create_directory(scratch_ / "study");
   Write("study/results.json", "{ half");
   EXPECT_THAT(RefusalOf(Run({"report", "study"}), kUnusable),
-              HasSubstr("is no JSON"));
+              HasSubstr("is not JSON"));
   Write("study/results.json", "{\"schema\": \"errmap-fit-1\"}");
   EXPECT_THAT(RefusalOf(Run({"report", "study"}), kUnusable),
               HasSubstr("'errmap-fit-1'"));

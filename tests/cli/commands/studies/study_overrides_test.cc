@@ -103,7 +103,7 @@ TEST_F(StudyOverrides, GoalsHaveUnitsOfTheirOwn) {
   EXPECT_EQ(configuration["component"][1]["goal"], 0.002);
   EXPECT_THAT(
       Run({"compare", "--config", "study.toml", "--set", "goal=1deg"}).err,
-      HasSubstr("both.csv: goal is 1 deg, and the target is in mm"));
+      HasSubstr("both.csv: goal is 1 deg, but the target is in mm"));
 }
 
 TEST_F(StudyOverrides, UnknownKeysAreNamedWithLineColumnAndWhatIsAllowed) {

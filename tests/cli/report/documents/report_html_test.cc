@@ -66,7 +66,7 @@ TEST(ReportHtml, OpensWithTheAnswer) {
                             "(95\u00a0%: 1.520 to 2.470)",
                             "not reached",
                             "errmap check map.json NEW_READINGS.csv",
-                            "compensate by minus the predicted error",
+                            "the compensation is minus the predicted error",
                             "Cost: 1 sensor (t12_degC); ",
                             "Not converged: its fit ended by "}) {
     EXPECT_THAT(text, HasSubstr(words));

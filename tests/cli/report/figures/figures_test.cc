@@ -149,7 +149,7 @@ TEST(MakeFigures, SaysWhatDiffersOnTheWorstDay) {
   }
   EXPECT_THAT(
       note(),
-      HasSubstr(" There t12 is 30 in the mean, elsewhere 20 to 20.5 °C."));
+      HasSubstr(" There t12 is 30 on average, elsewhere 20 to 20.5 °C."));
 }
 
 TEST(MakeFigures, NamesSessionsAndPutsThemOneAfterAnother) {

@@ -186,7 +186,8 @@ TEST(Remarks, CallWhatShiftsWholeCyclesNoNoise) {
       ElementsAre(
           "87 % of it shifts whole cycles up or down: re-zero each cycle, or "
           "add a thermometer",
-          "31 % of it repeats along position_mm: a finer curve would follow"));
+          "31 % of it repeats along position_mm: a finer curve would remove "
+          "it"));
   record.data.sensors = 40;
   EXPECT_THAT(TextOf(record, "what is left"),
               HasSubstr(": re-zero each cycle |"));

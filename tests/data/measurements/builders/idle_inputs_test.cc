@@ -36,8 +36,8 @@ TEST(IdleInputs, LeavesOutDeadInputsWithARemark) {
                   "keep_dead keeps it",
                   "input constant is dead (21.5 in all 10 rows) and is left "
                   "out; keep_dead keeps it",
-                  "input stuck is 8 in 9 of 10 rows and is kept: what it does "
-                  "rests on the others",
+                  "input stuck is 8 in 9 of 10 rows and is kept: its effect "
+                  "depends on the others",
                   "input live repeats the target error_um value for value; "
                   "exclude = live leaves it out"));
   EXPECT_THAT(DroppedNames(prepared), ElementsAre("zero", "constant"));

@@ -157,7 +157,7 @@ TEST(Clock, IsNoDurationBesideADate) {
   EXPECT_EQ(reading.sessions.count, 3);
 }
 
-// Of a machine: they are no temperature.
+// Of a machine: they are not temperatures.
 TEST(Clock, IsWhatHoursByTheirNameAre) {
   const PreparedDataset made =
       MadeOf(Days("Zeit,Betriebsstunden,T1 [degC]", [](int i, double warm) {
@@ -457,7 +457,7 @@ TEST(Clock, KnowsHoursAndMinutesWithoutAMarkBetween) {
     EXPECT_EQ(reading.time.step_s, 60.0) << name;
     EXPECT_TRUE(reading.time.sure) << name;
   }
-  // 0 to 39 in turn are no hour of a clock, and what has a unit counts.
+  // 0 to 39 in turn are not hours of a clock, and what has a unit counts.
   for (const std::string name : {"time", "time_min"}) {
     const Reading reading = MadeOf(Days(name, [](int i, double) {
                               return CsvNumber(i % 40);
@@ -536,7 +536,7 @@ TEST(Clock, ReadsNoDaysAsSeconds) {
   EXPECT_EQ(reading.time.step_s, 86400.0);
 }
 
-// How long a cycle takes is no time of day, and a meter none at all.
+// How long a cycle takes is not a time of day, and a meter none at all.
 TEST(Clock, IsNoDurationAndNoMeterBesideADate) {
   const auto date = [](int i) {
     return "2024-03-0" + std::to_string(4 + i / 40) + ",";
@@ -556,7 +556,7 @@ TEST(Clock, IsNoDurationAndNoMeterBesideADate) {
     EXPECT_EQ(reading.sessions.by, "dates") << name;
     EXPECT_EQ(reading.sessions.count, 3) << name;
   }
-  // A remark in brackets is no unit.
+  // A remark in brackets is not a unit.
   EXPECT_NEAR(
       *CountedIn("t (MATLAB)", 86400.0, 739315.5).reading.time.step_s, 30, 0.2);
 }

@@ -119,7 +119,7 @@ TEST(Reading, ReadsOnceWhatWasSavedTwiceWithItsDate) {
   EXPECT_EQ(twice.reading.cycles.count, 20);
   EXPECT_EQ(twice.reading.rows_left_out.size(), 15U);
   EXPECT_THAT(twice.remarks,
-              Contains(HasSubstr("15 rows stand twice, with their times")));
+              Contains(HasSubstr("15 rows occur twice, with their times")));
 }
 
 TEST(Reading, ReadsOnceASingleRowWhoseTimeNoOtherHas) {

@@ -229,7 +229,7 @@ TEST(Controller, HoldsTheLastGoodReadingsWhereTheAxisIs) {
   EXPECT_NE(status & kMapInvalid, 0);
   EXPECT_NE(status & kMapUnhealthy, 0);
   EXPECT_DOUBLE_EQ(error, 3.9);
-  // Where the position itself is no number it stays.
+  // Where the position itself is not a number it stays.
   run.Step(1.0, Vector4d(kNaN, 16.0, 16.0, 16.0), &error);
   EXPECT_DOUBLE_EQ(error, 3.9);
 }

@@ -165,7 +165,7 @@ TEST_F(KeptFitsFile, RefusesASecondProcess) {
   for (const Opening opening : {Opening::kAnew, Opening::kResume}) {
     EXPECT_THAT([&] { KeptFits(folder_, opening); },
                 ThrowsMessage<std::runtime_error>(
-                    HasSubstr("fits.sqlite: another errmap is at work")));
+                    HasSubstr("fits.sqlite: another errmap is using")));
   }
 }
 

@@ -137,7 +137,7 @@ TEST(Confidence, SaysWhenThereAreTooFewUnitsForSoManyPairs) {
 }
 
 // Half of the units favour the second model by more than the others do the
-// first: a level that lasts is no independent evidence.
+// first: a level that lasts is not independent evidence.
 TEST(Confidence, TakesUnitsThatResembleTheirNeighboursForNoEvidence) {
   VectorXd lasting(35);
   for (Index unit = 0; unit < 35; ++unit) {

@@ -24,7 +24,7 @@ TEST(Goal, IsMetWhereTheRmseIsAtMostTheGoal) {
   EXPECT_EQ(standing(0.0, 0.5), GoalStanding::kMet);
   EXPECT_EQ(standing(0.3, 0.4), GoalStanding::kMet);
   EXPECT_EQ(standing(0.0, 0.51), GoalStanding::kMissed);
-  // 0.2 um of scatter about an offset of 5 um is no map good to 0.5 um.
+  // 0.2 um of scatter about an offset of 5 um is not a map good to 0.5 um.
   EXPECT_EQ(standing(4.98, 0.2), GoalStanding::kMetAfterRezeroing);
   EXPECT_EQ(standing(-4.98, 0.5), GoalStanding::kMetAfterRezeroing);
   EXPECT_EQ(standing(-4.98, 0.6), GoalStanding::kMissed);

@@ -162,7 +162,7 @@ TEST(StudyRecord, TellsAFileThatWasChangedByHand) {
 
 TEST(StudyRecord, RefusesWhatIsNoResults) {
   EXPECT_THAT([] { FromJsonText("{ half"); },
-              ThrowsMessage<data::InputError>(HasSubstr("is no JSON")));
+              ThrowsMessage<data::InputError>(HasSubstr("is not JSON")));
   EXPECT_THAT([] { FromJsonText("{\"schema\": \"errmap-fit-1\"}"); },
               ThrowsMessage<data::InputError>(HasSubstr("'errmap-fit-1'")));
 }
