@@ -258,7 +258,7 @@ Remarks HeldAgainstGoal(const Numbers& of) {
       return {{"goal",
                wanted + (result.ci95[1] <= of.record.goal
                              ? ": reached"
-                             : ": reached, but not proven"),
+                             : ": reached; not proven"),
                Tone::kGood}};
     }
     case GoalStanding::kMetAfterRezeroing:

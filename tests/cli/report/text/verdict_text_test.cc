@@ -163,7 +163,7 @@ TEST(Remarks, CallAGoalProvenOnlyWhereTheWholeRangeIsBelowIt) {
     for (auto& [holdout, result] : record.models[1].results) {
       result.ci95 = {0.0001, upper};
     }
-    EXPECT_EQ(TextOf(record, "goal"), "0.5 um: reached, but not proven");
+    EXPECT_EQ(TextOf(record, "goal"), "0.5 um: reached; not proven");
   }
 }
 
