@@ -164,7 +164,8 @@ class MapFile:
         Returns
         -------
         numpy.ndarray
-            (rows x 2): lower and upper; NaN if the map states none.
+            (rows x 2): lower and upper, in the target's unit; NaN if the map
+            states none.
         """
         import numpy
 

@@ -289,8 +289,10 @@ def compare(frame: Measurements = None, *,
     ValueError
         If data or options cannot be used, with errmap's message.
 
-    Notes ----- Python's lock is released while maps are fitted. Ctrl-C ends
-    the study early; finished results are returned with a warning.
+    Notes
+    -----
+    Python's lock is released while maps are fitted. Ctrl-C ends the study
+    early; finished results are returned with a warning.
 
     Examples
     --------
