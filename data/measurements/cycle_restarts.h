@@ -32,9 +32,9 @@ bool CountOver(const CycleRestarts& restarts,
                const CsvColumn& date,
                const std::vector<Eigen::Index>& rows);
 
-/// True if cycles start again more often than there are sessions. They always
-/// do so where a session or another column of sessions changes, such as days
-/// and shifts.
+/// True if cycles start again more often than there are sessions. They must
+/// start again at every new session, and elsewhere only where another column of
+/// sessions changes, such as days and shifts.
 bool PartFurther(const CycleRestarts& restarts,
                  const Grouping& sessions,
                  const CsvTable& table,

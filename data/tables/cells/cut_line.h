@@ -14,7 +14,7 @@ struct CutLine {
 };
 
 /// Looks for a cut line at the end of a table's rows. It has no line end, and
-/// its last number has fewer decimals than the many numbers above it.
+/// its last number has fewer decimals than each of the many numbers above it.
 std::optional<CutLine> FindCutLine(std::string_view rows, char delimiter);
 
 }  // namespace errmap::data

@@ -29,7 +29,7 @@ struct Headers {
   std::string_view dimensions;  // "\tTime\tTime", or ""
 };
 
-// Down to the last that ends: between two of them are not names.
+// Down to the last that ends: there are no names between two of them.
 Headers FindHeaders(std::string_view text) {
   Headers headers;
   std::string_view units;
