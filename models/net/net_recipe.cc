@@ -190,7 +190,8 @@ class OneLayerRecipe final : public NetRecipe {
     if (!takes_all) {
       fitted.choices.push_back({"rows", viewed.rows->num_rows()});
       fitted.remarks.push_back(
-          fmt::format("trained on {} of {} rows (rows=all uses all)",
+          fmt::format("trained on {} of {} rows from all over the data "
+                      "(rows=all uses all)",
                       viewed.rows->num_rows(),
                       training.num_rows()));
     }

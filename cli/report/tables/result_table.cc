@@ -405,7 +405,7 @@ std::string DrawnRowsWords(const ReportView& view) {
     }
   }
   if (names.empty()) return "";
-  return fmt::format("{} was trained on {} of {} rows (rows=all uses all).",
+  return fmt::format("{} trained on {} of {} rows (rows=all uses all).",
                      data::JoinWords(names, ", "),
                      most,
                      view.component->data.rows);

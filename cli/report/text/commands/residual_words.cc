@@ -215,7 +215,7 @@ std::string WithinSentence(const models::ResidualReport& report) {
   const stats::SerialTests& within = *report.within;
   const bool memory = !TestsThatShowMemory(within).empty();
   return fmt::format(
-      "Within a {}, {} ({:.2f} at lag 1, expected {:.2f}).",
+      "Within a {}, about its mean, {} ({:.2f} at lag 1, expected {:.2f}).",
       report.group_column,
       memory ? "some autocorrelation is left" : "no autocorrelation is left",
       within.lag1.statistic,

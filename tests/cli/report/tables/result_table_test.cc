@@ -113,7 +113,7 @@ TEST(DrawnRowsWords, NameWhatLearntFromAPart) {
   component.models[2].final->choices =
       models::ByName<models::OptionValue>{{"rows", std::int64_t{19992}}};
   const std::string words =
-      "net:scg was trained on 19992 of 28560 rows (rows=all uses all).";
+      "net:scg trained on 19992 of 28560 rows (rows=all uses all).";
   EXPECT_EQ(DrawnRowsWords(ViewOf(component)), words);
   std::string screen = ScreenText(record, 1000);
   std::ranges::replace(screen, '\n', ' ');
