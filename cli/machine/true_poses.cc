@@ -112,8 +112,7 @@ std::optional<DiagonalRuns> ReadDiagonalRuns(const data::CsvTable& table) {
     if (!IsDiagonal(name)) {
       throw data::InputError(
           fmt::format("{}: {} is not a diagonal: give the signs of X, Y and Z "
-                      "along it by p, "
-                      "n or 0, such as ppn or p0n",
+                      "along it by p, n or 0, such as ppn or p0n",
                       table.Where(row, kName),
                       data::QuotedText(name)));
     }

@@ -49,8 +49,7 @@ Lines AboutLimits(const MapProgram& program) {
         "outside "
         "of what",
         "was trained), is not a number, is far beyond its trained range, "
-        "stands "
-        "still while",
+        "stands still while",
         "the others move, or contradicts them. The filters keep their state "
         "then, and",
         "the last good readings are held, where the axis is now, for"}) {

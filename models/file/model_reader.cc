@@ -483,8 +483,8 @@ FittedModel ModelFromJson(const std::string& text, const std::string& source) {
                   ": is not a map (JSON written by errmap); name the map "
                   "first, then its data"
             : fmt::format("{}: is not a complete map: its JSON is invalid at "
-                          "byte {} of "
-                          "{}; use another copy, or run errmap fit again",
+                          "byte {} of {}; use another copy, or run errmap fit "
+                          "again",
                           source,
                           std::min(error.byte, text.size()),
                           text.size()));

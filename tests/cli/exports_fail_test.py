@@ -47,7 +47,7 @@ PLANTS = {
     "no rate": [("if abs(target - self.given) > self.room:", "if False:")],
     "steps are always taken": [("if not (status & NOT_TAKEN):", "if True:")],
     "a gap is not a time": [("self.waited = self.waited + passed",
-                          "self.waited = passed")],
+                             "self.waited = passed")],
 }
 
 

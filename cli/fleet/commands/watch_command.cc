@@ -55,8 +55,7 @@ fleet::WatchedFiles FilesOf(const WatchArguments& arguments,
   if (files.files.empty()) {
     throw data::InputError(
         "no file belongs to a component with a deployed map: keep the names "
-        "and "
-        "folders of the study, or write COMPONENT=FILE");
+        "and folders of the study, or write COMPONENT=FILE");
   }
   return files;
 }

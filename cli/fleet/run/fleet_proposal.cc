@@ -242,9 +242,9 @@ FleetProposal ProposeFleet(const std::string& folder,
       "# A study of many components: " + usage +
       "\n# {fields} of a path stand for the parts that differ; words after a "
       "colon are a\n# field's only values. Each component is studied "
-      "separately, and a failed one\n# does not stop the others.\n\nseed = "
-      "1\n# models = [\"mean\", "
-      "\"poly:ridge:view=history\", \"net:scg\"]   # default: all suitable\n"
+      "separately, and a failed one\n# does not stop the others.\n\n"
+      "seed = 1\n# models = [\"mean\", \"poly:ridge:view=history\", "
+      "\"net:scg\"]   # default: all suitable\n"
       "# holdouts = [\"sessions:5\"]\n";
   for (const auto& [depth, level] : LevelsOf(folder)) {
     const LevelPatterns patterns(folder, level, target);

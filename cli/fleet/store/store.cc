@@ -38,8 +38,7 @@ std::int64_t VersionOf(Database* database, const std::string& path) {
   if (version > kStoreVersion) {
     throw data::InputError(
         fmt::format("{} has schema {}, but this errmap reads schemas up to {}; "
-                    "use the newer "
-                    "errmap that wrote it",
+                    "use the newer errmap that wrote it",
                     shown,
                     version,
                     kStoreVersion));

@@ -37,8 +37,7 @@ constexpr std::array kExplained = {
               "hold-out",
               "Rows kept back to judge a map. every:3 keeps back every third "
               "row, whose neighbours are known, so its error looks too small; "
-              "groups:5 keeps "
-              "back whole cycles, sessions:5 whole days."},
+              "groups:5 keeps back whole cycles, sessions:5 whole days."},
     Explained{"blend",
               "blend",
               "An average of several maps, weighted by how well each does on "

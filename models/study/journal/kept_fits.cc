@@ -61,8 +61,7 @@ void KeptFits::RequireNoOther(const std::string& folder, bool force) {
   if (!fs::is_regular_file(status)) {
     throw data::InputError(
         data::PrintablePath(path) +
-        ": is not a plain file; move it away or choose another "
-        "folder");
+        ": is not a plain file; move it away or choose another folder");
   }
   std::string begin(kOwnerAt + kOwner.size(), '\0');
   std::ifstream stream(path, std::ios::binary);

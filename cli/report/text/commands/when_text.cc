@@ -123,8 +123,7 @@ std::string NoProbeText(const ZeroSchedule& schedule,
   if (fitted.interval && fitted.interval->levels[0].half_width > goal) {
     text += fmt::format(
         " But after {} {} the map promises only {} for a new one: take a few "
-        "probes in it "
-        "(errmap check).",
+        "probes in it (errmap check).",
         fitted.interval->units,
         PluralOf(fitted.interval->unit),
         error.WithUnit(fitted.interval->levels[0].half_width));
