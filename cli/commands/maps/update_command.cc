@@ -129,7 +129,8 @@ std::string LostText(const KnownFiles& known) {
       "{} missing or changed, so the new map would not learn from it; name "
       "all that it was fitted to with --known\n",
       known.lost.empty() ? "what the map was fitted to is"
-                         : data::ListOfNames(known.lost) + " is");
+                         : data::ListOfNames(known.lost) +
+                               (known.lost.size() == 1 ? " is" : " are"));
 }
 
 // The rows of some files, one after the other; none: none.
