@@ -41,9 +41,13 @@ std::vector<ColumnFault> FindColumnFaults(const MeasuredColumns& measured) {
   };
   append(FindThermometerFaults(measured, thermometers));
   append(FindDrift(measured, thermometers, faults));
-  append(FindTargetFaults(measured));
-  if (std::ranges::none_of(
-          faults, [](const ColumnFault& fault) { return fault.input < 0; })) {
+  const auto is_of_target = [](const ColumnFault& fault) {
+    return fault.input < 0;
+  };
+  std::vector<ColumnFault> of_target;
+  std::ranges::copy_if(faults, std::back_inserter(of_target), is_of_target);
+  append(FindTargetFaults(measured, RowsOfCellFaults(of_target)));
+  if (std::ranges::none_of(faults, is_of_target)) {
     append(FindSlippedPoints(measured));
   }
   std::ranges::stable_sort(faults, {}, &ColumnFault::input);

@@ -194,12 +194,15 @@ struct Sizes {
   std::vector<double> logs;
 };
 
-Sizes SmoothedSizes(const VectorXd& target) {
+Sizes SmoothedSizes(const VectorXd& target,
+                    const std::vector<Index>& no_readings) {
   constexpr std::size_t kReach = 2;  // rows on each side
   Sizes sizes;
   std::vector<double> logs;
   for (Index row = 0; row < target.size(); ++row) {
-    if (target[row] == 0.0) continue;
+    if (target[row] == 0.0 || std::ranges::binary_search(no_readings, row)) {
+      continue;
+    }
     sizes.rows.push_back(row);
     logs.push_back(std::log(std::abs(target[row])));
   }
@@ -274,11 +277,12 @@ bool AreThousandths(const MeasuredColumns& measured,
 // Rows in another unit, a fault for each run of them: any block, and sessions
 // by turns.
 void LookForOtherUnit(const MeasuredColumns& measured,
+                      const std::vector<Index>& no_readings,
                       std::vector<ColumnFault>* faults) {
   constexpr std::size_t kFewestRows = 5;
   // A part as large as this needs no map to be in another unit.
   constexpr double kLargePart = 0.2;
-  const Sizes sizes = SmoothedSizes(measured.target_values);
+  const Sizes sizes = SmoothedSizes(measured.target_values, no_readings);
   const TwoSizes two = PartSizes(sizes.logs);
   if (two.ratio == 1.0) return;
   std::vector<std::vector<Index>> runs;
@@ -407,9 +411,10 @@ std::vector<Index> RepeatedRows(const CsvTable& table,
   return in_blocks;
 }
 
-std::vector<ColumnFault> FindTargetFaults(const MeasuredColumns& measured) {
+std::vector<ColumnFault> FindTargetFaults(
+    const MeasuredColumns& measured, const std::vector<Index>& no_readings) {
   std::vector<ColumnFault> faults;
-  LookForOtherUnit(measured, &faults);
+  LookForOtherUnit(measured, no_readings, &faults);
   if (faults.empty()) LookForZeros(measured, &faults);
   return faults;
 }

@@ -31,8 +31,11 @@ std::vector<Eigen::Index> RepeatedRows(const CsvTable& table,
 
 /// Finds targets that look like measurements but are not. These are zeros while
 /// all other rows have an error (kZero, a lost beam), and runs of rows in
-/// another unit (kOtherUnit, one fault each). Rows count from 0.
-std::vector<ColumnFault> FindTargetFaults(const MeasuredColumns& measured);
+/// another unit (kOtherUnit, one fault each). Rows count from 0; those without
+/// a reading (ascending) do not count as rows in a larger unit.
+std::vector<ColumnFault> FindTargetFaults(
+    const MeasuredColumns& measured,
+    const std::vector<Eigen::Index>& no_readings);
 
 /// Finds single targets ten times as large as a linear map of the other columns
 /// predicts (kOutlying): a decimal point in the wrong place. Rows count from 0.

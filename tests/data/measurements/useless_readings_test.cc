@@ -270,6 +270,13 @@ TEST(UselessReadings, RowsThatAreNoMeasurementsAreNamedAndLeftOutByAnOption) {
     }
     EXPECT_EQ(rows_in_mm(Make(in_mm(block))), expected);
   }
+  // Three codes in a row for a lost beam are no larger unit of all others.
+  EXPECT_EQ(Make(changed([](int i, auto* cells) {
+                   if (i >= 50 && i < 53) (*cells)[kError] = "9999";
+                 }),
+                 {.faults = FaultPolicy::kDropRows})
+                .dataset.num_rows(),
+            117);
   // A machine that errs by nothing while it is cold is in one unit.
   EXPECT_THAT(Make(changed([](int i, auto* cells) {
                 const bool is_cold = i % 40 < 6;
