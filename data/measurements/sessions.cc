@@ -402,6 +402,7 @@ class SessionFinder : private RowColumns {
     found_.gap = nights_.gap;
     found_.evidence =
         selection_.gap.empty() ? Evidence::kValues : Evidence::kUser;
+    if (found_.by == "clock") TakeBlocksOfClock();
     if (found_.by != "one") return;
     if (CutWhereCyclesCountAnew()) return;
     if (found_.time_column >= 0 || !found_.ordered) return;
@@ -411,6 +412,33 @@ class SessionFinder : private RowColumns {
       return;
     }
     if (selection_.session.empty()) CutAtColdStarts();
+  }
+
+  // A clock without dates does not go back where a day begins later than the
+  // one before it ended: blocks of rows that begin wherever it does, and
+  // elsewhere, are the days.
+  void TakeBlocksOfClock() {
+    if (found_.dated || blocks_ < 0 || !selection_.gap.empty() ||
+        !selection_.session.empty()) {
+      return;
+    }
+    const std::vector<double> blocks = ValuesOf(table_.At(blocks_));
+    const std::size_t by_clock = found_.sessions.labels.size();
+    std::size_t by_block = 1;
+    for (std::size_t i = 1; i < blocks.size(); ++i) {
+      const bool begins = blocks[i] != blocks[i - 1];
+      by_block += begins ? 1 : 0;
+      if (!begins && found_.sessions.codes[i] != found_.sessions.codes[i - 1]) {
+        return;
+      }
+    }
+    if (by_block == by_clock ||
+        !TakeSessions(static_cast<std::size_t>(blocks_), false)) {
+      return;
+    }
+    found_.evidence = Evidence::kValues;
+    found_.alternative = std::to_string(by_clock) + ", where " +
+                         QuotedName(TimeColumn().name) + " goes back";
   }
 
   void CutAtColdStarts() {

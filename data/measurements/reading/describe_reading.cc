@@ -56,13 +56,13 @@ void DescribeSessions(const CsvTable& table,
   sessions.count = std::ssize(found.sessions.labels);
   sessions.evidence = found.evidence;
   sessions.sure = found.by != "one" || nights.sure;
-  if (!found.alternative.empty()) {
-    sessions.sure = false;
-    sessions.alternative = found.alternative;
-  }
   if (found.by == "column" && found.evidence == Evidence::kValues) {
     sessions.sure = false;
     sessions.alternative = "one";
+  }
+  if (!found.alternative.empty()) {
+    sessions.sure = false;
+    sessions.alternative = found.alternative;
   }
   if (!read->repeated_rows.empty() && found.by == "clock") {
     sessions.sure = false;

@@ -320,5 +320,34 @@ TEST(Reading, GoesOnOverMidnight) {
   EXPECT_EQ(reading.cycles.count, 32);
 }
 
+// Days of cycles from 8:00 on, each day some 18 minutes later than the one
+// before, but the third an hour later than its end; seconds of the day.
+std::vector<Log::Row> InSecondsOfTheDay() {
+  std::vector<Log::Row> rows = Log().Rows();
+  double begin = 0.0;
+  for (Log::Row& row : rows) {
+    if (row.cycle % 5 == 0 && row.position == 0.0) begin = row.time;
+    row.time +=
+        28800.0 + 1083.0 * row.day + (row.day > 1 ? 3600.0 : 0.0) - begin;
+  }
+  return rows;
+}
+
+std::vector<std::string> DayAndRow(const Log::Row& row) {
+  std::vector<std::string> cells = TimePositionTempError(row);
+  cells.insert(cells.begin(), std::to_string(62 + row.day));
+  return cells;
+}
+
+TEST(Reading, TakesBlocksForSessionsWhereAClockOfHoursHidesOne) {
+  const Reading reading = Read(Text("doy,time_s,position_mm,t1_degC,error_um",
+                                    InSecondsOfTheDay(),
+                                    DayAndRow));
+  EXPECT_EQ(reading.sessions.count, 4);
+  EXPECT_EQ(reading.sessions.column, "doy");
+  EXPECT_FALSE(reading.sessions.sure);
+  EXPECT_EQ(reading.sessions.alternative, "3, where 'time_s' goes back");
+}
+
 }  // namespace
 }  // namespace errmap::data
