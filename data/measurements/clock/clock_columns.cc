@@ -141,10 +141,17 @@ class ClockColumns : private RowColumns {
              (IsCalled(column.name, Word::kTime) && AreEven(values))));
   }
 
-  // In whatever order: a step apart from one another, this percentage of them.
-  static bool AreEven(std::vector<double> values, std::ptrdiff_t percent = 90) {
+  // In whatever order.
+  static bool AreEven(std::vector<double> values) {
     std::erase_if(values, [](double value) { return std::isnan(value); });
     std::ranges::sort(values);
+    constexpr std::ptrdiff_t kNearlyAll = 90;
+    return StepEvenly(values, kNearlyAll);
+  }
+
+  // A step apart from one another, this percentage of them.
+  static bool StepEvenly(const std::vector<double>& values,
+                         std::ptrdiff_t percent) {
     std::vector<double> steps;
     for (std::size_t i = 1; i < values.size(); ++i) {
       steps.push_back(values[i] - values[i - 1]);
@@ -204,7 +211,7 @@ class ClockColumns : private RowColumns {
     if (even || !whole) return even;
     constexpr std::ptrdiff_t kBetweenPauses = 75;
     return longest <= kLeapSteps * PaceOf(values).step ||
-           !AreEven(values, kBetweenPauses);
+           !StepEvenly(values, kBetweenPauses);
   }
 
   bool CountsFrom1970(const CsvColumn& column) const {

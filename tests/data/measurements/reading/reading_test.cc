@@ -349,5 +349,12 @@ TEST(Reading, TakesBlocksForSessionsWhereAClockOfHoursHidesOne) {
   EXPECT_EQ(reading.sessions.alternative, "3, where 'time_s' goes back");
 }
 
+TEST(Reading, TakesSecondsOfTheDayForTheTimeWhateverTheirName) {
+  const Reading reading = Read(Text(
+      "doy,sod,position_mm,t1_degC,error_um", InSecondsOfTheDay(), DayAndRow));
+  EXPECT_EQ(reading.time.column, "sod");
+  EXPECT_THAT(reading.sensors, ElementsAre("t1_degC"));
+}
+
 }  // namespace
 }  // namespace errmap::data
