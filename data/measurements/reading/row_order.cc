@@ -164,6 +164,15 @@ void FindClockAndAxis(TableInReading* in, bool looks_for_axis) {
   if (!looks_for_axis) return;
   in->read.axis = FindAxis(
       in->table(), in->selection, in->read.roles.target, in->base_rows);
+  // What no name calls a position, and the rows are in order of: at one time
+  // an axis is in one place only.
+  const Axis& axis = in->read.axis;
+  if (axis.motion.is_sorted && axis.evidence == Evidence::kValues &&
+      in->clock.is_found() &&
+      !AreDistinct(in->clock.time,
+                   std::vector<std::string>(in->base_rows.size()))) {
+    in->read.axis = {};
+  }
 }
 
 }  // namespace

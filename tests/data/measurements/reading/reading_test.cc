@@ -356,5 +356,20 @@ TEST(Reading, TakesSecondsOfTheDayForTheTimeWhateverTheirName) {
   EXPECT_THAT(reading.sensors, ElementsAre("t1_degC"));
 }
 
+TEST(Reading, TakesNoAxisThatIsInTwoPlacesAtATime) {
+  std::vector<Log::Row> rows = Log{.cycles = 1, .positions = 60}.Rows();
+  for (Log::Row& row : rows) row.time -= rows[60].time * row.day;
+  const Reading reading = Read(
+      Text("Test day,time_s,t1_degC,error_um", rows, [](const Log::Row& row) {
+        return std::vector<std::string>{std::to_string(row.day + 1),
+                                        Fixed(std::round(row.position / 5.0)),
+                                        Fixed(row.warm),
+                                        Fixed(row.error)};
+      }));
+  EXPECT_EQ(reading.position.column, std::nullopt);
+  EXPECT_EQ(reading.sessions.count, 4);
+  EXPECT_EQ(reading.time.step_s, 10.0);
+}
+
 }  // namespace
 }  // namespace errmap::data
