@@ -78,6 +78,17 @@ class ClockFinder : private RowColumns {
     clock_.time = RowNumbers();
   }
 
+  // A column that hardly ever has a time is no clock.
+  void NoteMissing(std::size_t column, std::size_t row) {
+    constexpr std::ptrdiff_t kSeldom = 10;
+    const CsvColumn& cells = table_.columns[column];
+    const auto missing =
+        std::ranges::count_if(cells.exceptions, [&](const auto& cell) {
+          return IsMissingNumber(cells.texts[cell.second]);
+        });
+    if (kSeldom * missing <= std::ssize(rows_)) clock_.lacks = {column, row};
+  }
+
   void Take(std::size_t index, bool named) {
     const CsvColumn& column = table_.columns[index];
     const TextTimes times = ReadTimes(column);
@@ -91,6 +102,7 @@ class ClockFinder : private RowColumns {
       const auto at = static_cast<std::size_t>(&text - column.texts.data());
       if (IsMissingNumber(text)) {
         if (!MayBeMissing(index, row, named, &clock_.remarks)) {
+          NoteMissing(index, row);
           return UseRowNumbers();
         }
         known[i] = false;
@@ -109,6 +121,7 @@ class ClockFinder : private RowColumns {
     }
     if (std::ranges::find(known, true) == known.end()) return;
     clock_.column = static_cast<std::ptrdiff_t>(index);
+    clock_.lacks.reset();
     clock_.evidence = named        ? Evidence::kUser
                       : as_numbers ? Evidence::kName
                                    : Evidence::kNameAndValues;
@@ -281,6 +294,7 @@ class ClockFinder : private RowColumns {
                                    DataRow(i),
                                    false,
                                    &clock_.remarks)) {
+        NoteMissing(static_cast<std::size_t>(dates_), DataRow(i));
         return false;
       }
     }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -27,6 +28,9 @@ struct Clock {
   bool sure = true;
   std::optional<std::string> alternative;
   std::vector<std::string> remarks;  // on its unit, the order of dates, ...
+  /// A cell without which a column would be the clock, or its dates: column and
+  /// row of the table. Few are missing.
+  std::optional<std::pair<std::size_t, std::size_t>> lacks;
 
   bool is_found() const { return column >= 0; }
   /// True if each row has a later date than the previous one, so that no

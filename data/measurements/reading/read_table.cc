@@ -153,6 +153,17 @@ void FindSessionsOfRows(TableInReading* in) {
   }
 }
 
+// Nights that only a clock can tell need all of it.
+void RequireClock(const TableInReading& in) {
+  const auto& lacks = in.clock.lacks;
+  if (!lacks || !in.read.found.sessions.column.empty() ||
+      in.read.found.by == "counter") {
+    return;
+  }
+  RefuseMissingCell(
+      in.table(), {lacks->first, ColumnUse::kOther}, lacks->second);
+}
+
 // The steps from the rows' order to the cycles.
 void ReadRowsToLearn(TableInReading* in) {
   PutInOrder(in, RowsFor::kLearning);
@@ -178,7 +189,10 @@ ReadTable ReadRoles(const CsvTable& table, const DatasetSelection& selection) {
   ChooseBaseRows(&in);
   if (!selection.only_to_judge) ReadRowsToLearn(&in);
   TakeRowsThatPass(&in);
-  if (selection.with_log) FindSessionsOfRows(&in);
+  if (selection.with_log) {
+    FindSessionsOfRows(&in);
+    if (!selection.only_to_judge) RequireClock(in);
+  }
   if (!selection.only_to_judge) DescribeReading(&in);
   return std::move(in.read);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -22,6 +23,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::ThrowsMessage;
 using warming_log::Fixed;
 using warming_log::Log;
 using warming_log::Read;
@@ -369,6 +371,40 @@ TEST(Reading, TakesNoAxisThatIsInTwoPlacesAtATime) {
   EXPECT_EQ(reading.position.column, std::nullopt);
   EXPECT_EQ(reading.sessions.count, 4);
   EXPECT_EQ(reading.time.step_s, 10.0);
+}
+
+// Rows with a clock of dates, of which these lack it.
+std::string WithoutTime(const std::function<bool(int)>& lacks) {
+  int at = 0;
+  return Text("position_mm,stamp,t1_degC,error_um",
+              Log().Rows(),
+              [&](const Log::Row& row) {
+                std::vector<std::string> cells = TimePositionTempError(row);
+                std::swap(cells[0], cells[1]);
+                const auto minutes = static_cast<int>(row.time / 60.0);
+                const auto two = [](int number) {
+                  return std::string(number < 10 ? "0" : "") +
+                         std::to_string(number);
+                };
+                cells[1] = "2024-03-" + two(1 + minutes / 1440) + " " +
+                           two(minutes / 60 % 24) + ":" + two(minutes % 60);
+                if (lacks(at++)) cells[1] = "";
+                return cells;
+              });
+}
+
+TEST(Reading, AsksForTheTimeThatFewRowsLack) {
+  const std::string text = WithoutTime([](int row) { return row == 44; });
+  EXPECT_THAT([&] { Read(text); },
+              ThrowsMessage<InputError>(HasSubstr(
+                  "line 46 (data row 44), column 'stamp': empty cell; fill it "
+                  "in, or drop such rows with ")));
+  const Reading reading = Read(text, {.missing = MissingPolicy::kDropRows});
+  EXPECT_EQ(reading.sessions.count, 4);
+  EXPECT_EQ(reading.time.column, "stamp");
+  // A column that says the time here and there is no clock.
+  EXPECT_EQ(Read(WithoutTime([](int row) { return row % 6 != 0; })).time.column,
+            std::nullopt);
 }
 
 }  // namespace
