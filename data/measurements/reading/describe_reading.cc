@@ -87,7 +87,7 @@ void DescribeSessions(const CsvTable& table,
     auto& at = first[static_cast<std::size_t>(code)];
     if (at < 0) at = static_cast<std::int64_t>(read->log_rows[i]);
     const auto row = static_cast<std::size_t>(read->log_rows[i]);
-    if (group != kNoColumn && have_target[row]) {
+    if (group != kNoColumn && have_target[row] && found.known[i]) {
       const CsvColumn& column = table.At(group);
       const std::string* const text = column.TextAt(row);
       if (text != nullptr && text->empty()) continue;

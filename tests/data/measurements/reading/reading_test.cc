@@ -407,5 +407,16 @@ TEST(Reading, AsksForTheTimeThatFewRowsLack) {
             std::nullopt);
 }
 
+TEST(Reading, CountsNoCycleOfRowsWithoutATime) {
+  std::string text;
+  int lines = 0;
+  for (const char c : WithoutTime([](int) { return false; })) {
+    text += c;
+    const bool ends_day = c == '\n' && lines++ > 0 && lines % 30 == 1;
+    if (ends_day) text += ",,22.1,1.5\n";  // its means
+  }
+  EXPECT_EQ(Read(text, {.missing = MissingPolicy::kDropRows}).cycles.count, 20);
+}
+
 }  // namespace
 }  // namespace errmap::data
