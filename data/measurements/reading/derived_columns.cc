@@ -219,6 +219,23 @@ std::vector<ReadBeside> FindReadBeside(const CsvTable& table) {
   return found;
 }
 
+namespace {
+
+// How many of this unit a millimetre is; 1 where it is no length, or one of the
+// columns states its own.
+double InMillimetres(const CsvTable& table,
+                     const ReadBeside& positions,
+                     const Unit& unit) {
+  const Unit mm = UnitOfColumn("x [mm]");
+  const bool lack_units =
+      UnitOfColumn(table.columns[positions.read].name).symbol.empty() &&
+      UnitOfColumn(table.columns[positions.commanded].name).symbol.empty();
+  return lack_units && AreConvertible(mm, unit) ? Converted(1.0, mm, unit)
+                                                : 1.0;
+}
+
+}  // namespace
+
 void RequireDifference(const CsvTable& table,
                        std::size_t target,
                        const ReadBeside& positions) {
@@ -226,9 +243,10 @@ void RequireDifference(const CsvTable& table,
   constexpr double kFits = 0.01;  // of the sum of squares may be left
   constexpr double kAlike = 0.05;
   const CsvColumn& error = table.columns[target];
-  const std::string difference = table.columns[positions.read].name + "-" +
-                                 table.columns[positions.commanded].name;
-  const auto read = Difference(table, difference, "", UnitOfColumn(error.name));
+  std::string difference = table.columns[positions.read].name + "-" +
+                           table.columns[positions.commanded].name;
+  const Unit unit = UnitOfColumn(error.name);
+  const auto read = Difference(table, difference, "", unit);
   if (!read) return;
   double products = 0.0;
   double squares = 0.0;
@@ -243,11 +261,15 @@ void RequireDifference(const CsvTable& table,
     all += value * value;
     ++rows;
   }
-  const double factor = products / squares;
-  if (rows < kFewestRows || !(all - factor * products <= kFits * all) ||
-      std::abs(factor - 1.0) < kAlike) {
-    return;
+  double factor = products / squares;
+  if (rows < kFewestRows || !(all - factor * products <= kFits * all)) return;
+  // Positions that state no unit are in millimetres most often.
+  const double in_mm = InMillimetres(table, positions, unit);
+  if (in_mm != 1.0 && std::abs(std::abs(factor / in_mm) - 1.0) < kAlike) {
+    factor /= in_mm;
+    difference += " [mm]";
   }
+  if (std::abs(factor - 1.0) < kAlike) return;
   const bool opposite = std::abs(factor + 1.0) < kAlike;
   const double decades = std::log10(std::abs(factor));
   if (!opposite && std::abs(decades - std::round(decades)) > kAlike) return;

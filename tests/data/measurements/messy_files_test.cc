@@ -23,6 +23,7 @@
 namespace errmap::data {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::AnyOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
@@ -364,11 +365,13 @@ TEST(MessyFiles, DifferencesOfTheOtherSignAreAskedAbout) {
 }
 
 TEST(MessyFiles, TheErrorIsHeldAgainstWhatItIsTheDifferenceOf) {
-  const auto error_of = [](double factor, const std::string& unit) {
+  std::string actual_name = "actual_mm";
+  const auto error_of = [&](double factor, const std::string& unit) {
     return ErrorOf(
         Joined(Changed(Measured(), [&](std::size_t row, auto* cells) {
-          std::string actual = "actual_mm";
+          std::string actual = actual_name;
           if (row == 0) {
+            if (actual == "actual") (*cells)[kPosition] = "commanded";
             cells->back() = "error_" + unit;
           } else {
             const double error = std::stod(cells->back());
@@ -381,6 +384,12 @@ TEST(MessyFiles, TheErrorIsHeldAgainstWhatItIsTheDifferenceOf) {
   EXPECT_EQ(error_of(1.0, "um"), "no error");
   EXPECT_THAT(error_of(-1.0, "um"), HasSubstr("is the opposite of"));
   EXPECT_THAT(error_of(1.0, "mm"), HasSubstr("is 1000 times"));
+  // Without a unit positions are in mm.
+  actual_name = "actual";
+  EXPECT_EQ(error_of(1.0, "um"), "no error");
+  EXPECT_THAT(error_of(-1.0, "um"),
+              AllOf(HasSubstr("is the opposite of"),
+                    HasSubstr("actual-commanded [mm]")));
 }
 
 TEST(MessyFiles, AnErrorWithoutAUnitIsAskedAbout) {
