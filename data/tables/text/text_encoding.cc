@@ -38,6 +38,7 @@ constexpr auto kFormats = std::to_array<KnownFormat>(
      {"%PDF-", "a PDF; export the table as CSV"},
      {"<!DOCTYPE", "a web page; save the table as CSV", true},
      {"<html", "a web page; save the table as CSV", true},
+     {"<table", "a web page; save the table as CSV", true},
      {"<?xml", "XML; export the table as CSV", true},
      {"CREATE TABLE", "SQL; export the table as CSV", true},
      {"INSERT INTO", "SQL; export the table as CSV", true},

@@ -254,6 +254,7 @@ TEST(MessyFiles, AllElseIsOneLineThatSaysWhatToDo) {
       {"BZh91AY&SY\x1D"s, "compressed (bzip2)"},
       {"%PDF-1.4\n", "PDF"},
       {"<!doctype html><table></table>\n", "web page"},
+      {"<table border=1><tr><td>1</td></tr></table>\n", "web page"},
       {"{\n \"schema\": \"errmap-model-1\"}\n", "this is JSON"},
       {"[{\"x\": 1}, {\"x\": 2}]\n", "this is JSON"},
       {"INSERT INTO t VALUES (1, 2);\n", "this is SQL"},
