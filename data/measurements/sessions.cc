@@ -415,7 +415,7 @@ class SessionFinder : private RowColumns {
   }
 
   // A clock without dates does not go back where a day begins later than the
-  // one before it ended: blocks of rows that begin wherever it does, and
+  // one before it ended: blocks of rows that begin wherever it does, and hardly
   // elsewhere, are the days.
   void TakeBlocksOfClock() {
     if (found_.dated || blocks_ < 0 || !selection_.gap.empty() ||
@@ -432,7 +432,8 @@ class SessionFinder : private RowColumns {
         return;
       }
     }
-    if (by_block == by_clock ||
+    const bool hardly = 2 * (by_clock - 1) > by_block - 1;
+    if (by_block == by_clock || !hardly ||
         !TakeSessions(static_cast<std::size_t>(blocks_), false)) {
       return;
     }

@@ -349,6 +349,16 @@ TEST(Reading, TakesBlocksForSessionsWhereAClockOfHoursHidesOne) {
   EXPECT_EQ(reading.sessions.column, "doy");
   EXPECT_FALSE(reading.sessions.sure);
   EXPECT_EQ(reading.sessions.alternative, "3, where 'time_s' goes back");
+  // Workpieces that change in the day, too, tell no nights.
+  const Reading halves =
+      Read(Text("lot,time_s,position_mm,t1_degC,error_um",
+                InSecondsOfTheDay(),
+                [](const Log::Row& row) {
+                  std::vector<std::string> cells = DayAndRow(row);
+                  cells[0] = std::to_string(2 * row.day + row.cycle % 5 / 3);
+                  return cells;
+                }));
+  EXPECT_EQ(halves.sessions.count, 3);
 }
 
 TEST(Reading, TakesSecondsOfTheDayForTheTimeWhateverTheirName) {
