@@ -39,8 +39,7 @@ namespace errmap::cli {
 namespace {
 
 constexpr const char* kAbout =
-    "errmap: which map of (position, temperatures) -> error holds on another "
-    "day?";
+    "errmap: which map of a machine tool's error holds on another day?";
 
 constexpr const char* kExample =
     "Begin with: errmap compare DATA.csv, or errmap help tutorial\n"
@@ -149,10 +148,36 @@ void RequireKnownCommand(const CLI::App& app, const std::string& word) {
   if (std::ranges::find(known, word) != known.end()) return;
   std::vector<std::string> meant = OptionNames(app);
   meant.insert(meant.begin(), known.begin(), known.end());
-  throw UsageError(fmt::format("no command '{}'; {}there are {}",
+  const std::string guess = data::DidYouMean(word, meant);
+  throw UsageError(fmt::format("no command '{}'; {}",
                                word,
-                               data::DidYouMean(word, meant),
-                               data::JoinWords(known, ", ")));
+                               guess.empty()
+                                   ? "there are " + data::JoinWords(known, ", ")
+                                   : guess + "see errmap --help"));
+}
+
+// CLI11's "--goal: 1 required X missing" and "--jobs: Value x not in range 1 to
+// 9" in plain words.
+std::string PlainWords(std::string text) {
+  const std::size_t begin = text.find(": ");
+  constexpr std::string_view kOneRequired = ": 1 required ";
+  constexpr std::string_view kMissing = " missing";
+  constexpr std::string_view kValue = ": Value ";
+  constexpr std::string_view kNotInRange = " not in range ";
+  if (begin == std::string::npos) return text;
+  if (text.find(kOneRequired) == begin && text.ends_with(kMissing)) {
+    return text.replace(begin, kOneRequired.size(), ": its value ")
+        .replace(text.size() - kMissing.size(), kMissing.size(), " is missing");
+  }
+  const std::size_t range = text.find(kNotInRange);
+  if (text.find(kValue) == begin && range != std::string::npos) {
+    const std::size_t found = begin + kValue.size();
+    return fmt::format("{} must be {}, found '{}'",
+                       text.substr(0, begin),
+                       text.substr(range + kNotInRange.size()),
+                       text.substr(found, range - found));
+  }
+  return text;
 }
 
 // CLI11 says what it did not expect, and not what was probably meant.
@@ -205,7 +230,12 @@ std::string WithSuggestion(const CLI::App& app,
                        data::DidYouMean(found, known),
                        help);
   }
-  return text + "; " + help;
+  if (of_command && dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    const auto extra = app.get_subcommand(argv[1])->remaining();
+    return fmt::format(
+        "not expected: {}; {}", data::JoinWords(extra, " "), help);
+  }
+  return PlainWords(text) + "; " + help;
 }
 
 struct Purpose {
@@ -353,7 +383,9 @@ int RunParsed(int argc, char** argv) {
     PrintResult(std::string(version.what()) + "\n" + MadeWith());
     return kDone;
   } catch (const CLI::ParseError& error) {
-    throw UsageError(WithSuggestion(app, error, argc, argv));
+    const std::string_view word = argv[1];
+    throw UsageError((word.starts_with('-') ? "" : std::string(word) + ": ") +
+                     WithSuggestion(app, error, argc, argv));
   }
   return run.status;
 }

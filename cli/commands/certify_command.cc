@@ -86,7 +86,7 @@ void AddCertifyCommand(CLI::App* app, Run* run) {
           "Print every run of every solver, with its message");
   AddFormatOption(command, &command->format);
   SetFooter(command,
-            "Exit status: 0 every floor is reached, 4 one is missed.\n"
+            "Exit status: 0 all are accurate enough, 4 one is not.\n"
             "Example: errmap certify nist --format json");
   command.Runs(RunCertify);
 }

@@ -167,11 +167,12 @@ void AddMapDataArguments(CLI::App* command,
             "--after EARLIER.csv",
             arguments->after,
             "Earlier readings, for the filters of a map with a memory");
-  AddOption(command,
-            "--time COL",
-            arguments->time,
-            "Column of times or dates (default: the one that the map "
-            "was\nfitted by, else the only time* or zeit*)");
+  AddOption(
+      command,
+      "--time COL",
+      arguments->time,
+      "Column of times or dates (default: that of the map,\nelse the only "
+      "time* or zeit*)");
   AddOption(command,
             "--session COL",
             arguments->session,

@@ -333,7 +333,7 @@ void AddResidualsCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "--monte-carlo N",
             command->monte_carlo,
-            "Simulate p with this many normal samples (0: none)")
+            "Simulate p with this many normal samples; 0 for none")
       .Range(0LL, 10'000'000LL)
       .ShowDefault();
   AddSeedOption(command, &command->seed, "Seed of the simulation");
@@ -361,7 +361,8 @@ void AddResidualsCommand(CLI::App* app, Run* run) {
       .Under(kOutputOptions);
   AddFormatOption(command, &command->format);
   SetFooter(command,
-            "Example: errmap residuals study/residuals.csv --column blend");
+            "Example: errmap residuals "
+            "data/sets/nistir5367_appendix_b.csv --column residual_mm");
   command.Runs(RunResiduals);
 }
 

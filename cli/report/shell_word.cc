@@ -30,7 +30,14 @@ std::string ShellCommand(const std::vector<std::string>& words,
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string word = ShellWord(words[i]);
     const std::size_t room = i + 1 < words.size() ? kContinuation : 0;
-    if (i > 0 && column + 1 + word.size() + room > width) {
+    std::size_t with_value = word.size();
+    if (word.starts_with('-') && room > 0 && !words[i + 1].starts_with('-')) {
+      with_value += 1 + ShellWord(words[i + 1]).size();
+      if (indent + kFurtherIn + with_value + kContinuation > width) {
+        with_value = word.size();  // too long for one line
+      }
+    }
+    if (i > 0 && column + 1 + with_value + room > width) {
       // Further left only where a word is too long for the column.
       column = indent + kFurtherIn + word.size() + room > width
                    ? kFurtherIn

@@ -212,8 +212,9 @@ void SayWhatFailuresDo(const models::MapProgram& program) {
       models::WorstOfFailing(program);
   for (std::size_t i = 0; i < std::min(kMost, sensors.size()); ++i) {
     Warn(
-        fmt::format("{} failing to 0 would move it by up to {}, any failure of "
-                    "it by up to {}. Checks and limits keep it within {}",
+        fmt::format("{} failing to 0 would move the error by up to {}, "
+                    "the worst failure by up to {}. Checks and limits keep "
+                    "that within {}",
                     data::NameInRemark(sensors[i].name),
                     text.WithUnit(sensors[i].zero),
                     text.WithUnit(sensors[i].without),

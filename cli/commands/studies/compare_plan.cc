@@ -194,7 +194,7 @@ study_setup::StudyPlan PlanOf(const CompareArguments& arguments,
   const study_setup::Remark remark = Sayer(arguments.data.quiet);
   if (arguments.config.empty()) {
     if (!arguments.given.contains("DATA")) {
-      throw UsageError("DATA is required; see errmap compare --help");
+      throw UsageError("compare: DATA is required; see errmap compare --help");
     }
     if (!arguments.changes.empty()) {
       throw UsageError("--set changes a study file; name it with --config");

@@ -205,7 +205,7 @@ map was made, by t statistics. Compares each sensor with the others. A map
 is worse if p is below 0.0025 and it errs 20 % more than promised. It is
 doubtful if p is below 0.02 or it errs twice as much: measure one more
 session. The store keeps the sessions, and watch.html draws them. A file
-belongs to the component whose data file has its name and most of its
+belongs to the component whose data file has the same name and shares most
 folders.
 Exit status: 0 none is worse, 3 nothing usable or deployed, 4 a map is worse
 than

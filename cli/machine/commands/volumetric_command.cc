@@ -154,7 +154,7 @@ void SayErrors(const Synthesis& s) {
       report::ErrorText(s.machine.length, difference).WithUnit(difference)));
 }
 
-// The components that matter most, by the RMS of what each adds.
+// The components that matter most, by the RMS of their contributions.
 void SayContributions(const Synthesis& s) {
   std::vector<std::pair<double, std::string>> sizes;
   for (std::size_t k = 0; k < s.machine.errors.size(); ++k) {
@@ -172,7 +172,7 @@ void SayContributions(const Synthesis& s) {
   for (const auto& [size, name] : sizes) {
     parts.push_back(fmt::format("{} {}", name, text(size)));
   }
-  Warn(fmt::format("RMS of what each adds, {}: {}",
+  Warn(fmt::format("RMS of the largest contributions, {}: {}",
                    text.symbol(),
                    data::JoinWords(parts, ", ")));
 }
@@ -220,7 +220,7 @@ std::vector<std::string> DiagonalLines(const Synthesis& s,
   if (!runs) return {};
   constexpr const char* kWhat = "systematic deviation E along diagonals";
   std::vector<std::string> lines = {
-      fmt::format("{}, of what the maps say: {}",
+      fmt::format("{}, predicted by the maps: {}",
                   kWhat,
                   DiagonalText(s, *runs, s.errors.exact))};
   if (truth) {

@@ -78,7 +78,7 @@ std::string CalibrationOf(const MachineChoiceRecord& choice) {
     return "of the components' intervals, taken as independent";
   }
   return fmt::format(
-      "by the errors at the tool on {}, each session held out in turn",
+      "from the errors at the tool in sessions {}, each held out in turn",
       data::JoinWords(choice.held_out, ", "));
 }
 
@@ -88,8 +88,8 @@ Table ToolTipTable(const MachineRecord& machine) {
       .title = fmt::format(
           "Error at the tool of {}, {}", machine.name, shown.symbol),
       .note = fmt::format(
-          "Tool minus work, length in {}, at the poses of {} on sessions that "
-          "no fit saw ({}).{}",
+          "Tool minus work, length in {}, at the poses of {} in sessions that "
+          "no fit saw: {}.{}",
           machine.sensitive,
           machine.points,
           data::JoinWords(machine.later, ", "),
@@ -180,9 +180,8 @@ Table DiagonalTable(const MachineRecord& machine) {
                          "diagonal",
                          &MachineChoiceRecord::diagonals);
   table.note =
-      "Named by the signs of X, Y and Z along it (n: falling, 0: standing); "
-      "true errors along it, both ways, runs of those sessions, warm-up "
-      "included.";
+      "The name has the signs of X, Y and Z (n: falling, 0: constant). True "
+      "errors in both directions in those sessions, warm-up included.";
   return table;
 }
 

@@ -132,9 +132,9 @@ TEST_F(CliPromise, FitAndExportTellTheSameOfASensorThatFails) {
   ASSERT_TRUE(std::regex_search(
       said,
       found,
-      std::regex("(t[123]_degC) failing to 0 would move it by up to ([0-9.]+) "
-                 "um, any failure of it by up to ([0-9.]+) um. Checks and "
-                 "limits keep it within ([0-9.]+) um")))
+      std::regex("(t[123]_degC) failing to 0 would move the error by up to "
+                 "([0-9.]+) um, the worst failure by up to ([0-9.]+) um. "
+                 "Checks and limits keep that within ([0-9.]+) um")))
       << said;
   const Json& sensitivity = fitted["sensitivity"];
   EXPECT_EQ(found[1].str(), sensitivity["jump_of"]);

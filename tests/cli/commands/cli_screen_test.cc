@@ -439,6 +439,13 @@ TEST_F(Screens, GuessWhatWasMeant) {
               HasSubstr("DATA is required"));
   EXPECT_THAT(err({"fit", kDown, "--", "--modle"}),
               HasSubstr("--model is required"));
+  EXPECT_THAT(err({"when"}), HasSubstr("errmap: when: MODEL is required"));
+  EXPECT_THAT(err({"when", "a", "b", "c"}),
+              HasSubstr("when: not expected: b c; see errmap when --help"));
+  EXPECT_THAT(err({"compare", kDown, "--goal"}),
+              HasSubstr("compare: --goal: its value X is missing"));
+  EXPECT_THAT(err({"compare", kDown, "--jobs", "x"}),
+              HasSubstr("compare: --jobs must be 1 to 1024, found 'x'"));
   EXPECT_THAT(err({"compare", kDown, "--models", "poly:eq88"}),
               HasSubstr("did you mean 'poly:eq8'?"));
   EXPECT_THAT(err({"compare", kDown, "--models", "ridge"}),

@@ -279,8 +279,8 @@ TEST_F(MachineStudy, StatesIntervalsByTheToolOnSessionsHeldOut) {
                               "--quiet"});
   EXPECT_THAT(OneLine(screen.out),
               AllOf(HasSubstr("Stated 90 % intervals of the error at the tool"),
-                    HasSubstr("by the errors at the tool on 1, 2, 3, 4, each "
-                              "session held out in turn")));
+                    HasSubstr("from the errors at the tool in sessions "
+                              "1, 2, 3, 4, each held out in turn")));
 }
 
 // The folder by an absolute path, which the record does not keep.

@@ -46,7 +46,15 @@ TEST(ShellWord, IsReadBackByAShell) {
 
 TEST(ShellCommand, GoesOnInTheNextLine) {
   EXPECT_EQ(ShellCommand({"errmap", "fit", "a b.csv", "-o", "map.json"}, 22, 2),
-            "errmap fit \\\n      'a b.csv' -o \\\n      map.json");
+            "errmap fit \\\n      'a b.csv' \\\n      -o map.json");
+}
+
+TEST(ShellCommand, KeepsAnOptionAndItsValueOnOneLine) {
+  EXPECT_EQ(ShellCommand({"errmap", "fit", "--model", "blend"}, 24, 2),
+            "errmap fit \\\n      --model blend");
+  EXPECT_EQ(
+      ShellCommand({"errmap", "--model", "of-many-characters-alone"}, 24, 2),
+      "errmap --model \\\n    of-many-characters-alone");
 }
 
 }  // namespace
