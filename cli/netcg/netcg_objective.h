@@ -5,7 +5,7 @@
 
 namespace errmap::netcg {
 
-/// E(w) and its gradient, computed as by subroutines FORWARD and FUNC of NISTIR
+/// E(w) and its gradient, computed as in subroutines FORWARD and FUNC of NISTIR
 /// 5367, Appendix A. Every sum has the program's order and precision, and the
 /// logistic function is 0 below -40. So results agree with the program's to the
 /// last digit. Weights w (N): w1 (H x (I+1)) column by column, then w2 (J x

@@ -22,7 +22,7 @@ class Uni {
   std::size_t j_ = 16;
 };
 
-/// Initial weights (N) of a net in NetcgObjective's order, drawn as by
+/// Initial weights (N) of a net in NetcgObjective's order, drawn as in
 /// subroutine SETWTS. One draw is discarded. The others lie within +-0.5, row
 /// by row (to outer, from inner).
 Eigen::VectorXf RandomWeights(Index inputs,

@@ -27,8 +27,8 @@ struct ColumnRoles {
 ColumnRoles ChooseRoles(const CsvTable& table,
                         const DatasetSelection& selection);
 
-/// Returns the column whose name numbers cycles, and the only one with the name
-/// of a time; kNoColumn: none. For tables that are only partly read.
+/// Returns the column named as a number of cycles, and the only one named as a
+/// time; kNoColumn if there is none. For tables that are only partly read.
 std::ptrdiff_t CycleColumn(const CsvTable& table);
 std::ptrdiff_t TimeColumn(const CsvTable& table);
 

@@ -301,7 +301,9 @@ std::string WordFor(const Grouping& grouping) {
   if (are_dates && !grouping.labels.empty()) return "day";
   if (IsCalled(grouping.column, Word::kCycle)) return "cycle";
   if (IsCalled(grouping.column, Word::kDay)) return "day";
-  return grouping.column;
+  const bool has_plural =
+      grouping.column.find_first_of("_0123456789[](") == std::string::npos;
+  return has_plural ? grouping.column : "group";
 }
 
 Grouping GroupByColumn(const CsvTable& table,

@@ -59,7 +59,7 @@ struct Grouping {
 };
 
 /// Returns the word for one group: "day" if all labels are dates, "session" if
-/// the column is "", else a word from the column's name.
+/// the column is "", "group" if its name has no plural, else its name.
 std::string WordFor(const Grouping& grouping);
 
 /// Every row of the table as read, in file order. It includes rows dropped or

@@ -51,7 +51,7 @@ struct FoundSessions {
 /// one, rows are counted. Sessions are the column named, else each of several
 /// files (kFileColumn), unless one clock continues through all. Otherwise they
 /// are the first usable column with a name in kSessionColumns or another word
-/// for sessions and runs. Without one, they are the only column of dates, if
+/// for sessions and runs. Without one, the only column of dates numbers them if
 /// time has none. Without columns, a session ends where time goes back or at a
 /// night (Nights). If that gives one session, they end where a count of cycles
 /// restarts. Without times and such a count, a column of blocks or a fall of

@@ -35,8 +35,8 @@ struct ExtendedSystem {
 /// A leverage this close to 1 counts as 1: one coefficient fits this row alone.
 inline constexpr double kLeastSlack = 1e-9;
 
-/// Limit of rows times rank. A larger design, about half a second in 106 bits,
-/// is not refined unless a column is nearly determined by others.
+/// Limit of rows times rank: about half a second in 106 bits. A larger design
+/// is refined only if a column is nearly determined by others.
 inline constexpr double kMostRefinedValues = 2e6;
 
 /// A column is aliased if earlier columns leave at most this share of its

@@ -53,7 +53,7 @@ struct SolverCertificate {
   double floor_mean_lre_parameters = 0.0;
 };
 
-/// A linear NIST problem, solved as by `errmap fit --model SPEC` from CSV data.
+/// A linear NIST problem, solved like `errmap fit --model SPEC` from CSV data.
 struct LinearCertificate {
   std::string problem;
   std::string model = {};  // the SPEC

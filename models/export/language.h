@@ -49,7 +49,7 @@ class Language {
   virtual std::string Number(double value, bool single) const;
   /// Returns the language's expression for a cell's value.
   virtual std::string CellName(Cell cell) const = 0;
-  /// Returns one coordinate of the loop's trained state of a form.
+  /// Returns a coordinate of a form's trained state, inside the loop over them.
   virtual std::string TrainedState(int form, int coordinate) const = 0;
   /// Returns the condition that the status has one of these bits.
   virtual std::string HasAny(int mask) const = 0;

@@ -111,7 +111,7 @@ struct History {
   /// `form_inputs`, then by `derived`.
   std::vector<std::string> columns() const;
   /// Returns the indices in columns() of those filtered or zeroed. A log of
-  /// earlier rows needs no others.
+  /// earlier rows needs only these.
   std::vector<Index> remembered() const;
 };
 inline constexpr double kSettledTaus = 4.0;
@@ -135,7 +135,7 @@ double LatestStart(const data::Dataset& training);
 double LongestStep(const data::Dataset& training);
 
 /// Returns row_changes for the columns of `history` in the sessions of these
-/// rows; none if its time is not rows.
+/// rows; none if its time does not count rows.
 std::vector<RowChange> RowChanges(const data::Dataset& training,
                                   const History& history);
 

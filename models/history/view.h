@@ -60,8 +60,8 @@ struct ViewedRows {
 /// Returns the views of `options` that these rows allow, simplest first;
 /// without options, only the rows as measured. Filters and zeros need an input
 /// besides positions. Filters also need sessions of some length, and zeros two
-/// sessions or more. Unless named, a zero alone is offered only without
-/// filters. Throws std::invalid_argument if a view requested by name is not
+/// sessions or more. With filters, a zero alone is offered only if it was
+/// named. Throws std::invalid_argument if a view requested by name is not
 /// possible.
 std::vector<ViewedRows> MakeViews(const data::Dataset& training,
                                   const std::optional<ViewOptions>& options,
@@ -75,7 +75,7 @@ std::shared_ptr<const std::vector<ViewedRows>> SharedViews(
     const FitContext& context);
 
 /// Returns the median session length of `training` / 100, / 30 and / 10, for
-/// use as default time constants. Empty if there is no length.
+/// use as default time constants. Empty if sessions have none.
 std::vector<double> MakeTimeConstants(const data::Dataset& training);
 
 /// Returns the largest size of the target in the first rows of sessions, for

@@ -121,7 +121,7 @@ std::vector<Figure> TrainingFigures(const ReportView& view,
 
 /// The recommended map's effect on the machine's error, on held-out rows. Shows
 /// the error over position before and after, the remaining error over the time
-/// of day, and the error by day or cycle. The last shows how the worst one
+/// of day, and the error by day or cycle. This one says how the worst day
 /// differs. Omits figures that the data do not allow.
 std::vector<Figure> CompensationFigures(const ReportView& view,
                                         const std::string& prefix);

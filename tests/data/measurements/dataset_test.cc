@@ -269,6 +269,9 @@ TEST(GroupByColumn, GroupsHaveAWord) {
                      .labels = {"2026-03-02 07:00", "2026-03-03 07:00"},
                      .codes = {}}),
             "start");
+  EXPECT_EQ(
+      WordFor({.column = "position_mm", .labels = {"1", "2"}, .codes = {}}),
+      "group");
 }
 
 TEST(GroupByColumn, KeepsTextsInOrderOfAppearance) {
