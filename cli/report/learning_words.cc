@@ -30,12 +30,19 @@ std::string GoalWords(const models::LearningCurvesRecord& curves,
   }
   const auto [low, median, high] = *law.units_for_goal;
   const auto have = static_cast<double>(curves.units);
+  if (low < high && high <= have) {
+    return fmt::format("{} is reached with {:.0f} to {:.0f} of the {:.0f}",
+                       wanted,
+                       low,
+                       high,
+                       have);
+  }
   if (median <= have) {
     return fmt::format(
         "{} is reached with about {:.0f} of the {:.0f}", wanted, median, have);
   }
   if (!(median <= kTooMany * have)) {
-    return fmt::format("{} is hardly reached: the floor of the law is {} to {}",
+    return fmt::format("{} is hardly reached: the error levels off at {} to {}",
                        wanted,
                        error(law.floor[0]),
                        error.WithUnit(law.floor[2]));
@@ -70,6 +77,13 @@ std::string LawWords(const models::LearningCurvesRecord& curves,
 
 std::string EnoughWords(const models::SensorCurve& curve) {
   const double percent = kPercent * (models::SensorCurve::kTolerance - 1.0);
+  if (curve.enough == curve.all.sensors) {
+    return fmt::format(
+        "All {} sensors are needed; fewer add over {:.0f} % "
+        "to the error",
+        curve.all.sensors,
+        percent);
+  }
   return curve.enough
              ? fmt::format(
                    "{} of {} sensors are enough, within {:.0f} % of all",

@@ -17,8 +17,8 @@ std::string IntervalText(const models::PromiseRecord& promise,
         text.empty()
             ? fmt::format(" of the errors on an unseen {} lie", promise.unit)
             : "",
-        error.WithUnit(level.half_width),
-        level.at_least ? " or more" : "");
+        level.at_least ? "at least " : "",
+        error.WithUnit(level.half_width));
   }
   if (promise.good_for) {
     text += fmt::format(

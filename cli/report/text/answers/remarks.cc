@@ -374,8 +374,11 @@ Remarks PerhapsWorse(const Numbers& of) {
   const double without =
       none == nullptr ? models::kNotKnown : TestRmse(*none, advice.holdout);
   if (!(high > without)) return {};
+  const models::PairRecord* const pair =
+      models::FindPair(of.record, advice.holdout, advice.model, "zero");
+  if (pair != nullptr && pair->established) return {};
   return {{"is it better?",
-           fmt::format("not known: the range ends above the {} without a map",
+           fmt::format("not proven: the range ends above the {} without a map",
                        of.error.WithUnit(without)),
            Tone::kBad}};
 }

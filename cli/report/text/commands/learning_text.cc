@@ -8,6 +8,7 @@
 
 #include "cli/report/learning_words.h"
 #include "cli/report/number_text.h"
+#include "cli/report/text/answers/component_numbers.h"
 #include "data/text.h"
 
 namespace errmap::report {
@@ -46,10 +47,12 @@ std::string CurvesText(const models::LearningCurvesRecord& curves,
                        const data::Unit& unit) {
   const ErrorText error = ErrorTextOf(curves, unit);
   std::string text = fmt::format(
-      "RMSE ({}) on an unseen {}, by the number learnt from, {} in all; 90 % "
+      "RMSE ({}) on an unseen {}, by the number of {} learnt from; {} in all; "
+      "90 % "
       "interval\n",
       error.symbol(),
       curves.unit,
+      PluralOf(curves.unit),
       curves.units);
   for (const models::LearningModelRecord& model : curves.models) {
     text += CurveText(curves, model, error);
@@ -72,8 +75,7 @@ std::string SensorsText(const models::SensorCurve& curve,
                         error(point.rmse),
                         point.sensors == curve.enough ? "  enough" : "");
   }
-  text +=
-      fmt::format("  all {}  {}\n", curve.all.sensors, error(curve.all.rmse));
+  text += fmt::format("  {:>4}  {:>9}\n", "all", error(curve.all.rmse));
   text += EnoughWords(curve) + (curve.enough ? ":\n" : "; the best choice:\n");
   for (const models::SensorCurve::Chosen& chosen : curve.chosen) {
     text += "  " + data::Printable(chosen.sensor);

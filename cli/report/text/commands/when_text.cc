@@ -20,7 +20,7 @@ using models::ZeroTrigger;
 
 std::string EveryText(const ZeroTrigger& clock) {
   return std::isfinite(clock.time) ? "every " + DurationText(clock.time)
-                                   : "where a session begins";
+                                   : "as a session begins";
 }
 
 std::string TemperatureText(const models::HeldOutErrors& errors) {
