@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::size_t kNameLength = 24;
 
-// "every:3 (neighbours)", "groups:5 (unseen cycle)".
+// "neighbours (every:3)", "unseen cycle (groups:5)".
 std::string HoldoutLabel(const ReportView& view, const std::string& holdout) {
-  return Shortened(holdout, kNameLength) + " (" + UnseenWords(view, holdout) +
+  return UnseenWords(view, holdout) + " (" + Shortened(holdout, kNameLength) +
          ")";
 }
 

@@ -85,7 +85,7 @@ Figure PositionFigure(const ReportView& view,
                       std::size_t position,
                       const std::string& prefix) {
   Figure figure = Begin(
-      view, prefix + "compensation", "Over the position, before and after");
+      view, prefix + "compensation", "Error over position, before and after");
   figure.plot.x = InputAxis(view, position, kLongName);
   const std::vector<double>& x = rows.inputs[position];
   AddBanded("before", kGrey, x, rows.target, &figure.plot);
@@ -124,7 +124,7 @@ std::pair<Axis, std::vector<double>> TimeOfSession(const ReportView& view,
                 : of_day ? std::fmod(at[i] / kHour, kDay)
                          : since / kHour);
   }
-  if (!clock) return {{.quantity = "row since the start"}, x};
+  if (!clock) return {{.quantity = "rows since the start"}, x};
   return {{.quantity = of_day ? "time of day" : "time since the session began",
            .unit = "h"},
           x};
@@ -133,7 +133,7 @@ std::pair<Axis, std::vector<double>> TimeOfSession(const ReportView& view,
 Figure TimeFigure(const ReportView& view,
                   const HeldOutRows& rows,
                   const std::string& prefix) {
-  Figure figure = Begin(view, prefix + "clock", "Over the time, after");
+  Figure figure = Begin(view, prefix + "clock", "Error over time, after");
   auto [axis, x] = TimeOfSession(view, rows);
   if (axis.quantity == "time of day")
     figure.title = "Over the time of day, after";
@@ -231,7 +231,7 @@ std::vector<Figure> UnitFigures(const ReportView& view,
   }
   const std::vector<std::string>& labels = holdout->unit_labels;
   Figure figure =
-      Begin(view, prefix + "units", "By " + holdout->unit_of_analysis);
+      Begin(view, prefix + "units", "Error by " + holdout->unit_of_analysis);
   figure.plot.y.quantity = "RMSE, unseen";
   figure.plot.y.low = 0.0;
   figure.plot.x.quantity = Shortened(holdout->unit_of_analysis, 30);
