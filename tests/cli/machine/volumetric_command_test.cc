@@ -252,8 +252,8 @@ TEST_F(VolumetricCommand, SaysWhatIsLeftAlongTheDiagonals) {
                  {"-o", "out.csv"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.err,
-              AllOf(HasSubstr("systematic deviation E along diagonals, of what "
-                              "the maps say: ppp "),
+              AllOf(HasSubstr("systematic deviation E along diagonals, "
+                              "predicted by the maps: ppp "),
                     HasSubstr("measured: ppp "),
                     HasSubstr("; minus the maps: ppp "),
                     HasSubstr("measured there 1"),
