@@ -137,7 +137,8 @@ class Checks:
 
     def holdouts_of(self, case, page):
         """What each hold-out holds out, as drawn and as tabled."""
-        drawn = dict(re.findall(r"<text[^>]*>(\S+:\d+) \(([^<)]*)\)</text>", page))
+        titles = re.findall(r"<text[^>]*>([^<(]*) \((\S+:\d+)\)</text>", page)
+        drawn = {name: what for what, name in titles}
         tabled = dict(re.findall(r"<bdi>([^\s<]+:\d+) RMSE.*?class=\"soft\">([^<;]*)", page))
         for name in drawn.keys() & tabled.keys():
             self.same(case, f"what {name} holds out", tabled[name], drawn[name])

@@ -71,8 +71,8 @@ TEST(CommandHelp, ContinuesALongExampleAsAShellReadsIt) {
   cli::CommandReference command = Weigh();
   command.footer = "Example: errmap weigh apple.csv pear.csv -o weights.csv";
   EXPECT_THAT(cli::CommandHelp(command, cli::HelpOptions::kAll, 40),
-              HasSubstr("\nExample:\n  errmap weigh apple.csv pear.csv -o \\\n"
-                        "      weights.csv\n"));
+              HasSubstr("\nExample:\n  errmap weigh apple.csv pear.csv \\\n"
+                        "      -o weights.csv\n"));
 }
 
 TEST(CommandHelp, PutsManyOptionsUnderHeadingsAndTheOutputLast) {
