@@ -383,8 +383,9 @@ int RunParsed(int argc, char** argv) {
     PrintResult(std::string(version.what()) + "\n" + MadeWith());
     return kDone;
   } catch (const CLI::ParseError& error) {
-    const std::string_view word = argv[1];
-    throw UsageError((word.starts_with('-') ? "" : std::string(word) + ": ") +
+    const std::string word = argc > 1 ? argv[1] : "";
+    const bool is_command = !word.empty() && !word.starts_with('-');
+    throw UsageError((is_command ? word + ": " : "") +
                      WithSuggestion(app, error, argc, argv));
   }
   return run.status;
