@@ -17,6 +17,57 @@
 #include "data/units.h"
 
 namespace errmap::data {
+namespace {
+
+struct Range {
+  double least = 0.0;
+  double most = 0.0;
+};
+
+std::vector<Range> RangesOf(const Eigen::Ref<const Eigen::VectorXd>& values,
+                            const std::vector<Eigen::Index>& starts) {
+  std::vector<Range> ranges;
+  for (std::size_t s = 0; s < starts.size(); ++s) {
+    const auto end = s + 1 < starts.size() ? starts[s + 1] : values.size();
+    const auto own = values.segment(starts[s], end - starts[s]);
+    ranges.push_back({own.minCoeff(), own.maxCoeff()});
+  }
+  return ranges;
+}
+
+Range RangeOfOthers(const std::vector<Range>& ranges, std::size_t session) {
+  Range others = ranges[session == 0 ? 1 : 0];
+  for (std::size_t s = 0; s < ranges.size(); ++s) {
+    if (s == session) continue;
+    others.least = std::min(others.least, ranges[s].least);
+    others.most = std::max(others.most, ranges[s].most);
+  }
+  return others;
+}
+
+// The unit in which a session's range is that of the others; "" for their own.
+// A short travel or a cold day lies within theirs, in some unit or other: both
+// ends have to agree.
+std::string UnitOfSession(const Unit& own_unit,
+                          const Range& own,
+                          const Range& others) {
+  constexpr double kDegrees = 10.0;
+  constexpr double kOfTravel = 1e-3;
+  const double near = own_unit.quantity == Quantity::kTemperature
+                          ? kDegrees
+                          : kOfTravel * (others.most - others.least);
+  const auto is_theirs = [&](const Unit& unit) {
+    return std::abs(Converted(own.least, unit, own_unit) - others.least) <
+               near &&
+           std::abs(Converted(own.most, unit, own_unit) - others.most) < near;
+  };
+  if (is_theirs(own_unit)) return "";
+  const std::vector<Unit> units = UnitsOf(own_unit.quantity);
+  const auto found = std::ranges::find_if(units, is_theirs);
+  return found == units.end() ? "" : found->symbol;
+}
+
+}  // namespace
 
 std::optional<std::string> UnlikelySize(const ColumnInfo& target,
                                         const Eigen::VectorXd& values) {
@@ -64,8 +115,6 @@ std::optional<std::string> OtherUnitInSession(
     const ColumnInfo& input,
     const Eigen::Ref<const Eigen::VectorXd>& values,
     const std::vector<Eigen::Index>& starts) {
-  constexpr double kNear = 10.0;  // degrees
-  constexpr double kOfTravel = 1e-3;
   constexpr Eigen::Index kMostSessions = 1000;
   const bool is_position =
       input.role == Role::kPosition && IsLengthOrAngle(input.unit);
@@ -74,33 +123,17 @@ std::optional<std::string> OtherUnitInSession(
       n < 2 || n > kMostSessions) {
     return std::nullopt;
   }
-  Eigen::Array2Xd ranges(2, n);  // least and most
-  for (std::size_t s = 0; s < starts.size(); ++s) {
-    const auto own = values(Eigen::seq(
-        starts[s],
-        (s + 1 < starts.size() ? starts[s + 1] : values.size()) - 1));
-    ranges.col(std::ptrdiff_t(s)) << own.minCoeff(), own.maxCoeff();
-  }
-  for (Eigen::Index s = 0; s < n; ++s) {
-    const Eigen::Array2d own = ranges.col(s);
-    Eigen::Array2Xd rest = ranges;
-    rest.col(s) = ranges.col(s == 0 ? 1 : 0);
-    const Eigen::Array2d others(rest.row(0).minCoeff(), rest.row(1).maxCoeff());
-    const auto are_near = [&](const Eigen::Array2d& range) {
-      const double near =
-          is_position ? kOfTravel * (others[1] - others[0]) : kNear;
-      return ((range - others).abs() < near).all();
-    };
-    for (const Unit& unit : UnitsOf(input.unit.quantity)) {
-      const Eigen::Array2d there(Converted(own[0], unit, input.unit),
-                                 Converted(own[1], unit, input.unit));
-      if (are_near(own) || !are_near(there)) continue;
-      return NameInRemark(input.name) + " is " + Rounded(own[0]) + " to " +
-             Rounded(own[1]) + " in session " + std::to_string(s + 1) +
-             ", as if its unit were " + QuotedText(unit.symbol) +
-             " there, and " + Rounded(others[0]) + " to " + Rounded(others[1]) +
-             " in the others";
-    }
+  const std::vector<Range> ranges = RangesOf(values, starts);
+  for (std::size_t s = 0; s < ranges.size(); ++s) {
+    const Range own = ranges[s];
+    const Range others = RangeOfOthers(ranges, s);
+    const std::string unit = UnitOfSession(input.unit, own, others);
+    if (unit.empty()) continue;
+    return NameInRemark(input.name) + " is " + Rounded(own.least) + " to " +
+           Rounded(own.most) + " in session " + std::to_string(s + 1) +
+           ", as if its unit were " + QuotedText(unit) + " there, and " +
+           Rounded(others.least) + " to " + Rounded(others.most) +
+           " in the others";
   }
   return std::nullopt;
 }

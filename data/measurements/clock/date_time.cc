@@ -415,7 +415,8 @@ std::string WithoutCharacters(std::string_view text) {
            {"\uc624\uc804", "AM "},
            {"\u4e0b\u5348", "PM "},
            {"\uc624\ud6c4", "PM "}});
-  if (std::ranges::all_of(text, [](char c) { return c >= 0; })) return "";
+  if (std::ranges::all_of(text, [](unsigned char c) { return c < 0x80U; }))
+    return "";
   const std::size_t year = text.find(kYear);
   std::string plain(text);
   if (text.starts_with(kReiwa) && year != text.npos) {

@@ -370,7 +370,7 @@ std::vector<Index> LeaveOutRowsOfWords(const CsvTable& table,
 std::vector<Index> RepeatedRows(const CsvTable& table,
                                 std::size_t target,
                                 const std::vector<bool>& passes,
-                                bool may_be_chance) {
+                                Index times_again) {
   std::unordered_map<std::uint64_t, std::size_t> first;
   std::vector<Index> repeated;
   std::vector<std::size_t> back;  // rows, from each of those to its first
@@ -395,7 +395,7 @@ std::vector<Index> RepeatedRows(const CsvTable& table,
     const double value = table.columns[target].values[row];
     if (!std::isnan(value)) levels.insert(value);
   }
-  if (!may_be_chance) return repeated;
+  if (std::ssize(repeated) == times_again) return repeated;
   // Rows that agree by chance do not follow each other.
   const auto follows = [&](std::size_t i) {
     return i > 0 && i < back.size() && back[i] == back[i - 1] &&

@@ -21,13 +21,14 @@ std::vector<Eigen::Index> LeaveOutRowsOfWords(
     std::vector<bool>* passing);
 
 /// Returns, in ascending order, the rows that pass and repeat an earlier row in
-/// all named columns. If this may be chance, a neighbour must also repeat that
-/// row's neighbour; returns none if the target has so few distinct values that
-/// rows may be equal.
+/// all named columns. This is not chance if as many rows, `times_again`, have
+/// the time of an earlier one (-1: not known). Else a neighbour must also
+/// repeat that row's neighbour, and none are returned if the target has so few
+/// distinct values that rows may be equal.
 std::vector<Eigen::Index> RepeatedRows(const CsvTable& table,
                                        std::size_t target,
                                        const std::vector<bool>& passes,
-                                       bool may_be_chance = true);
+                                       Eigen::Index times_again = -1);
 
 /// Finds targets that look like measurements but are not. These are zeros while
 /// all other rows have an error (kZero, a lost beam), and runs of rows in

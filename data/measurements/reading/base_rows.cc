@@ -76,13 +76,8 @@ void ChooseBaseRows(TableInReading* in) {
 bool LeaveOutSavedTwice(TableInReading* in) {
   if (!in->clock.dated || in->clock.DatesRise()) return false;
   std::vector<bool> is_kept = in->IsBaseRow();
-  const auto repeated = [&](bool may_be_chance) {
-    return RepeatedRows(
-        in->table(), in->read.roles.target, is_kept, may_be_chance);
-  };
-  // If no other rows share a time, it is no chance.
-  std::vector<Index> again = repeated(false);
-  if (std::ssize(again) != NumTimesAgain(in->clock)) again = repeated(true);
+  const std::vector<Index> again = RepeatedRows(
+      in->table(), in->read.roles.target, is_kept, NumTimesAgain(in->clock));
   if (again.empty()) return false;
   for (const Index row : again) {
     is_kept[static_cast<std::size_t>(row)] = false;

@@ -226,7 +226,7 @@ namespace {
 double InMillimetres(const CsvTable& table,
                      const ReadBeside& positions,
                      const Unit& unit) {
-  const Unit mm = UnitOfColumn("x [mm]");
+  const Unit mm = UnitOfSymbol("mm");
   const bool lack_units =
       UnitOfColumn(table.columns[positions.read].name).symbol.empty() &&
       UnitOfColumn(table.columns[positions.commanded].name).symbol.empty();
