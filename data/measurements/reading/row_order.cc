@@ -164,13 +164,15 @@ void FindClockAndAxis(TableInReading* in, bool looks_for_axis) {
   if (!looks_for_axis) return;
   in->read.axis = FindAxis(
       in->table(), in->selection, in->read.roles.target, in->base_rows);
-  // What no name calls a position, and the rows are in order of: at one time
-  // an axis is in one place only.
+  // What no name calls a position, and the rows are in order of, is none if
+  // they are in order of time as well: it counts on. Nor is it one if times
+  // recur: at one time an axis is in one place only.
   const Axis& axis = in->read.axis;
   if (axis.motion.is_sorted && axis.evidence == Evidence::kValues &&
       in->clock.is_found() &&
-      !AreDistinct(in->clock.time,
-                   std::vector<std::string>(in->base_rows.size()))) {
+      (TimesBack(in->clock.time) == 0 ||
+       !AreDistinct(in->clock.time,
+                    std::vector<std::string>(in->base_rows.size())))) {
     in->read.axis = {};
   }
 }
@@ -196,12 +198,12 @@ void PutInOrder(TableInReading* in, RowsFor use) {
       (often || (sorted && back > 0) ||
        (in->clock.dated && in->given.parts.size() > 1 &&
         !LieApart(in->clock.time, PartsOfRows(in->given, in->base_rows))));
-  const bool mixed = !in->clock.is_found() && CyclesAreMixed(*in);
+  const bool tells_no_history =
+      disorder || (!in->clock.is_found() && (sorted || CyclesAreMixed(*in)));
   if (disorder && SortByTime(in)) {
     in->read.reading.order = "time";
     FindClockAndAxis(in, looks_for_axis);
-  } else if (sorted || mixed) {
-    // What was sorted by position, or shuffled, tells no history.
+  } else if (tells_no_history) {
     in->ordered = false;
     in->read.reading.order = "none";
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <ctime>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -158,6 +159,24 @@ TEST(Reading, TakesNoHistoryFromRowsThatWereSortedWithoutAClock) {
   EXPECT_EQ(prepared.dataset.num_sessions(), 4);
   EXPECT_THAT(ReadingLines(prepared.reading).back(),
               HasSubstr("no map gets a memory"));
+}
+
+TEST(Reading, KeepsTheClockBesideAColumnThatCountsOn) {
+  const PreparedDataset prepared = MakeDataset(
+      ParseCsv(Text("time_s,group,t1_degC,error_um",
+                    Log().Rows(),
+                    [](const Log::Row& row) {
+                      return std::vector<std::string>{Fixed(row.time),
+                                                      std::to_string(row.cycle),
+                                                      Fixed(row.warm),
+                                                      Fixed(row.error)};
+                    }),
+               "log.csv"),
+      {});
+  EXPECT_NE(prepared.reading.order, "none");
+  EXPECT_EQ(prepared.reading.time.column, "time_s");
+  EXPECT_EQ(prepared.reading.position.column, std::nullopt);
+  EXPECT_TRUE(prepared.dataset.log()->ordered);
 }
 
 }  // namespace
