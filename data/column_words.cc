@@ -79,7 +79,8 @@ constexpr auto kWords = std::to_array<std::string_view>({
     "millisecond microsecond nanosecond night nacht nuit notte noche week "
     "woche kw semaine settimana semana attempt tentative tentativo essai "
     "intento charge los lotto lote visit campaign kampagne sitzung warmup "
-    "experiment dataset doy hhmm hhmmss",
+    "experiment dataset group gruppe groupe grupo gruppo groep year jahr annee "
+    "anno doy hhmm hhmmss",
     // kIdentifier
     "serial sn s_n seriennummer seriennr matricola matricule employee staff "
     "personalnr personalnummer pernr badge firmware fw version revision "

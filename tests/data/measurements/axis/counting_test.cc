@@ -104,6 +104,7 @@ TEST(Counting, TellsSessionsWhateverItsColumnIsCalled) {
       {"lot", day, 3, "column"},
       {"lot", later_day, 3, "rest"},  // nothing says that it counts
       {"campaign", later_day, 3, "column"},
+      {"group", later_day, 3, "column"},
       {"Messreihe", in_all, 3, "rest"},
       {"Serie", cycle, 3, "counter"},
       {"Lauf", cycle, 3, "counter"},
