@@ -58,17 +58,21 @@ bool NeverFalls(const Eigen::Ref<const Eigen::VectorXd>& values) {
          4 * (steps.array() > 0.0).count() > values.size();
 }
 
-bool NumberEach(const Eigen::Ref<const Eigen::VectorXd>& values,
-                Eigen::Index sessions) {
-  constexpr Eigen::Index kFewest = 3;
-  if (sessions < kFewest) return false;
-  std::set<double> numbers;
-  for (const double value : values) {
-    if (value != std::floor(value)) return false;
-    numbers.insert(value);
-    if (std::ssize(numbers) > sessions) return false;
+bool AreNumbersThatNeverReturn(const Eigen::Ref<const Eigen::VectorXd>& values,
+                               const std::vector<Eigen::Index>& sessions) {
+  constexpr int kFewestSessions = 3;
+  const double sign = values[values.size() - 1] < values[0] ? -1.0 : 1.0;
+  int num_sessions = 1;
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (values[i] != std::floor(values[i])) return false;
+    if (i == 0) continue;
+    const double step = sign * (values[i] - values[i - 1]);
+    const auto row = static_cast<std::size_t>(i);
+    const bool begins = sessions[row] != sessions[row - 1];
+    if (step < 0.0 || (begins && step == 0.0)) return false;
+    num_sessions += begins ? 1 : 0;
   }
-  return std::ssize(numbers) == sessions;
+  return num_sessions >= kFewestSessions;
 }
 
 bool HasTwoValues(const Eigen::Ref<const Eigen::VectorXd>& values) {

@@ -29,10 +29,11 @@ bool CountsOn(const Eigen::Ref<const Eigen::VectorXd>& values,
 /// a quarter of the rows.
 bool NeverFalls(const Eigen::Ref<const Eigen::VectorXd>& values);
 
-/// True if values (m) are whole numbers, one for each of `sessions` (at least
-/// three), such as the day of the year.
-bool NumberEach(const Eigen::Ref<const Eigen::VectorXd>& values,
-                Eigen::Index sessions);
+/// True if values (m) are whole numbers that only rise or only fall, and differ
+/// between sessions (at least three), such as the day of the year or the number
+/// of a job. `sessions` has the code of each row, in the order of the file.
+bool AreNumbersThatNeverReturn(const Eigen::Ref<const Eigen::VectorXd>& values,
+                               const std::vector<Eigen::Index>& sessions);
 
 /// True if there are two distinct values (except NaN), as for a switch.
 bool HasTwoValues(const Eigen::Ref<const Eigen::VectorXd>& values);

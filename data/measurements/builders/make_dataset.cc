@@ -54,7 +54,7 @@ class DatasetBuilder {
     if (!selection_.only_to_judge) {
       LeaveOutUseless(LeakingInputs(parts_));
       if (NumSessions() > 1) {
-        LeaveOutUseless(CountingInputs(parts_, SessionOfRows(), NumSessions()));
+        LeaveOutUseless(CountingInputs(parts_, SessionOfRows()));
         RemarkOnUnits(RunStarts(SessionOfRows()));
       }
     }

@@ -29,16 +29,14 @@ std::vector<UselessInput> LeakingInputs(const Dataset::Parts& parts) {
 }
 
 std::vector<UselessInput> CountingInputs(const Dataset::Parts& parts,
-                                         const std::vector<Index>& sessions,
-                                         Index num_sessions) {
+                                         const std::vector<Index>& sessions) {
   std::vector<UselessInput> useless;
   for (Index i = 0; i < parts.input_values.cols(); ++i) {
     const ColumnInfo& input = parts.inputs[static_cast<std::size_t>(i)];
     const auto values = parts.input_values.col(i);
-    const bool may_count =
-        CountsCycles(input) ||
-        (input.unit.symbol.empty() && NumberEach(values, num_sessions));
-    const bool counts = (may_count && CountsOn(values, sessions)) ||
+    const bool counts = (CountsCycles(input) && CountsOn(values, sessions)) ||
+                        (input.unit.symbol.empty() &&
+                         AreNumbersThatNeverReturn(values, sessions)) ||
                         (input.unit.quantity != Quantity::kTemperature &&
                          !IsPosition(input) && NeverFalls(values));
     if (!counts) continue;

@@ -24,14 +24,12 @@ struct UselessInput {
 std::vector<UselessInput> LeakingInputs(const Dataset::Parts& parts);
 
 /// Finds inputs that number the cycles through all sessions (a code for each
-/// row, of `num_sessions`). Also finds those that never fall from the first row
+/// row), in whatever steps. Also finds those that never fall from the first row
 /// to the last (hours, kilometres, energy). These are not thermal states. A
 /// count that restarts with each session, such as hours since the start, may be
 /// one.
 std::vector<UselessInput> CountingInputs(
-    const Dataset::Parts& parts,
-    const std::vector<Eigen::Index>& sessions,
-    Eigen::Index num_sessions);
+    const Dataset::Parts& parts, const std::vector<Eigen::Index>& sessions);
 
 /// Finds thermometers that stop changing for the rest of the data.
 std::vector<UselessInput> StuckInputs(const Dataset::Parts& parts,

@@ -119,6 +119,15 @@ TEST(MessyFiles, ACounterThatNeverReturnsIsNoInput) {
               Contains(HasSubstr("elapsed_cycles counts on from session to "
                                  "session and is left out")));
   EXPECT_THAT(DroppedNames(Make(counted("age", kAll))), ElementsAre("age"));
+  const auto of_jobs = [](int step) {  // a job runs for a cycle or two
+    return Joined(Changed(Measured(), [&](std::size_t i, auto* cells) {
+      const int cycle = i == 0 ? 0 : (static_cast<int>(i) - 1) / kPositions;
+      cells->insert(cells->end() - 1,
+                    i == 0 ? "k" : std::to_string(500 + step * cycle));
+    }));
+  };
+  EXPECT_THAT(DroppedNames(Make(of_jobs(3))), ElementsAre("k"));
+  EXPECT_THAT(DroppedNames(Make(of_jobs(-7))), ElementsAre("k"));
   // Where it begins anew with each day it tells how warm the machine is; what
   // was asked for may be meant.
   EXPECT_THAT(Make(counted("elapsed_cycles", kCycles)).dropped, IsEmpty());
