@@ -13,18 +13,22 @@ std::size_t At(const std::vector<Index>& rows, std::size_t i) {
   return static_cast<std::size_t>(rows[i]);
 }
 
-// Whether a row and the one before it differ in what may be called a session
-// and is not a cycle.
-bool OtherLabelChanges(const CsvTable& table,
-                       const std::vector<Index>& rows,
-                       std::size_t i) {
+// Whether a run of rows begins here in another column that may be called a
+// session and is not a cycle. What changes with each row numbers the rows.
+bool OtherRunBegins(const CsvTable& table,
+                    const std::string& cycles,
+                    const std::vector<Index>& rows,
+                    std::size_t i) {
   return std::ranges::any_of(table.columns, [&](const CsvColumn& column) {
-    return !IsCalled(column.name, Word::kCycle) &&
+    const auto changes = [&](std::size_t row) {
+      return table.CellText(column, At(rows, row)) !=
+             table.CellText(column, At(rows, row - 1));
+    };
+    return column.name != cycles && !IsCalled(column.name, Word::kCycle) &&
            (IsCalled(column.name, Word::kSession) ||
             IsCalled(column.name, Word::kRun) ||
             IsCalled(column.name, Word::kCounter)) &&
-           table.CellText(column, At(rows, i)) !=
-               table.CellText(column, At(rows, i - 1));
+           changes(i) && !(i > 1 && changes(i - 1));
   });
 }
 
@@ -77,7 +81,8 @@ bool PartFurther(const CycleRestarts& restarts,
     const bool begins = restarts.begins[i];
     const bool is_other = codes[i] != codes[i - 1];
     if ((is_other && !begins) ||
-        (begins && !is_other && !OtherLabelChanges(table, rows, i))) {
+        (begins && !is_other &&
+         !OtherRunBegins(table, restarts.column, rows, i))) {
       return false;
     }
   }

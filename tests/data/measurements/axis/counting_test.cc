@@ -131,6 +131,17 @@ TEST(Counting, TellsSessionsWhateverItsColumnIsCalled) {
   }
 }
 
+// Blocks by turns within a day, beside the number of each row.
+TEST(Counting, LeavesTheDaysToTheirColumn) {
+  const Reading reading = MadeWith("day,row,block", [](const Place& at) {
+                            return Number(at.day + 1) + "," +
+                                   Number(at.row % kPositions) + "," +
+                                   Number(at.cycle % 2);
+                          }).reading;
+  EXPECT_EQ(reading.sessions.count, kDays);
+  EXPECT_EQ(reading.sessions.column, "day");
+}
+
 TEST(Counting, IsNoInput) {
   const Reading ways = MadeWith("scan", [](const Place& at) {
                          return Number(2 * CycleInAll(at) + at.way);
