@@ -6,6 +6,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "stats/distributions.h"
+
 namespace errmap::models {
 namespace {
 
@@ -56,10 +58,12 @@ double ShareAlike(const data::Dataset& training,
   return static_cast<double>(alike) / static_cast<double>(hashes.size());
 }
 
-bool AreMoreThanChance(double found, double looked, double share_by_chance) {
-  constexpr double kSure = 3.0;  // standard deviations
-  const double by_chance = looked * share_by_chance;
-  return found > by_chance + kSure * std::sqrt(by_chance);
+bool AreMoreThanChance(Index found, double looked, double share_by_chance) {
+  constexpr double kRare = 0.001;  // as many or more, of a Poisson variable
+  return found > 0 &&
+         1.0 - stats::ChiSquaredUpperTail(2.0 * looked * share_by_chance,
+                                          2.0 * static_cast<double>(found)) <
+             kRare;
 }
 
 Index CountRowsOf(const data::Dataset& training, const data::Dataset& judged) {
@@ -74,7 +78,7 @@ Index CountRowsOf(const data::Dataset& training, const data::Dataset& judged) {
       judged.input_values()(Eigen::all, columns), &judged.target_values());
   const Index found = std::ranges::count_if(
       hashes, [&](auto hash) { return known.contains(hash); });
-  return AreMoreThanChance(static_cast<double>(found),
+  return AreMoreThanChance(found,
                            static_cast<double>(hashes.size()),
                            ShareAlike(training, learnt))
              ? found

@@ -21,7 +21,7 @@ double ShareAlike(const data::Dataset& training,
                   const std::vector<std::uint64_t>& hashes);
 
 /// True if `found` of `looked` rows is more than expected by chance.
-bool AreMoreThanChance(double found, double looked, double share_by_chance);
+bool AreMoreThanChance(Index found, double looked, double share_by_chance);
 
 /// Returns how many rows of `judged` also occur in `training` (inputs and
 /// target); 0 if chance explains them. `judged` must have the inputs of

@@ -98,7 +98,7 @@ Index CountLearntRows(const FittedModel& fitted,
   const auto& filter = targets != nullptr ? learnt.measured : learnt.readings;
   if (!filter) return 0;
   double looked = 0.0;
-  double found = 0.0;
+  Index found = 0;
   for (const std::uint64_t hash : RowHashes(inputs, targets)) {
     if (!IsKept(hash, learnt.every)) continue;
     bool all = true;
@@ -106,16 +106,16 @@ Index CountLearntRows(const FittedModel& fitted,
       all = all && (ValueOf(filter->bits[digit]) & bit) != 0;
     });
     looked += 1.0;
-    found += all ? 1.0 : 0.0;
+    found += all ? 1 : 0;
   }
   // A machine at rest may repeat a reading.
-  constexpr double kFewestReadings = 3.0;
+  constexpr Index kFewestReadings = 3;
   if ((targets == nullptr && found < kFewestReadings) ||
       !AreMoreThanChance(found, looked, filter->alike + kFalseHits)) {
     return 0;
   }
   return static_cast<Index>(
-      std::llround(found / looked * static_cast<double>(inputs.rows())));
+      std::llround(static_cast<double>(found * inputs.rows()) / looked));
 }
 
 }  // namespace errmap::models

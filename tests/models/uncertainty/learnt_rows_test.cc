@@ -71,9 +71,9 @@ TEST(LearntRows, AreKnownAgainAndOthersAreNot) {
   for (std::uint64_t seed = 2; seed < 202; ++seed) {
     said += CountKnown(fitted, DrawnRows(100, seed)) > 0 ? 1 : 0;
   }
-  // Of 20,000 rows one in 2000 seems known: in ten sets at most one row, which
-  // some sets of 100 say.
-  EXPECT_LE(said, 25);
+  // Of 20,000 rows one in 2000 seems known, and as many as one of the sets may
+  // have more of them than one in a thousand does.
+  EXPECT_LE(said, 1);
 }
 
 TEST(LearntRows, AreCountedAmongNewOnes) {
