@@ -67,10 +67,14 @@ constexpr auto kWords = std::to_array<std::string_view>({
     // kSession
     "session day shift series weekday tag messtag schicht serie messreihe "
     "wochentag jour seance giorno dia sesion sessione dag dzien день смена",
+    // kShift
+    "shift schicht weekday wochentag смена",
     // kRun
     "run lauf messlauf",
     // kDay
     "day tag jour giorno dia dag",
+    // kWeek
+    "week kalenderwoche woche kw semaine settimana semana",
     // kCounter
     "segment record index row id sample messung versuch durchgang nr no "
     "number nummer zeile test trial repeat rep reps repetition wiederholung "

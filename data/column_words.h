@@ -21,8 +21,10 @@ enum class Word {
   kDirection,   // "direction", "approach", "Richtung", "sens"
   kCycle,       // "cycle", "Zyklus", "Takt", "ciclo"
   kSession,     // "session", "day", "Tag", "shift", "jour"
+  kShift,       // of the sessions, those that return each day
   kRun,         // "run", "Lauf": a session, or one traverse
   kDay,         // of the sessions, those of the calendar
+  kWeek,        // "week", "KW"
   kCounter,     // "index", "record", "Nr.": numbers or dates the rows
   kIdentifier,  // "S/N", "firmware", "Anzahl Messwerte": no quantity of a
                 // machine

@@ -14,6 +14,7 @@
 #include "data/measurements/clock/text_times.h"
 #include "data/measurements/clock/time_units.h"
 #include "data/measurements/column_checks.h"
+#include "data/measurements/joined_tables.h"
 #include "data/text.h"
 #include "data/units.h"
 
@@ -224,7 +225,8 @@ class InputChooser {
     return i == roles_.target || Is(roles_.group, i) || Is(roles_.weight, i) ||
            Is(found_.time_column, i) || Is(found_.date_column, i) ||
            (Is(roles_.direction, i) && !table_.At(i).is_text()) ||
-           Name(i) == found_.sessions.column || IsFiltered(i);
+           Name(i) == found_.sessions.column || IsFiltered(i) ||
+           (Name(i) == kFileColumn && table_.At(i).is_text());
   }
 
   // Words, or nothing at all.

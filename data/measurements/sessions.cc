@@ -167,6 +167,11 @@ class SessionFinder : private RowColumns {
     }
     for (const std::size_t i : CalledSessions()) {
       if (!TakeSessions(i, false)) continue;
+      if (found_.sessions.labels.size() < 2) {
+        one_value_ = i;
+        found_.sessions = {};
+        continue;
+      }
       if (CyclesPartFurther()) {
         found_.sessions = {};
         return;
@@ -218,7 +223,6 @@ class SessionFinder : private RowColumns {
   std::string WhyNoSessions(std::size_t index) const {
     const std::vector<Index>& codes = found_.sessions.codes;
     const CsvColumn& column = table_.columns[index];
-    if (found_.sessions.labels.size() < 2) return "";
     // Days, and what is called a session, may be of one pass each.
     const bool is_surely = Says(column.name, Word::kDay) ||
                            EqualsIgnoringCase(column.name, "session");
@@ -319,16 +323,36 @@ class SessionFinder : private RowColumns {
     return true;
   }
 
+  // Whether each run of a number, such as a weekday, has another label beside
+  // it, such as the week: the two together come once.
+  bool ComeOnceWithAnother(const Grouping& sessions,
+                           const std::vector<Index>& starts) const {
+    return std::ranges::any_of(table_.columns, [&](const CsvColumn& other) {
+      if (other.name == sessions.column || !IsCalled(other.name, Word::kWeek)) {
+        return false;
+      }
+      std::set<std::pair<Index, std::string>> pairs;
+      for (const Index start : starts) {
+        const auto first = static_cast<std::size_t>(start);
+        pairs.emplace(sessions.codes[first],
+                      table_.CellText(other, DataRow(first)));
+      }
+      return pairs.size() == starts.size();
+    });
+  }
+
   // "day", "night", "day" are three sessions, the last of them "day (2)". What
   // has a number or a date is the same day, as where directions or files stand
-  // one below the other.
+  // one below the other; but shifts have numbers, too, and so have weekdays.
   void PartWhatComesAgain(Grouping* sessions) {
     constexpr std::size_t kFewestRows = 8;
     const std::vector<Index> starts = RunStarts(sessions->codes);
     come_again_ = starts.size() > sessions->labels.size();
     if (!found_.ordered || !come_again_ || table_.parts.size() > 1 ||
         rows_.size() < kFewestRows * starts.size() ||
-        std::ranges::any_of(sessions->labels, HasDigit)) {
+        (std::ranges::any_of(sessions->labels, HasDigit) &&
+         !IsCalled(sessions->column, Word::kShift) &&
+         !ComeOnceWithAnother(*sessions, starts))) {
       return;
     }
     std::vector<Index> times(sessions->labels.size(), 0);
@@ -403,15 +427,20 @@ class SessionFinder : private RowColumns {
     found_.evidence =
         selection_.gap.empty() ? Evidence::kValues : Evidence::kUser;
     if (found_.by == "clock") TakeBlocksOfClock();
-    if (found_.by != "one") return;
+    if (found_.by != "one" ||
+        (one_value_ && TakeSessions(*one_value_, false))) {
+      return;
+    }
     if (CutWhereCyclesCountAnew()) return;
-    if (found_.time_column >= 0 || !found_.ordered) return;
-    if (blocks_ >= 0 &&
+    if (!found_.ordered) return;
+    if (found_.time_column < 0 && blocks_ >= 0 &&
         TakeSessions(static_cast<std::size_t>(blocks_), false)) {
       found_.evidence = Evidence::kValues;
       return;
     }
-    if (selection_.session.empty()) CutAtColdStarts();
+    // What counts hours of work stands still overnight.
+    const bool may_stand = found_.time_column < 0 || !found_.dated;
+    if (may_stand && selection_.session.empty()) CutAtColdStarts();
   }
 
   // A clock without dates does not go back where a day begins later than the
@@ -486,6 +515,7 @@ class SessionFinder : private RowColumns {
   std::optional<CycleRestarts> restarts_;
   std::ptrdiff_t cycles_in_sessions_;
   std::ptrdiff_t blocks_;
+  std::optional<std::size_t> one_value_;  // a column of sessions: one in all
   bool rows_repeat_;
   bool come_again_ = false;  // names of sessions, after others
   FoundSessions found_;

@@ -59,6 +59,7 @@ namespace {
 // Says why, and leaves it out, where an input would cost rows.
 bool CostsRows(const CsvTable& table,
                const CsvColumn& column,
+               const CsvColumn& target,
                const std::vector<bool>& passes,
                bool keep_dead,
                DatasetRemarks* said) {
@@ -67,7 +68,7 @@ bool CostsRows(const CsvTable& table,
   Index num_rows = 0;
   std::vector<Index> with_numbers;
   for (std::size_t row = 0; row < table.num_rows; ++row) {
-    if (!passes[row]) continue;
+    if (!passes[row] || target.TextAt(row) != nullptr) continue;
     ++num_rows;
     if (column.TextAt(row) == nullptr) {
       with_numbers.push_back(static_cast<Index>(row));
@@ -92,6 +93,7 @@ bool CostsRows(const CsvTable& table,
 void LeaveOutInputsThatCostRows(const CsvTable& table,
                                 const DatasetSelection& selection,
                                 const std::vector<bool>& passes,
+                                std::size_t target,
                                 std::vector<std::size_t>* inputs,
                                 DatasetRemarks* said) {
   if (selection.missing != MissingPolicy::kDropRows ||
@@ -101,7 +103,12 @@ void LeaveOutInputsThatCostRows(const CsvTable& table,
   std::erase_if(*inputs, [&](std::size_t input) {
     const CsvColumn& column = table.At(input);
     return !column.exceptions.empty() && !said->IsNamed(column.name) &&
-           CostsRows(table, column, passes, selection.keep_dead, said);
+           CostsRows(table,
+                     column,
+                     table.At(target),
+                     passes,
+                     selection.keep_dead,
+                     said);
   });
 }
 

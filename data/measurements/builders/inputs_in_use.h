@@ -27,6 +27,7 @@ ChosenInputs ChooseInputsAsRead(const CsvTable& table,
 void LeaveOutInputsThatCostRows(const CsvTable& table,
                                 const DatasetSelection& selection,
                                 const std::vector<bool>& passes,
+                                std::size_t target,
                                 std::vector<std::size_t>* inputs,
                                 DatasetRemarks* said);
 

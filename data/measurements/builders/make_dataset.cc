@@ -175,7 +175,7 @@ class DatasetBuilder {
 
   void CheckColumns() {
     LeaveOutInputsThatCostRows(
-        table_, selection_, read_.passes, &inputs_, &said_);
+        table_, selection_, read_.passes, read_.roles.target, &inputs_, &said_);
     std::vector<ColumnInUse> columns = {
         {read_.roles.target, ColumnUse::kTarget}};
     for (const std::size_t input : inputs_) {

@@ -30,6 +30,8 @@ constexpr double kLeastJump = 1.0;
 constexpr std::size_t kLongestJump = 3;
 constexpr double kFarFromEnd = 5.0;  // times that, at the first and last row
 
+constexpr double kHalf = 0.5;
+
 // Of the standard deviation of normal values to their median distance from 0.
 constexpr double kNormalMad = 1.4826;
 
@@ -91,10 +93,14 @@ Rows RowsBeyond(const VectorXd& values, const Bounds& bounds, Bounds* others) {
   return rows;
 }
 
-// Rows of one code at either end, far from all other values; `others` becomes
-// their range. Any value is one that comes three times or more to the last
-// digit and is farther from the others than `far` (NaN: never) and they reach.
-Rows RowsOfCode(const VectorXd& values, double far, Bounds* others) {
+// Rows of one code at either end, at most this part of all and far from all
+// other values; `others` becomes their range. Any value is one that comes three
+// times or more to the last digit and is farther from the others than `far`
+// (NaN: never) and they reach.
+Rows RowsOfCode(const VectorXd& values,
+                double most,
+                double far,
+                Bounds* others) {
   for (const double code : {values.minCoeff(), values.maxCoeff()}) {
     const bool is_code = IsCode(code);
     constexpr Index kFewest = 3;
@@ -111,7 +117,8 @@ Rows RowsOfCode(const VectorXd& values, double far, Bounds* others) {
                        : Bounds{-infinity, std::nextafter(code, -infinity)},
                    &rest);
     const double gap = low ? rest.low - code : code - rest.high;
-    if (2 * static_cast<Index>(rows.size()) <= values.size() &&
+    if (static_cast<double>(rows.size()) <=
+            most * static_cast<double>(values.size()) &&
         gap > (is_code ? kFarRangesOfCode : 1.0) * (rest.high - rest.low) &&
         (is_code || gap > far)) {
       *others = rest;
@@ -256,7 +263,7 @@ class CellFaultFinder {
             wrong,
             values[wrong.front()],
             others);
-        SingleOutCodes(values);
+        SingleOutCodes(values, kHalf);
       }
       if (!found_.faults.empty() && found_.faults.back().input == input &&
           !found_.faults.back().of_cells) {
@@ -267,32 +274,38 @@ class CellFaultFinder {
       return;
     }
     if (!HasLevels(values, kFewestLevels)) return;
+    // A logger may write rows between the readings of the error.
+    const double most = input < 0 ? 0.9 : kHalf;
     wrong = RowsBeyond(values, BoundsOfTheRest(values), &others);
-    if (wrong.empty()) wrong = RowsOfCode(values, NAN, &others);
+    if (wrong.empty()) wrong = RowsOfCode(values, most, NAN, &others);
     if (wrong.empty()) return;
     Add(FaultKind::kOutlying, input, wrong, values[wrong.front()], others);
-    SingleOutCodes(values);
+    SingleOutCodes(values, most);
   }
 
   // What a channel shows that was switched off for a while: 0 most often.
   Rows RowsWithoutPower(Index input, const VectorXd& values) {
     constexpr double kFar = 5.0;  // degC
     Bounds others{};
-    Rows rows = RowsOfCode(values, kFar * DegreeIn(UnitOf(input)), &others);
+    Rows rows =
+        RowsOfCode(values, kHalf, kFar * DegreeIn(UnitOf(input)), &others);
     if (rows.empty()) return rows;
     Add(FaultKind::kOutlying, input, rows, values[rows.front()], others);
     found_.faults.back().of_cells = true;
     return rows;
   }
 
-  // One number for "no reading" in up to half of the rows is not a fault of the
-  // column as a whole.
-  void SingleOutCodes(const VectorXd& values) {
+  // One number for "no reading" in not too many rows is not a fault of the
+  // column as a whole. No thermometer comes back to one that is impossible.
+  void SingleOutCodes(const VectorXd& values, double most) {
     ColumnFault& fault = found_.faults.back();
+    const bool is_code =
+        fault.kind == FaultKind::kImpossible || IsCode(fault.value);
     fault.of_cells =
         fault.of_cells ||
-        (2 * static_cast<Index>(fault.rows.size()) <= values.size() &&
-         IsCode(fault.value) && std::ranges::all_of(fault.rows, [&](Index row) {
+        (static_cast<double>(fault.rows.size()) <=
+             most * static_cast<double>(values.size()) &&
+         is_code && std::ranges::all_of(fault.rows, [&](Index row) {
            return values[row] == fault.value;
          }));
   }

@@ -61,6 +61,9 @@ std::vector<ColumnFault> FindColumnFaults(const MeasuredColumns& measured) {
 
 std::string DoubtOfRows(const ColumnFault& fault,
                         const MeasuredColumns& measured) {
+  if (std::ssize(fault.rows) == measured.target_values.size()) {
+    return "";  // its unit is another one: no figure changes
+  }
   std::string what;
   if (fault.kind == FaultKind::kRepeated) {
     what = " rows repeat others value for value";
@@ -80,8 +83,15 @@ std::string DoubtOfRows(const ColumnFault& fault,
   } else {
     return "";
   }
+  const bool of_column = fault.input >= 0 && !fault.of_cells;
   return std::to_string(fault.rows.size()) + what + "; " +
-         ArgumentName("faults", "drop-rows") + " leaves them out.";
+         (of_column
+              ? ArgumentName(
+                    "exclude",
+                    measured.inputs[static_cast<std::size_t>(fault.input)]
+                        .name) +
+                    " leaves the column out."
+              : ArgumentName("faults", "drop-rows") + " leaves them out.");
 }
 
 std::vector<Index> RowsOfCellFaults(const std::vector<ColumnFault>& faults) {

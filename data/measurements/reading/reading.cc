@@ -109,7 +109,9 @@ std::vector<std::string> ReadingLines(const Reading& reading) {
   std::vector<std::string> lines = {first + "."};
   if (reading.order == "time") {
     lines.push_back("The rows were not in order of time. They were sorted by " +
-                    NameInRemark(reading.time.column.value_or("")) + ".");
+                    NameInRemark(reading.time.column.value_or(
+                        reading.cycles.column.value_or(""))) +
+                    ".");
   } else if (reading.order == "none") {
     lines.push_back(
         "The rows are not in the order of measurement and have no clock, so no "

@@ -114,18 +114,38 @@ bool AreMixed(const std::vector<double>& cycles,
   return 2 * odd > changes && kFewRows * changes > cycles.size();
 }
 
-bool CyclesAreMixed(const TableInReading& in) {
+// Of each base row the number of the cycle; nothing without one.
+std::vector<double> CyclesOf(const TableInReading& in) {
   std::ptrdiff_t column = in.read.roles.group;
   if (column == kNoColumn) column = in.FirstCalled(Word::kRun);
-  if (column == kNoColumn) return false;
+  if (column == kNoColumn) return {};
   std::vector<double> cycles;
   for (const Index row : in.base_rows) {
     cycles.push_back(
         in.table().At(column).values[static_cast<std::size_t>(row)]);
   }
+  return cycles;
+}
+
+bool CyclesAreMixed(const TableInReading& in) {
+  const std::vector<double> cycles = CyclesOf(in);
   const std::vector<Index>& codes = in.read.axis.levels.codes;
   return AreMixed(cycles,
                   codes.size() == cycles.size() ? codes : std::vector<Index>());
+}
+
+// Whether the cycles of all rows count down one by one to the first: the newest
+// row stands on top.
+bool CyclesCountDown(const TableInReading& in) {
+  constexpr double kFewest = 3.0;
+  const std::vector<double> cycles = CyclesOf(in);
+  if (cycles.empty() || cycles.back() > 1.0 ||
+      cycles.front() < cycles.back() + kFewest) {
+    return false;
+  }
+  return std::ranges::adjacent_find(cycles, [](double now, double next) {
+           return !(next == now || next == now - 1.0);
+         }) == cycles.end();
 }
 
 // Of each base row, by the column that is called so; "" without one.
@@ -140,13 +160,10 @@ std::vector<std::string> SessionLabels(const TableInReading& in) {
   return labels;
 }
 
-// False if there is no such order.
-bool SortByTime(TableInReading* in) {
-  const auto places = OrderOfTime(in->clock, SessionLabels(*in));
-  if (!places) return false;
+void TakeInOrder(TableInReading* in, const std::vector<Index>& places) {
   std::vector<Index> order;
   std::vector<bool> taken(in->given.num_rows, false);
-  for (const Index place : *places) {
+  for (const Index place : places) {
     order.push_back(in->base_rows[static_cast<std::size_t>(place)]);
     taken[static_cast<std::size_t>(order.back())] = true;
   }
@@ -156,6 +173,21 @@ bool SortByTime(TableInReading* in) {
   in->read.table = TakeRows(in->table(), order);
   in->read.order = std::move(order);
   in->base_rows = AllRows(in->base_rows.size());
+  in->read.reading.order = "time";
+}
+
+// False if there is no such order.
+bool SortByTime(TableInReading* in) {
+  const auto places = OrderOfTime(in->clock, SessionLabels(*in));
+  if (places) TakeInOrder(in, *places);
+  return places.has_value();
+}
+
+bool TurnUpsideDown(TableInReading* in) {
+  if (in->clock.is_found() || !CyclesCountDown(*in)) return false;
+  std::vector<Index> places = AllRows(in->base_rows.size());
+  std::ranges::reverse(places);
+  TakeInOrder(in, places);
   return true;
 }
 
@@ -200,8 +232,7 @@ void PutInOrder(TableInReading* in, RowsFor use) {
         !LieApart(in->clock.time, PartsOfRows(in->given, in->base_rows))));
   const bool tells_no_history =
       disorder || (!in->clock.is_found() && (sorted || CyclesAreMixed(*in)));
-  if (disorder && SortByTime(in)) {
-    in->read.reading.order = "time";
+  if ((disorder && SortByTime(in)) || TurnUpsideDown(in)) {
     FindClockAndAxis(in, looks_for_axis);
   } else if (tells_no_history) {
     in->ordered = false;

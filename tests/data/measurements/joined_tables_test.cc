@@ -53,6 +53,19 @@ TEST(JoinTables, MakesASessionOfEachFileWhereNothingElseTellsThemApart) {
   EXPECT_EQ(prepared.dataset.log()->sessions.column, kFileColumn);
 }
 
+TEST(JoinTables, TakesTheNumberOfAFileForNoReading) {
+  const std::string header = "time_s,t_degC,error_um\n";
+  const Dataset dataset =
+      MakeDataset(
+          Join({{"04.csv", header + "0,20,1\n5,21,2\n10,22,4\n"},
+                {"05.csv", header + "90000,23,3\n90005,24,2\n90010,22,4\n"}})
+              .table,
+          {})
+          .dataset;
+  EXPECT_EQ(dataset.num_rows(), 6);
+  EXPECT_EQ(dataset.num_inputs(), 1);
+}
+
 TEST(JoinTables, LeavesSessionsAsTheyAreWhereNoTwoFilesNameThemAlike) {
   const CsvTable table = Join({{"a.csv", "day,error_um\n1,1\n1,2\n2,2\n2,3\n"},
                                {"b.csv", "day,error_um\n3,1\n3,2\n"}})

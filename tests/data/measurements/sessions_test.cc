@@ -1,12 +1,15 @@
 #include "data/measurements/sessions.h"
 
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "tests/data/measurements/reading/warming_log.h"
 
 namespace errmap::data {
 namespace {
@@ -19,6 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 using ::testing::ThrowsMessage;
+using warming_log::Log;
 
 FoundSessions Find(const std::string& text, DatasetSelection selection = {}) {
   const CsvTable table = ParseCsv(text, "log.csv");
@@ -274,6 +278,55 @@ TEST(Sessions, NeverTakeWhatIsMeasuredForTheTime) {
       [&] { Find(text, {.target = "day", .session = "day"}); },
       Refuses("column 'day' is the target or the weight; name another with "
               "session"));
+}
+
+// A machine that warms, read with other columns before its own.
+Reading ReadWith(const std::string& header,
+                 const std::function<std::string(const Log::Row&)>& cells) {
+  return warming_log::Read(warming_log::Text(
+      header + ",position_mm,t1_degC,error_um",
+      Log().Rows(),
+      [&](const Log::Row& row) {
+        return std::vector<std::string>{cells(row),
+                                        warming_log::Fixed(row.position),
+                                        warming_log::Fixed(row.warm),
+                                        warming_log::Fixed(row.error)};
+      }));
+}
+
+TEST(Sessions, AreNotThoseOfALabelThatAllRowsShare) {
+  const Reading reading = ReadWith("session,time_s", [](const Log::Row& row) {
+    return "1," + warming_log::Fixed(row.time);
+  });
+  EXPECT_EQ(reading.sessions.count, 4);
+  EXPECT_EQ(reading.sessions.by, "nights");
+  EXPECT_EQ(
+      ReadWith("session", [](const Log::Row&) { return "7"; }).sessions.column,
+      "session");
+}
+
+TEST(Sessions, AreShiftsAndWeekdaysEachTimeTheyReturn) {
+  const Reading shifts = ReadWith("shift,clock", [](const Log::Row& row) {
+    return std::to_string(1 + row.day % 2) + "," +
+           (row.day % 2 == 0 ? "06:" : "15:") +
+           std::to_string(10 + row.cycle % 5) + ":00";
+  });
+  EXPECT_EQ(shifts.sessions.count, 4);
+  const Reading weekdays = ReadWith("KW,Tag", [](const Log::Row& row) {
+    return (row.day < 3 ? "2024-W09," : "2024-W10,") +
+           std::to_string(1 + row.day % 3);
+  });
+  EXPECT_EQ(weekdays.sessions.count, 4);
+}
+
+TEST(Sessions, BeginColdWhereHoursOfWorkStandStillOvernight) {
+  double hours = 1234.0;
+  const Reading reading = ReadWith("Betriebsstunden [h]", [&](const Log::Row&) {
+    hours += 0.02;
+    return warming_log::Fixed(hours);
+  });
+  EXPECT_EQ(reading.sessions.count, 4);
+  EXPECT_EQ(reading.sessions.by, "rest");
 }
 
 TEST(MakeDataset, KnowsTheSessionsOfEveryRowRead) {

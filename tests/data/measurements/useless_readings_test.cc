@@ -202,6 +202,19 @@ TEST(UselessReadings, RowsThatAreNoMeasurementsAreNamedAndLeftOutByAnOption) {
        {0, 4, 8},
        90},
       {changed([](int i, auto* cells) {
+         if (i % 6 == 0) (*cells)[kT1] = "3276.7";
+       }),
+       FaultKind::kImpossible,
+       {0, 6, 12},
+       100},
+      // Rows between two readings.
+      {changed([](int i, auto* cells) {
+         if (i % 3 != 1) (*cells)[kError] = "999.99";
+       }),
+       FaultKind::kOutlying,
+       {0, 2, 3},
+       40},
+      {changed([](int i, auto* cells) {
          if (i == 33 || i == 71 || i == 104) {
            (*cells)[kError] = CsvNumber(Number((*cells)[kError]) * 10.0);
          }

@@ -179,5 +179,31 @@ TEST(Reading, KeepsTheClockBesideAColumnThatCountsOn) {
   EXPECT_TRUE(prepared.dataset.log()->ordered);
 }
 
+TEST(Reading, TurnsCyclesThatCountDownUpsideDown) {
+  std::vector<Log::Row> rows = Log().Rows();
+  const auto make = [](const std::vector<Log::Row>& of) {
+    return MakeDataset(ParseCsv(Text("cycle,position_mm,t1_degC,error_um",
+                                     of,
+                                     [](const Log::Row& row) {
+                                       return std::vector<std::string>{
+                                           std::to_string(row.cycle + 1),
+                                           Fixed(row.position),
+                                           Fixed(row.warm),
+                                           Fixed(row.error)};
+                                     }),
+                                "log.csv"),
+                       {});
+  };
+  const PreparedDataset measured = make(rows);
+  std::ranges::reverse(rows);
+  const PreparedDataset newest_first = make(rows);
+  EXPECT_EQ(newest_first.dataset.target_values(),
+            measured.dataset.target_values());
+  EXPECT_EQ(newest_first.reading.sessions.count,
+            measured.reading.sessions.count);
+  EXPECT_THAT(ReadingLines(newest_first.reading),
+              Contains(HasSubstr("They were sorted by cycle.")));
+}
+
 }  // namespace
 }  // namespace errmap::data
