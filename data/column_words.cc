@@ -56,6 +56,9 @@ constexpr auto kWords = std::to_array<std::string_view>({
     // kTemperature
     "temperature temp temperatur temperatura temperatuur teplota lampotila "
     "sicaklik sicaklig ondo температура темп 温度 온도",
+    // kSpeed
+    "rpm speed feed feedrate drehzahl vorschub spindelrpm spindlerpm vitesse "
+    "avance velocidad velocita giri otacky obroty обороты 转速 回転数",
     // kDirection
     "direction dir bidir approach motion richtung anfahrrichtung anfahrt "
     "direccion "

@@ -18,6 +18,7 @@ enum class Word {
   kTime,        // "time", "Zeit", "timestamp", "heure"
   kDate,        // "date", "Datum", "fecha"
   kTemperature,
+  kSpeed,       // "rpm", "feed", "Drehzahl", "Vorschub"
   kDirection,   // "direction", "approach", "Richtung", "sens"
   kCycle,       // "cycle", "Zyklus", "Takt", "ciclo"
   kSession,     // "session", "day", "Tag", "shift", "jour"

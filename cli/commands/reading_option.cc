@@ -31,8 +31,10 @@ void TakeReading(const std::string& path, data::DatasetSelection* selection) {
     selection->position = *reading.position.column;
     selection->inputs.push_back(*reading.position.column);
   }
-  for (const auto* columns :
-       {&reading.sensors, &reading.switches, &reading.counters}) {
+  for (const auto* columns : {&reading.positions,
+                              &reading.sensors,
+                              &reading.switches,
+                              &reading.counters}) {
     selection->inputs.insert(
         selection->inputs.end(), columns->begin(), columns->end());
   }

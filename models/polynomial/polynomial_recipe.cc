@@ -105,7 +105,7 @@ class PositionTemperatureRecipe final : public PolynomialRecipe {
     }
     if (form_.uses_temperature && options_.temperature.empty() &&
         TemperatureCandidates(dataset).empty()) {
-      return "a temperature: there is no input other than the position";
+      return "a temperature: no input is anything but a position";
     }
     return std::nullopt;
   }
@@ -157,7 +157,10 @@ class PositionTemperatureRecipe final : public PolynomialRecipe {
     }
     const Index position = FindPosition(dataset, options_.position);
     std::vector<Index> candidates = AllColumns(dataset);
-    std::erase(candidates, position);
+    std::erase_if(candidates, [&](Index i) {
+      return i == position ||
+             data::IsPosition(dataset.inputs()[static_cast<std::size_t>(i)]);
+    });
     return candidates;
   }
 

@@ -150,6 +150,7 @@ std::string Described(const data::Reading& reading) {
     if (names.empty()) return;
     row(role, InUnit(names), "", "--inputs, --exclude");
   };
+  list("other axes", reading.positions);
   list("sensors", reading.sensors);
   list("switches", reading.switches);
   list("counters", reading.counters);

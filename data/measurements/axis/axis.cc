@@ -158,7 +158,7 @@ class AxisFinder {
           !(IsLengthOrAngle(unit) || IsOneOf(unit.symbol, "counts steps") ||
             unit.symbol.empty()) ||
           Says(Name(i), Word::kTemperature) ||
-          Says(Name(i), Word::kDirection) ||
+          Says(Name(i), Word::kDirection) || Says(Name(i), Word::kSpeed) ||
           CountsCycles({.name = Name(i), .unit = unit}) ||
           ++looked > kMostLooked) {
         continue;

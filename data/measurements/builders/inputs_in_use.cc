@@ -142,8 +142,9 @@ void DescribeInputs(const CsvTable& table,
         {.column = name, .why = "tells rows apart and measures nothing"});
   }
   for (const ColumnInfo& input : parts.inputs) {
-    if (input.role == Role::kPosition) continue;
-    (input.role == Role::kSwitch    ? reading->switches
+    if (reading->position.column == input.name) continue;
+    (input.role == Role::kPosition  ? reading->positions
+     : input.role == Role::kSwitch  ? reading->switches
      : input.role == Role::kCounter ? reading->counters
                                     : reading->sensors)
         .push_back(input.name);

@@ -99,6 +99,7 @@ struct Reading {
   std::string order = "file";  // or "time", "none": sorted by something else
   Cycles cycles;
   Sessions sessions;
+  std::vector<std::string> positions;  // of other axes, inputs as well
   std::vector<std::string> sensors;
   std::vector<std::string> switches;
   std::vector<std::string> counters;

@@ -191,6 +191,21 @@ TEST(PolynomialRecipe, SaysThatAPositionIsMissing) {
                                     "poly:eq9 are left out")));
 }
 
+TEST(PolynomialRecipe, TakesNoSecondAxisForATemperature) {
+  const data::Dataset all = QuadraticData(20);
+  data::Dataset::Parts parts;
+  parts.source = "two axes";
+  parts.inputs = {all.inputs()[0], all.inputs()[0]};
+  parts.inputs[1].name = "y_mm";
+  parts.input_values = all.input_values()(Eigen::all, {0, 0});
+  parts.target = all.target();
+  parts.target_values = all.target_values();
+  EXPECT_THAT(MakeRecipe("poly:temperature")
+                  ->WhatIsMissing(data::Dataset(std::move(parts)))
+                  .value_or(""),
+              HasSubstr("a temperature"));
+}
+
 TEST(PolynomialRecipe, CountsARowOfWeightThreeAsThreeRows) {
   const data::Dataset all = ShippedMeasurements();
   std::vector<Eigen::Index> rows;

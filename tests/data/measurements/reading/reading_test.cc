@@ -428,5 +428,22 @@ TEST(Reading, CountsNoCycleOfRowsWithoutATime) {
   EXPECT_EQ(Read(text, {.missing = MissingPolicy::kDropRows}).cycles.count, 20);
 }
 
+TEST(Reading, ListsTheOtherAxesAmongTheInputs) {
+  const Reading reading = Read(Text(
+      "time_s,x_mm,y_mm,SpindleRPM,t1_degC,error_um",
+      Log().Rows(),
+      [](const Log::Row& row) {
+        return std::vector<std::string>{Fixed(row.time),
+                                        Fixed(row.position),
+                                        Fixed(0.75 * row.position),
+                                        Fixed(1000.0 + 200.0 * (row.cycle % 4)),
+                                        Fixed(row.warm),
+                                        Fixed(row.error)};
+      }));
+  EXPECT_EQ(reading.position.column, "x_mm");
+  EXPECT_THAT(reading.positions, ElementsAre("y_mm"));
+  EXPECT_THAT(reading.sensors, ElementsAre("SpindleRPM", "t1_degC"));
+}
+
 }  // namespace
 }  // namespace errmap::data
