@@ -257,7 +257,8 @@ class InputChooser {
     const std::string_view timed = WhatItTimes(column);
     if (!timed.empty()) return timed;
     if (is_axis) return "";
-    if (IsCalled(column.name, Word::kPart)) {
+    if (IsCalled(column.name, Word::kPart) ||
+        IsCalled(column.name, Word::kComponent)) {
       chosen_.words.push_back(i);
       return "tells which one, and measures nothing";
     }

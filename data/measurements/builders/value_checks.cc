@@ -35,35 +35,25 @@ std::vector<Range> RangesOf(const Eigen::Ref<const Eigen::VectorXd>& values,
   return ranges;
 }
 
-Range RangeOfOthers(const std::vector<Range>& ranges, std::size_t session) {
-  Range others = ranges[session == 0 ? 1 : 0];
-  for (std::size_t s = 0; s < ranges.size(); ++s) {
-    if (s == session) continue;
-    others.least = std::min(others.least, ranges[s].least);
-    others.most = std::max(others.most, ranges[s].most);
-  }
-  return others;
-}
-
-// The unit in which a session's range is that of the others; "" for their own.
-// A short travel or a cold day lies within theirs, in some unit or other: both
+// The unit in which a session's range is that of the one beside it; "" for its
+// own. A short travel or a cold day lies within it, in some unit or other: both
 // ends have to agree.
 std::string UnitOfSession(const Unit& own_unit,
                           const Range& own,
-                          const Range& others) {
+                          const Range& beside) {
   constexpr double kDegrees = 10.0;
   constexpr double kOfTravel = 1e-3;
   const double near = own_unit.quantity == Quantity::kTemperature
                           ? kDegrees
-                          : kOfTravel * (others.most - others.least);
-  const auto is_theirs = [&](const Unit& unit) {
-    return std::abs(Converted(own.least, unit, own_unit) - others.least) <
+                          : kOfTravel * (beside.most - beside.least);
+  const auto is_alike = [&](const Unit& unit) {
+    return std::abs(Converted(own.least, unit, own_unit) - beside.least) <
                near &&
-           std::abs(Converted(own.most, unit, own_unit) - others.most) < near;
+           std::abs(Converted(own.most, unit, own_unit) - beside.most) < near;
   };
-  if (is_theirs(own_unit)) return "";
+  if (is_alike(own_unit)) return "";
   const std::vector<Unit> units = UnitsOf(own_unit.quantity);
-  const auto found = std::ranges::find_if(units, is_theirs);
+  const auto found = std::ranges::find_if(units, is_alike);
   return found == units.end() ? "" : found->symbol;
 }
 
@@ -124,16 +114,21 @@ std::optional<std::string> OtherUnitInSession(
     return std::nullopt;
   }
   const std::vector<Range> ranges = RangesOf(values, starts);
-  for (std::size_t s = 0; s < ranges.size(); ++s) {
-    const Range own = ranges[s];
-    const Range others = RangeOfOthers(ranges, s);
-    const std::string unit = UnitOfSession(input.unit, own, others);
-    if (unit.empty()) continue;
+  const auto remark = [&](std::size_t session, std::size_t beside) {
+    const Range own = ranges[session];
+    const Range other = ranges[beside];
+    const std::string unit = UnitOfSession(input.unit, own, other);
+    if (unit.empty()) return unit;
     return NameInRemark(input.name) + " is " + Rounded(own.least) + " to " +
-           Rounded(own.most) + " in session " + std::to_string(s + 1) +
+           Rounded(own.most) + " in session " + std::to_string(session + 1) +
            ", as if its unit were " + QuotedText(unit) + " there, and " +
-           Rounded(others.least) + " to " + Rounded(others.most) +
-           " in the others";
+           Rounded(other.least) + " to " + Rounded(other.most) +
+           " in session " + std::to_string(beside + 1);
+  };
+  for (std::size_t s = 1; s < ranges.size(); ++s) {
+    for (std::string text : {remark(s, s - 1), remark(s - 1, s)}) {
+      if (!text.empty()) return text;
+    }
   }
   return std::nullopt;
 }

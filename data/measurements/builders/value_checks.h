@@ -22,7 +22,7 @@ std::optional<std::string> LikelyFahrenheit(
     const std::vector<ColumnInfo>& inputs, const Eigen::MatrixXd& values);
 
 /// Returns a remark if positions or temperatures of one session would be like
-/// those of the others in another unit. `starts`: the first row of each.
+/// those of the one beside it in another unit. `starts`: the first row of each.
 std::optional<std::string> OtherUnitInSession(
     const ColumnInfo& input,
     const Eigen::Ref<const Eigen::VectorXd>& values,

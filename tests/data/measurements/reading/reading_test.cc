@@ -53,9 +53,18 @@ TEST(Reading, NamesASessionInAnotherUnit) {
                 if (row->day == 2) row->position /= 25.4;
               }),
               ElementsAre("position_mm is 0 to 9.84 in session 3, as if its "
-                          "unit were 'in' there, and 0 to 250 in the others"));
+                          "unit were 'in' there, and 0 to 250 in session 2"));
   EXPECT_THAT(RemarksOn([](Log::Row* row) {
                 if (row->day == 1) row->warm = 1.8 * row->warm + 32.0;
+              }),
+              Contains(HasSubstr("in session 2, as if its unit were 'degF'")));
+  // From a day on, and up to one.
+  EXPECT_THAT(RemarksOn([](Log::Row* row) {
+                if (row->day > 1) row->warm = 1.8 * row->warm + 32.0;
+              }),
+              Contains(HasSubstr("in session 3, as if its unit were 'degF'")));
+  EXPECT_THAT(RemarksOn([](Log::Row* row) {
+                if (row->day < 2) row->warm = 1.8 * row->warm + 32.0;
               }),
               Contains(HasSubstr("in session 2, as if its unit were 'degF'")));
   // A short travel and a hot day are none.
