@@ -54,6 +54,8 @@ constexpr auto kKnownUnits = std::to_array<KnownUnit>({
     {"ft", kLength, 304800.0, 0, "feet", "", true},
     {"mil", kLength, 25.4, 0, "mils thou", "0.001in 0.001inch"},
     {"uin", kLength, 0.0254, 0, "microinch microinches", ""},
+    {"0.1mm", kLength, 100.0, 0, "", "1/10mm"},
+    {"0.01mm", kLength, 10.0, 0, "", "1/100mm"},
     {"0.1um", kLength, 0.1, 0, "", "1/10um"},
     {"0.0001in", kLength, 2.54, 0, "", "tenths 0.0001inch"},
     {"arcsec",

@@ -199,10 +199,12 @@ class Parser {
     const std::string shown = Printable(names[first], kShownName);
     ThrowAt(layout_.header_line,
             "no header: cell " + std::to_string(first + 1) + " is the number " +
-                QuotedText(names[first]) +
-                " where a column name should be; put a line of column names "
-                "first (of errors at a position: error_um@" +
-                shown + "mm; of a run: Run " + shown + " [um])");
+                QuotedText(names[first]) + " where a column name should be; " +
+                (numbers.size() < names.size()
+                     ? "write a name in its place"
+                     : "put a line of column names first") +
+                " (of errors at a position: error_um@" + shown +
+                "mm; of a run: Run " + shown + " [um])");
   }
 
   // The cells of a record from the cursor on, which stays.

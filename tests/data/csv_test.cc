@@ -359,7 +359,7 @@ TEST(ParseCsvError, HeaderAlone) {
 TEST(ParseCsvError, NumberWhereANameShouldBe) {
   EXPECT_EQ(RefusalOf("a;1,5\n1;2\n"),
             "f.csv: line 1: no header: cell 2 is the number '1,5' where a "
-            "column name should be; put a line of column names first (of "
+            "column name should be; write a name in its place (of "
             "errors at a position: error_um@1,5mm; of a run: Run 1,5 [um])");
 }
 

@@ -80,6 +80,25 @@ std::optional<std::pair<std::string_view, std::string_view>> AtUncertainty(
   return std::nullopt;
 }
 
+// Where the digits, signs and marks in the width of a Chinese character begin
+// in UTF-8: U+FF0B to U+FF19.
+constexpr std::string_view kFullWidth = "\xEF\xBC";
+
+std::string WithAsciiDigits(std::string_view cell) {
+  std::string plain;
+  for (std::size_t at = cell.find(kFullWidth); at != cell.npos;
+       at = cell.find(kFullWidth)) {
+    plain += cell.substr(0, at);
+    cell.remove_prefix(at + kFullWidth.size());
+    if (cell.empty()) break;
+    constexpr unsigned char kFromAscii = 0x60;
+    plain += static_cast<char>(static_cast<unsigned char>(cell.front()) -
+                               kFromAscii);
+    cell.remove_prefix(1);
+  }
+  return plain += cell;
+}
+
 }  // namespace
 
 bool ReadFortranNumber(std::string_view cell,
@@ -103,6 +122,11 @@ Loose ReadLooseNumber(std::string_view cell,
     const std::string_view number = Trimmed(cell.substr(0, remark));
     return ReadNumberForm(number, decimal_comma, form) ? Loose::kRemark
                                                        : Loose::kNone;
+  }
+  if (cell.find(kFullWidth) != cell.npos) {
+    return ReadNumberForm(WithAsciiDigits(cell), decimal_comma, form)
+               ? Loose::kFullWidth
+               : Loose::kNone;
   }
   if (ReadFortranNumber(cell, decimal_comma, form)) return Loose::kExponent;
   if (const auto parts = AtUncertainty(cell)) {
@@ -203,7 +227,8 @@ std::vector<std::string> LooseNumbers::Remarks() const {
        " with a minus after the number, which changes the sign",
        " with D for the exponent",
        " without the uncertainty behind them",
-       " whose parentheses are a minus"});
+       " whose parentheses are a minus",
+       " with full-width digits"});
   static_assert(kHow.size() == std::tuple_size_v<decltype(seen_)>);
   std::vector<std::string> remarks;
   for (std::size_t i = 1; i < kHow.size(); ++i) {

@@ -20,7 +20,8 @@ enum class Loose {
   kMinusBehind,
   kExponent,
   kUncertainty,
-  kParentheses
+  kParentheses,
+  kFullWidth
 };
 
 /// Reads a number in a form that people write but programs do not read. It may
@@ -28,7 +29,8 @@ enum class Loose {
 /// ("25 000.5", "25'000", "1.234.567,8"), a minus that is a dash or comes last,
 /// a remark ("1.5 # door"), Fortran's exponent ("1.5D-03"), or its uncertainty
 /// behind it ("1.5 ± 0.2", "1.50(20)"), or be negative in parentheses
-/// ("(1.97)", where "(2)" is a label). `other_mark`: one group of thousands is
+/// ("(1.97)", where "(2)" is a label), or have the wide digits of Japanese and
+/// Chinese. `other_mark`: one group of thousands is
 /// enough ("25,000" with decimal points). If a separator could be a decimal
 /// mark, returns kNone and no value.
 Loose ReadLooseNumber(std::string_view cell,
@@ -63,7 +65,7 @@ class LooseNumbers {
     std::size_t count = 0;
     std::size_t first_line = 0;
   };
-  std::array<Seen, 8> seen_;  // of each Loose
+  std::array<Seen, 9> seen_;  // of each Loose
 };
 
 /// Converts columns whose cells are all numbers with one unit ("1.877 µm") or

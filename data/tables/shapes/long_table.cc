@@ -71,7 +71,8 @@ class Spreader {
   std::optional<CsvTable> Spread(std::size_t value) {
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       if (i == variable_ || i == value) continue;
-      if (!TakeUnits(table_.columns[i])) others_.push_back(i);
+      const CsvColumn& column = table_.columns[i];
+      if (!TakeUnits(column) && !NumbersVariables(column)) others_.push_back(i);
     }
     if (!FindMoments()) return std::nullopt;
     CsvTable spread{.file = table_.file,
@@ -125,6 +126,23 @@ class Spreader {
     }
     if (names == found_.labels) return false;
     found_.labels = std::move(names);
+    return true;
+  }
+
+  // A column that has a value of its own for each variable: the number of a
+  // channel, as databases write it.
+  bool NumbersVariables(const CsvColumn& column) const {
+    std::map<std::string, std::size_t> variables;
+    std::vector<bool> is_numbered(found_.labels.size(), false);
+    for (std::size_t row = 0; row < table_.num_rows; ++row) {
+      const std::size_t variable = found_.codes[row];
+      const auto [known, is_new] =
+          variables.emplace(table_.CellText(column, row), variable);
+      if (known->second != variable || (is_new && is_numbered[variable])) {
+        return false;
+      }
+      is_numbered[variable] = true;
+    }
     return true;
   }
 

@@ -103,7 +103,9 @@ std::size_t CellsParted(std::string_view line, std::string_view blanks) {
 // names two blanks apart.
 bool IsSetApart(const std::vector<std::string_view>& lines) {
   constexpr std::size_t kFewest = 3;
-  if (lines.size() < kFewest) return false;
+  constexpr std::string_view kOfNumbers = "0123456789+-.";
+  if (lines.size() < kFewest || kOfNumbers.find(lines[0][0]) != kOfNumbers.npos)
+    return false;
   const std::size_t names = CellsParted(lines[0], "  ");
   return names > 1 && CellsParted(lines[0], " ") != names &&
          std::ranges::all_of(lines, [&](std::string_view line) {

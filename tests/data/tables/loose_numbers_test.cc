@@ -86,6 +86,15 @@ TEST(LooseNumbers, AreNegativeInParenthesesWithDecimals) {
       ParseCsv("x_mm,no\n1,(1)\n2,(2)\n", "f.csv").columns[1].is_text());
 }
 
+TEST(LooseNumbers, HaveFullWidthDigits) {
+  const CsvTable table = ParseCsv(
+      "x_mm,error_um\n\uFF11\uFF10,-\uFF11\uFF0E\uFF19\n"
+      "\uFF12\uFF10,\uFF0D\uFF12\uFF0E\uFF10\n",
+      "f.csv");
+  EXPECT_THAT(table.columns[0].values, ElementsAre(10.0, 20.0));
+  EXPECT_THAT(table.columns[1].values, ElementsAre(-1.9, -2.0));
+}
+
 TEST(LooseNumbers, HaveThousandsWhereOthersHaveTwoMarks) {
   const CsvTable table =
       ParseCsv("x_um;t_degC\n0;20,5\n250.000;20,6\n1.000.000;20,7\n", "f.csv");

@@ -280,6 +280,37 @@ TEST(TableShape, TurnsARowForEachVariable) {
   EXPECT_THAT(table.columns[2].values, ElementsAre(1.5, 2.5, 3.5, 4.5));
 }
 
+// As databases write them, with a number for each field.
+TEST(TableShape, SpreadsARowForEachReading) {
+  std::string text = "table,_time,_value,_field\n";
+  const char* const fields[] = {"x_mm", "t1_degC", "error_um"};
+  for (int field = 0; field < 3; ++field) {
+    for (int i = 0; i < 12; ++i) {
+      text += std::to_string(field) +
+              ",2024-03-04T08:00:" + std::to_string(10 + i) + "Z," +
+              std::to_string(100 * field + i) + "," + fields[field] + "\n";
+    }
+  }
+  const CsvTable table = ParseCsv(text, "f.csv");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("_time", "x_mm", "t1_degC", "error_um"));
+  EXPECT_EQ(table.num_rows, 12U);
+  EXPECT_EQ(table.columns[3].values[5], 205.0);
+}
+
+// Names two blanks apart, and rows whose columns stand closer.
+TEST(TableShape, KeepsColumnsOneBlankApart) {
+  const CsvTable table = ParseCsv(
+      "# JD  LST  Alt(deg)  error(arcsec)\n"
+      "2460374.5 13:35:27  20.00  -1.26\n"
+      "2460375.5 13:36:27  25.00   0.74\n"
+      "2460376.5 13:37:27  30.00   1.74\n",
+      "f.csv");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("JD", "LST", "Alt(deg)", "error(arcsec)"));
+  EXPECT_THAT(table.columns[3].values, ElementsAre(-1.26, 0.74, 1.74));
+}
+
 TEST(TableShape, TurnsTheSheetOfAStandard) {
   const CsvTable table = ParseCsv(
       "Deviations in um\ni,1,2,3,4,5\nPosition Pi (mm),0,50,100,150,200\n"
