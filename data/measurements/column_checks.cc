@@ -280,7 +280,12 @@ void RequireKnownUnit(const CsvTable& table, const ColumnInUse& column) {
   throw InputError(
       PrintablePath(table.file) + ": column " + QuotedName(name) + ": " +
       WhyNoUnit(header) +
-      "; rename the column, with one of these in brackets: " + KnownUnits());
+      (column.use == ColumnUse::kTarget
+           ? "; add one to the name: " +
+                 ArgumentName("target", name + " [um]") +
+                 " (or mm, in, arcsec, urad, deg)"
+           : "; rename the column, with one of these in brackets: " +
+                 KnownUnits()));
 }
 
 void RefuseNumbersAsText(const CsvTable& table, const CsvColumn& column) {

@@ -188,8 +188,8 @@ TEST(ColumnChecks, RefusesUnknownUnitsInBracketsAndOnTheTarget) {
   EXPECT_THAT(
       ErrorOf("a,error [furlong]\n1,2\n2,3\n"),
       HasSubstr("f.csv: column 'error [furlong]': 'furlong' is not a unit "
-                "known here; rename the column, with one of these in "
-                "brackets: pm, nm, um, mm, cm, m, in,"));
+                "known here; add one to the name: target = error [furlong] "
+                "[um] (or mm, in, arcsec, urad, deg)"));
   EXPECT_THAT(
       ErrorOf("a,error_m\n1,2\n2,3\n"),
       HasSubstr("'m' counts as a unit in brackets or parentheses only"));
