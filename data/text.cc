@@ -8,7 +8,10 @@
 #include <numeric>
 #include <system_error>
 
+#include <fmt/format.h>
+
 namespace errmap::data {
+
 namespace {
 
 constexpr std::size_t kCellLimit = 40;
@@ -271,6 +274,12 @@ std::string DidYouMean(std::string_view name,
                        const std::vector<std::string>& candidates) {
   const std::string nearest = NearestName(name, candidates);
   return nearest.empty() ? "" : "did you mean '" + nearest + "'? ";
+}
+
+std::string Rounded(double value) {
+  const double size = std::abs(value);
+  return size >= 100.0 && size < 1e6 ? fmt::format("{:.0f}", value)
+                                     : fmt::format("{:.3g}", value);
 }
 
 }  // namespace errmap::data

@@ -92,4 +92,7 @@ constexpr std::string_view NameOf(const Names& names, Enumerator value) {
   return place < names.size() ? names[place] : std::string_view();
 }
 
+/// Rounds to three digits, and from 100 to a million to the next whole number.
+std::string Rounded(double value);
+
 }  // namespace errmap::data

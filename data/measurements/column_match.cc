@@ -11,9 +11,9 @@
 #include "data/measurements/clock/digit_dates.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
-#include "data/measurements/reading/base_rows.h"
 #include "data/measurements/reading/derived_columns.h"
 #include "data/measurements/reading/merged_cells.h"
+#include "data/measurements/reading/table_in_reading.h"
 #include "data/text.h"
 
 namespace errmap::data {

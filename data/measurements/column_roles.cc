@@ -15,7 +15,7 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/reading/derived_columns.h"
 #include "data/measurements/reading/reading.h"
-#include "data/tables/shapes/sign_notes.h"
+#include "data/tables/shapes/notes.h"
 #include "data/text.h"
 #include "data/units.h"
 

@@ -11,7 +11,6 @@
 #include "data/columns.h"
 #include "data/measurements/clock/clock.h"
 #include "data/measurements/clock/clock_zone.h"
-#include "data/measurements/clock/midnight.h"
 #include "data/measurements/clock/text_times.h"
 #include "data/measurements/clock/time_units.h"
 #include "data/measurements/column_checks.h"

@@ -10,15 +10,14 @@
 #include "data/argument_name.h"
 #include "data/column_words.h"
 #include "data/columns.h"
-#include "data/measurements/clock/clock_columns.h"
+#include "data/measurements/clock/clock.h"
 #include "data/measurements/clock/date_time.h"
 #include "data/measurements/clock/row_columns.h"
 #include "data/measurements/clock/text_times.h"
 #include "data/measurements/clock/time_units.h"
 #include "data/measurements/column_checks.h"
-#include "data/measurements/cycle_restarts.h"
 #include "data/measurements/joined_tables.h"
-#include "data/measurements/reading/cold_starts.h"
+#include "data/measurements/reading/session_starts.h"
 #include "data/text.h"
 
 namespace errmap::data {

@@ -10,7 +10,7 @@
 #include "data/column_words.h"
 #include "data/tables/cells/missing_cells.h"
 #include "data/tables/cells/unit_cells.h"
-#include "data/tables/comment_names.h"
+#include "data/tables/column_names.h"
 #include "data/tables/number_columns.h"
 #include "data/text.h"
 #include "data/units.h"

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "data/csv.h"
 #include "data/measurements/builders/dataset_remarks.h"
 #include "data/measurements/dataset.h"
@@ -41,5 +43,14 @@ void DescribeInputs(const CsvTable& table,
                     const std::vector<std::size_t>& records,
                     const DatasetRemarks& said,
                     Reading* reading);
+
+/// Keeps these rows of target, inputs and weights; `kept` are indices into
+/// parts->rows, ascending.
+void KeepRows(const std::vector<Eigen::Index>& kept, Dataset::Parts* parts);
+
+/// Leaves out the marked inputs (p). Returns the new index of each input, -1
+/// for those left out.
+std::vector<Eigen::Index> LeaveOutInputs(const std::vector<bool>& left_out,
+                                         Dataset::Parts* parts);
 
 }  // namespace errmap::data

@@ -1,5 +1,3 @@
-#include "data/measurements/builders/leaking_inputs.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,12 +6,15 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "data/column_words.h"
+#include "data/measurements/builders/useless_inputs.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/least_squares.h"
-#include "data/measurements/rounded.h"
+#include "data/text.h"
 
 namespace errmap::data {
 namespace {
@@ -55,13 +56,22 @@ double ResolutionOf(const VectorXd& values) {
   return 0.0;
 }
 
+// Inputs that together determine the target, within the rounding of all.
+struct Leak {
+  std::vector<Index> left_out;  // of one to three, those that hold the error
+  // "error_mm = actual_mm - nominal_mm", "|error_um| is above 3 where bad is
+  // 1".
+  std::string statement;
+};
+
 class LeakFinder {
  public:
-  LeakFinder(const ColumnInfo& target,
-             const VectorXd& target_values,
-             const std::vector<ColumnInfo>& inputs,
-             const Eigen::MatrixXd& input_values)
-      : name_(NameInRemark(target.name)), unit_(target.unit), inputs_(inputs) {
+  explicit LeakFinder(const Dataset::Parts& parts)
+      : name_(NameInRemark(parts.target.name)),
+        unit_(parts.target.unit),
+        inputs_(parts.inputs) {
+    const VectorXd& target_values = parts.target_values;
+    const Eigen::MatrixXd& input_values = parts.input_values;
     const Index m = target_values.size();
     const Index stride = 1 + (m - 1) / kMostRowsLooked;
     for (Index row = 0; row < m; row += stride) rows_.push_back(row);
@@ -70,7 +80,7 @@ class LeakFinder {
     target_.array() -= target_.mean();
     sd_ = std::sqrt(target_.squaredNorm() / static_cast<double>(rows_.size()));
     for (Index j = 0; j < input_values.cols(); ++j) {
-      TakeCandidate(target, j, input_values.col(j)(rows_));
+      TakeCandidate(j, input_values.col(j)(rows_));
     }
     const VectorXd looked = target_values(rows_);
     const Eigen::MatrixXd values = input_values(rows_, Eigen::all);
@@ -111,10 +121,10 @@ class LeakFinder {
     return candidates_[static_cast<std::size_t>(k)];
   }
 
-  void TakeCandidate(const ColumnInfo& target, Index input, VectorXd values) {
+  void TakeCandidate(Index input, VectorXd values) {
     const ColumnInfo& column = inputs_[static_cast<std::size_t>(input)];
     const Quantity quantity = column.unit.quantity;
-    if (!column.unit.symbol.empty() && quantity != target.unit.quantity &&
+    if (!column.unit.symbol.empty() && quantity != unit_.quantity &&
         quantity != Quantity::kLength) {
       return;
     }
@@ -152,7 +162,6 @@ class LeakFinder {
         if (!IsPosition(inputs_[static_cast<std::size_t>(k)])) continue;
         leak = ShareOf(target, j, values.col(j), values.col(k));
         if (!leak) continue;
-        leak->inputs.push_back(k);
         leak->statement += " times " + NameOf(k);
       }
       if (leak) alone_.push_back(*std::move(leak));
@@ -175,8 +184,7 @@ class LeakFinder {
     if (!(worst <= rounding + resolution_ && worst < kMostOfShare * sd_)) {
       return std::nullopt;
     }
-    return Leak{.inputs = {input},
-                .left_out = {input},
+    return Leak{.left_out = {input},
                 .statement = name_ + " = " + Rounded(b) + " " + NameOf(input)};
   }
 
@@ -197,9 +205,8 @@ class LeakFinder {
       std::string what = has_both_signs ? LineOf(size, j, values.col(j)) : "";
       if (what.empty()) what = LimitOf(size, j, values.col(j));
       if (what.empty()) continue;
-      alone_.push_back({.inputs = {j},
-                        .left_out = {j},
-                        .statement = "|" + name_ + "| " + what});
+      alone_.push_back(
+          {.left_out = {j}, .statement = "|" + name_ + "| " + what});
     }
   }
 
@@ -351,7 +358,6 @@ class LeakFinder {
     }
     leak.statement = name_ + " = " + formula;
     for (const Index k : set) {
-      leak.inputs.push_back(Of(k).input);
       if (!Of(k).position && !Of(k).settings) {
         candidates_[static_cast<std::size_t>(k)].used = true;
         leak.left_out.push_back(Of(k).input);
@@ -406,11 +412,18 @@ class LeakFinder {
 
 }  // namespace
 
-std::vector<Leak> FindLeaks(const ColumnInfo& target,
-                            const VectorXd& target_values,
-                            const std::vector<ColumnInfo>& inputs,
-                            const Eigen::MatrixXd& input_values) {
-  return LeakFinder(target, target_values, inputs, input_values).Find();
+std::vector<UselessInput> LeakingInputs(const Dataset::Parts& parts) {
+  std::vector<UselessInput> useless;
+  for (const Leak& leak : LeakFinder(parts).Find()) {
+    for (const Index input : leak.left_out) {
+      useless.push_back({.input = input,
+                         .why = "holds the error itself (" + leak.statement +
+                                " in all rows, to rounding)",
+                         .behind = ": no control knows it beforehand",
+                         .even_named = true});
+    }
+  }
+  return useless;
 }
 
 }  // namespace errmap::data

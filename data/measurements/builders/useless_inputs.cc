@@ -3,30 +3,12 @@
 #include "data/argument_name.h"
 #include "data/csv.h"
 #include "data/measurements/builders/idle_inputs.h"
-#include "data/measurements/builders/leaking_inputs.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 
 namespace errmap::data {
 
 using Eigen::Index;
-
-std::vector<UselessInput> LeakingInputs(const Dataset::Parts& parts) {
-  std::vector<UselessInput> useless;
-  for (const Leak& leak : FindLeaks(parts.target,
-                                    parts.target_values,
-                                    parts.inputs,
-                                    parts.input_values)) {
-    for (const Index input : leak.left_out) {
-      useless.push_back({.input = input,
-                         .why = "holds the error itself (" + leak.statement +
-                                " in all rows, to rounding)",
-                         .behind = ": no control knows it beforehand",
-                         .even_named = true});
-    }
-  }
-  return useless;
-}
 
 std::vector<UselessInput> CountingInputs(const Dataset::Parts& parts,
                                          const std::vector<Index>& sessions) {

@@ -19,8 +19,14 @@ struct UselessInput {
   bool even_named = false;  // left out though somebody asked for it
 };
 
-/// Finds inputs that together determine the target, which no control knows
-/// beforehand.
+/// Finds components of the error itself, which no control knows beforehand:
+/// inputs that together determine the target, by least squares on the rows.
+/// Examples are the measured next to the nominal position, or a copy in another
+/// unit or in ppm of the position. Others are two halves, the size of the
+/// error, or whether it exceeds a limit. Encoder counts are recognised by the
+/// axis. Temperatures, times, and positions alone are states of a machine,
+/// never parts of its error: a target that is a plain function of them has a
+/// good map. Positions or a few settings in such a set are kept.
 std::vector<UselessInput> LeakingInputs(const Dataset::Parts& parts);
 
 /// Finds inputs that number the cycles through all sessions (a code for each

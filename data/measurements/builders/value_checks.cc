@@ -12,7 +12,6 @@
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/reading/reading.h"
-#include "data/measurements/rounded.h"
 #include "data/text.h"
 #include "data/units.h"
 

@@ -10,7 +10,6 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/least_squares.h"
-#include "data/measurements/rounded.h"
 #include "data/text.h"
 
 namespace errmap::data {

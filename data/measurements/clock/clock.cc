@@ -7,7 +7,6 @@
 #include "data/argument_name.h"
 #include "data/column_header.h"
 #include "data/column_words.h"
-#include "data/measurements/clock/clock_columns.h"
 #include "data/measurements/clock/date_time.h"
 #include "data/measurements/clock/row_columns.h"
 #include "data/measurements/clock/text_times.h"

@@ -48,4 +48,23 @@ Clock FindClock(const CsvTable& table,
                 const DatasetSelection& selection,
                 const std::vector<Eigen::Index>& rows);
 
+/// Makes a clock continuous, for rows in the order of measurement, with a
+/// remark if it changes a time. It corrects times of day that pass midnight,
+/// hours from 1 to 12 after noon, and a dated clock set back by up to an hour
+/// (to three steps), as at the end of summer time.
+void GoOnOverMidnight(const CsvTable& table,
+                      const std::vector<Eigen::Index>& rows,
+                      Clock* clock);
+
+/// Returns columns that may hold the times of these rows, judged by names and
+/// values: groups of indices into the table, the most likely first.
+std::vector<std::vector<std::size_t>> ColumnsOfTime(
+    const CsvTable& table,
+    const DatasetSelection& selection,
+    const std::vector<Eigen::Index>& rows);
+
+/// Returns the only column of dates without hours, or -1.
+std::ptrdiff_t ColumnOfDates(const CsvTable& table,
+                             const DatasetSelection& selection);
+
 }  // namespace errmap::data

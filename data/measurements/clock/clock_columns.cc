@@ -1,11 +1,10 @@
-#include "data/measurements/clock/clock_columns.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string_view>
 
 #include "data/column_header.h"
 #include "data/column_words.h"
+#include "data/measurements/clock/clock.h"
 #include "data/measurements/clock/row_columns.h"
 #include "data/measurements/clock/text_times.h"
 #include "data/measurements/clock/time_units.h"

@@ -1,13 +1,11 @@
-#include "data/measurements/clock/midnight.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
+#include "data/measurements/clock/clock.h"
 #include "data/measurements/clock/date_time.h"
 #include "data/measurements/clock/time_units.h"
 #include "data/measurements/column_checks.h"
-#include "data/measurements/rounded.h"
 #include "data/text.h"
 
 namespace errmap::data {

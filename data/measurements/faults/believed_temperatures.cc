@@ -1,10 +1,9 @@
-#include "data/measurements/faults/believed_temperatures.h"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "data/measurements/dataset.h"
+#include "data/measurements/faults/thermometers.h"
 #include "data/units.h"
 
 namespace errmap::data {

@@ -1,5 +1,3 @@
-#include "data/measurements/faults/cell_faults.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,7 +9,7 @@
 
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
-#include "data/measurements/faults/believed_temperatures.h"
+#include "data/measurements/faults/thermometers.h"
 
 namespace errmap::data {
 namespace {

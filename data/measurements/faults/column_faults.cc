@@ -8,11 +8,8 @@
 #include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/dataset.h"
-#include "data/measurements/faults/cell_faults.h"
-#include "data/measurements/faults/drift_faults.h"
 #include "data/measurements/faults/row_faults.h"
-#include "data/measurements/faults/thermometer_faults.h"
-#include "data/measurements/rounded.h"
+#include "data/measurements/faults/thermometers.h"
 #include "data/text.h"
 
 namespace errmap::data {

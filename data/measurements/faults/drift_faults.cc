@@ -1,5 +1,3 @@
-#include "data/measurements/faults/drift_faults.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -10,6 +8,7 @@
 #include <Eigen/QR>
 
 #include "data/measurements/dataset.h"
+#include "data/measurements/faults/thermometers.h"
 
 namespace errmap::data {
 namespace {

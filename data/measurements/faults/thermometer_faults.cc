@@ -1,10 +1,10 @@
-#include "data/measurements/faults/thermometer_faults.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
+
+#include "data/measurements/faults/thermometers.h"
 
 namespace errmap::data {
 namespace {

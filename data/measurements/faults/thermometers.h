@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -59,5 +60,53 @@ std::vector<double> ValuesAt(const MeasuredColumns& measured,
 
 /// The upper median; NaN if there are no values.
 double MedianOf(std::vector<double> values);
+
+struct CellFaults {
+  std::vector<ColumnFault> faults;  // rows from 0
+  /// Temperature inputs for comparison with other columns, without their
+  /// faults.
+  std::vector<Thermometer> thermometers;
+};
+
+/// Finds single values that stand out (kImpossible, kOutlying). Then, for
+/// thermometers, finds values that differ from their neighbours (kJump).
+CellFaults FindCellFaults(const MeasuredColumns& measured);
+
+/// Temperatures expected in a shop; thermometers outside this range are
+/// examined.
+inline constexpr double kColdest = -50.0;  // degC
+inline constexpr double kHottest = 200.0;  // degC
+
+/// True if temperatures outside the limits of a shop (`wrong`, rows from 0, not
+/// empty) are plausible. The column must change slowly, without a gap between
+/// these and its other values. No other unit may bring it closer to its
+/// neighbours, or to a shop if it has none. If all its neighbours are within
+/// the limits, it must also change, since an open input is noise about one
+/// value.
+bool AreBelieved(const MeasuredColumns& measured,
+                 Eigen::Index input,
+                 const std::vector<Eigen::Index>& wrong);
+
+/// Compares thermometers with the others. Finds those that step while no other
+/// moves (kStep), those that stay constant while the others change (kStuck),
+/// and noisy ones. Rows count from 0.
+std::vector<ColumnFault> FindThermometerFaults(
+    const MeasuredColumns& measured,
+    const std::vector<Thermometer>& thermometers);
+
+/// Finds thermometers that depart further from the others in each session
+/// (kDrifting), the worst first. Skips columns that are faulty as a whole
+/// according to `known`.
+std::vector<ColumnFault> FindDrift(const MeasuredColumns& measured,
+                                   const std::vector<Thermometer>& thermometers,
+                                   const std::vector<ColumnFault>& known);
+
+/// Finds the thermometer that departs further from the mean of the others at
+/// the start (rows from 0) of each session. It finds those too different for
+/// FindDrift, and needs four sessions or more.
+std::optional<ColumnFault> FindColdDrift(
+    const MeasuredColumns& measured,
+    const std::vector<Eigen::Index>& session_starts,
+    const std::vector<ColumnFault>& known);
 
 }  // namespace errmap::data

@@ -1,5 +1,3 @@
-#include "data/measurements/reading/base_rows.h"
-
 #include <algorithm>
 #include <set>
 #include <string>
@@ -10,6 +8,7 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/faults/row_faults.h"
+#include "data/measurements/reading/table_in_reading.h"
 #include "data/text.h"
 
 namespace errmap::data {

@@ -1,5 +1,3 @@
-#include "data/measurements/reading/describe_reading.h"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -10,6 +8,7 @@
 #include "data/files/shown_path.h"
 #include "data/measurements/axis/directions.h"
 #include "data/measurements/clock/time_units.h"
+#include "data/measurements/reading/table_in_reading.h"
 
 namespace errmap::data {
 namespace {

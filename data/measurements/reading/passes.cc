@@ -1,5 +1,3 @@
-#include "data/measurements/reading/passes.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -11,7 +9,7 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/reading/derived_columns.h"
-#include "data/measurements/reading/label_parts.h"
+#include "data/measurements/reading/table_in_reading.h"
 #include "data/text.h"
 
 namespace errmap::data {

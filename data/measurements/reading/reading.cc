@@ -6,7 +6,6 @@
 
 #include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
-#include "data/measurements/rounded.h"
 #include "data/text.h"
 #include "data/way_words.h"
 

@@ -1,4 +1,3 @@
-#include "data/measurements/reading/row_order.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +11,10 @@
 
 #include "data/columns.h"
 #include "data/measurements/axis/axis.h"
-#include "data/measurements/clock/midnight.h"
+#include "data/measurements/clock/clock.h"
 #include "data/measurements/clock/time_units.h"
 #include "data/measurements/column_roles.h"
-#include "data/measurements/reading/base_rows.h"
+#include "data/measurements/reading/table_in_reading.h"
 #include "data/text.h"
 
 namespace errmap::data {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -162,5 +163,16 @@ bool ReadNumberForm(std::string_view cell, bool may_be_comma, NumberForm* form);
 /// Returns cell text without blanks at its ends, including no-break and thin
 /// ones.
 std::string_view TrimmedCell(std::string_view text);
+
+/// A last line that ends inside a number, because of an incomplete copy or a
+/// full disk.
+struct CutLine {
+  const char* start;   // where the line begins
+  std::string number;  // what is left of its last cell
+};
+
+/// Looks for a cut line at the end of a table's rows. It has no line end, and
+/// its last number has fewer decimals than each of the many numbers above it.
+std::optional<CutLine> FindCutLine(std::string_view rows, char delimiter);
 
 }  // namespace errmap::data

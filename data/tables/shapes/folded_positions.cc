@@ -14,9 +14,8 @@
 #include "data/column_header.h"
 #include "data/column_words.h"
 #include "data/columns.h"
-#include "data/tables/shapes/input_rows.h"
+#include "data/tables/shapes/beside_errors.h"
 #include "data/tables/shapes/numbered_names.h"
-#include "data/tables/shapes/row_figures.h"
 #include "data/text.h"
 #include "data/units.h"
 

@@ -11,4 +11,8 @@ namespace errmap::data {
 /// column is called a value.
 void SpreadReadings(CsvTable* table);
 
+/// Transposes a table with a row for each variable, including an error, and a
+/// column for each reading, with a remark.
+void TurnTable(CsvTable* table);
+
 }  // namespace errmap::data

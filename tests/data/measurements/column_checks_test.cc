@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "data/measurements/rounded.h"
+#include "data/text.h"
 #include "tests/data/measurements/make_dataset_test_data.h"
 
 namespace errmap::data {

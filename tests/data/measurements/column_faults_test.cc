@@ -11,7 +11,7 @@
 #include "cli/turning_centre/simulation.h"
 #include "data/column_header.h"
 #include "data/measurements/dataset.h"
-#include "data/measurements/faults/drift_faults.h"
+#include "data/measurements/faults/thermometers.h"
 #include "tests/data/measurements/as_measured.h"
 #include "tests/data/measurements/make_dataset_test_data.h"
 #include "tests/places.h"

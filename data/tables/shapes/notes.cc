@@ -1,4 +1,4 @@
-#include "data/tables/shapes/unit_notes.h"
+#include "data/tables/shapes/notes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +15,7 @@
 #include "data/units.h"
 
 namespace errmap::data {
+
 namespace {
 
 // A line that states units, and of what; "" for no unit of a kind, or several.
@@ -113,6 +114,50 @@ void TakeUnitsOfNotes(CsvTable* table) {
                     " gives the unit of columns that have none");
     }
   }
+}
+
+namespace {
+
+bool SaysSign(std::string_view text) {
+  return HasWordOf(
+      text,
+      "positive negative sign positiv negativ vorzeichen positif negatif signe "
+      "positivo negativo segno signo");
+}
+
+// "Abweichung = Soll - Ist", or any difference that is not plainly the actual
+// value less the nominal one.
+bool StatesOtherDifference(const std::string& note) {
+  const std::size_t sign = note.find_last_of("=:");
+  if (sign == note.npos) return false;
+  const std::string of = note.substr(sign + 1);
+  std::vector<std::string> words = WordsOf(of);
+  const auto num_minus = std::erase(words, "minus");
+  if (words.size() != 2 || (num_minus != 1 && of.find('-') == of.npos)) {
+    return false;
+  }
+  const auto are = [&](Word first, Word second) {
+    return SayAny({words[0]}, first) && SayAny({words[1]}, second);
+  };
+  const std::string what = note.substr(0, sign);
+  return are(Word::kNominal, Word::kMeasured) ||
+         (!are(Word::kMeasured, Word::kNominal) &&
+          (Says(what, Word::kError) || SaysSign(what)));
+}
+
+// "positive error: the axis stops short".
+bool ExplainsSign(const std::string& note) {
+  return Says(note, Word::kError) && SaysSign(note);
+}
+
+}  // namespace
+
+const std::string* NoteOfOtherSign(const CsvTable& table) {
+  const auto note =
+      std::ranges::find_if(table.titles, [](const std::string& title) {
+        return StatesOtherDifference(title) || ExplainsSign(title);
+      });
+  return note == table.titles.end() ? nullptr : &*note;
 }
 
 }  // namespace errmap::data
