@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "data/text.h"
@@ -140,56 +142,49 @@ bool NamesPosition(std::string_view name) {
   if (header.source != UnitSource::kStated || !IsLengthOrAngle(header.unit)) {
     return false;
   }
-  const std::string_view base = header.base;
-  for (std::size_t at = 0; at < base.size();) {
-    const std::size_t end =
-        std::min(base.find_first_of(kSeparators, at), base.size());
-    const std::string_view word = base.substr(at, end - at);
-    if (EqualsIgnoringCase(word, "pos") ||
-        (word.size() >= kPosition.size() &&
-         EqualsIgnoringCase(word.substr(word.size() - kPosition.size()),
-                            kPosition))) {
-      return true;
-    }
-    at = end + 1;
-  }
-  return false;
+  const std::vector<std::string_view> words =
+      SplitWords(header.base, kSeparators);
+  return std::ranges::any_of(words, [&](std::string_view word) {
+    return EqualsIgnoringCase(word, "pos") ||
+           EndsWithIgnoringCase(word, kPosition);
+  });
 }
 
 namespace {
 
-// By a word within the name; false if there is none. Of several units, and
-// of one with a number, nobody can tell which is meant.
-bool ReadUnitWithin(std::string_view name, Header* header) {
-  const std::vector<UnitWord> words = UnitWords(name, false);
+Header Stated(std::string base, std::string_view unit_text, const Unit& unit) {
+  return {.base = std::move(base),
+          .unit_text = std::string(unit_text),
+          .unit = unit,
+          .source = UnitSource::kStated};
+}
+
+// By a word within the name, if there is one. Of several units, and of one with
+// a number, nobody can tell which is meant.
+std::optional<Header> ReadUnitWithin(std::string_view name) {
+  std::vector<UnitWord> words = UnitWords(name, false);
   if (words.size() == 1) {
     const UnitWord& word = words.front();
-    if (word.text == name) return false;
+    if (word.text == name) return std::nullopt;
     const std::string before = WithoutSeparators(name.substr(0, word.at));
     constexpr std::string_view kCloses = "_ -.,/)]}>";
     const std::size_t rest =
         std::min(name.find_first_not_of(kCloses, word.at + word.text.size()),
                  name.size());
-    header->base = before.substr(0, before.find_last_not_of("_ ([{<") + 1) +
-                   (rest < name.size() ? "_" : "") +
-                   std::string(name.substr(rest));
-    header->unit_text = word.text;
-    header->unit = word.unit;
-    header->source = UnitSource::kStated;
-    return true;
+    return Stated(before.substr(0, before.find_last_not_of("_ ([{<") + 1) +
+                      (rest < name.size() ? "_" : "") +
+                      std::string(name.substr(rest)),
+                  word.text,
+                  word.unit);
   }
-  std::vector<UnitWord> doubtful =
-      words.empty() ? UnitWords(name, true) : words;
-  if (doubtful.empty()) return false;
-  header->base = name;
-  header->unit_text.clear();
-  for (const UnitWord& word : doubtful) {
-    header->unit_text += header->unit_text.empty() ? "" : ", ";
-    header->unit_text += word.text;
-  }
-  header->unit = Unit{};
-  header->source = UnitSource::kDoubtful;
-  return true;
+  if (words.empty()) words = UnitWords(name, true);
+  if (words.empty()) return std::nullopt;
+  std::vector<std::string> doubtful;
+  for (const UnitWord& word : words) doubtful.emplace_back(word.text);
+  return Header{.base = std::string(name),
+                .unit_text = JoinWords(doubtful, ", "),
+                .unit = {},
+                .source = UnitSource::kDoubtful};
 }
 
 // A unit and a factor beside it at the end of a name: "1/1000 mm", "10^-3 mm",
@@ -216,19 +211,16 @@ std::string_view ScaledUnit(std::string_view name) {
 }
 
 // "T1_C", "T_bed_F": the letter counts behind the name of a temperature.
-bool ReadDegrees(std::string_view name, std::size_t last, Header* header) {
-  if (last == std::string_view::npos) return false;
+std::optional<Header> ReadDegrees(std::string_view name, std::size_t last) {
+  if (last == std::string_view::npos) return std::nullopt;
   const std::string_view base = name.substr(0, last);
   const std::string_view letter = name.substr(last + 1);
   if ((letter != "C" && letter != "F") ||
       !(NamesTemperature(base) || StartsWithIgnoringCase(base, "t_"))) {
-    return false;
+    return std::nullopt;
   }
-  header->base = base;
-  header->unit_text = letter;
-  header->unit = UnitOfSymbol(letter == "F" ? "degF" : "degC");
-  header->source = UnitSource::kStated;
-  return true;
+  return Stated(
+      std::string(base), letter, UnitOfSymbol(letter == "F" ? "degF" : "degC"));
 }
 
 }  // namespace
@@ -259,7 +251,8 @@ Header ReadHeader(std::string_view name) {
       header.source = UnitSource::kStated;
       return header;
     }
-    if (ReadUnitWithin(name.substr(0, open), &header)) return header;
+    if (auto within = ReadUnitWithin(name.substr(0, open)))
+      return *std::move(within);
     if (is_for_units) {
       header.source = UnitSource::kUnknown;
       return header;
@@ -284,21 +277,17 @@ Header ReadHeader(std::string_view name) {
     const std::string_view ending = name.substr(at + 1);
     const std::optional<Unit> unit = ReadUnit(ending, UnitPlace::kBare);
     if (!unit) continue;
-    header.unit = *unit;
-    header.base = WithoutSeparators(name.substr(0, at));
-    header.unit_text = ending;
-    header.source = UnitSource::kStated;
     if (const auto words = UnitWords(name, false);
         words.size() > 1 && words.back().text == ending) {
-      ReadUnitWithin(name, &header);
+      return *ReadUnitWithin(name);
     }
-    return header;
+    return Stated(WithoutSeparators(name.substr(0, at)), ending, *unit);
   }
-  if (ReadUnitWithin(name, &header)) return header;
+  if (auto within = ReadUnitWithin(name)) return *std::move(within);
   header.base = name;
   header.unit = AssumedUnit(name);
   const std::size_t last = name.find_last_of(kSeparators.substr(0, 2));
-  if (ReadDegrees(name, last, &header)) return header;
+  if (auto degrees = ReadDegrees(name, last)) return *std::move(degrees);
   // "T_in" is an inlet's, "x_in" a position in inches.
   const bool is_position =
       last != std::string_view::npos &&

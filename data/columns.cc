@@ -68,10 +68,7 @@ CsvColumn TakeRows(const CsvColumn& column,
 CsvTable TakeRows(const CsvTable& table,
                   const std::vector<std::ptrdiff_t>& rows) {
   CsvTable taken{.file = table.file,
-                 .columns = {},
                  .num_rows = rows.size(),
-                 .line_runs = {},
-                 .parts = {},
                  .titles = table.titles,
                  .remarks = table.remarks};
   for (const CsvColumn& column : table.columns) {
@@ -134,6 +131,24 @@ std::vector<std::ptrdiff_t> AllRows(std::size_t count) {
   std::vector<std::ptrdiff_t> rows(count);
   std::iota(rows.begin(), rows.end(), std::ptrdiff_t{0});
   return rows;
+}
+
+std::vector<std::ptrdiff_t> MarkedRows(const std::vector<bool>& marks) {
+  std::vector<std::ptrdiff_t> rows;
+  for (std::size_t row = 0; row < marks.size(); ++row) {
+    if (marks[row]) rows.push_back(static_cast<std::ptrdiff_t>(row));
+  }
+  return rows;
+}
+
+std::vector<double> ValuesOf(const CsvColumn& column,
+                             std::span<const std::ptrdiff_t> rows) {
+  std::vector<double> values;
+  values.reserve(rows.size());
+  for (const std::ptrdiff_t row : rows) {
+    values.push_back(column.values[static_cast<std::size_t>(row)]);
+  }
+  return values;
 }
 
 std::vector<std::ptrdiff_t> PartsOfRows(

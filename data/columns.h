@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,6 +50,13 @@ inline constexpr auto kNoLimit = static_cast<std::size_t>(-1);
 
 /// The rows 0, 1, ... of a table.
 std::vector<std::ptrdiff_t> AllRows(std::size_t count);
+
+/// Returns the rows whose mark is true.
+std::vector<std::ptrdiff_t> MarkedRows(const std::vector<bool>& marks);
+
+/// Returns the values of a column in these rows.
+std::vector<double> ValuesOf(const CsvColumn& column,
+                             std::span<const std::ptrdiff_t> rows);
 
 /// Returns the file of each of these rows (ascending), as an index into
 /// CsvTable::parts, which must not be empty.

@@ -42,7 +42,7 @@ struct CsvColumn {
 /// A CSV file, or several as one: named columns of equal length.
 struct CsvTable {
   std::string file;  // as given; begins every message about it
-  std::vector<CsvColumn> columns;
+  std::vector<CsvColumn> columns = {};
   std::size_t num_rows = 0;
 
   /// Returns the index of the column of that name, or -1.
@@ -65,16 +65,16 @@ struct CsvTable {
 
   /// Series of rows on successive lines: (first row, its line), ascending; rows
   /// after comments, quoted line breaks or the header start a new series.
-  std::vector<std::pair<std::size_t, std::size_t>> line_runs;
+  std::vector<std::pair<std::size_t, std::size_t>> line_runs = {};
   /// Of several files: (first row, file as given), ascending; else empty.
-  std::vector<std::pair<std::size_t, std::string>> parts;
+  std::vector<std::pair<std::size_t, std::string>> parts = {};
 
   /// Lines of words and comments above and below the table: a program's name, a
   /// date, the axis.
-  std::vector<std::string> titles;
+  std::vector<std::string> titles = {};
   /// Remarks for the user, one line each, on what is unusual in the file and
   /// how it was read.
-  std::vector<std::string> remarks;
+  std::vector<std::string> remarks = {};
 };
 
 /// How to treat rows whose number of cells differs from that of the others.

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 namespace errmap::data {
-
 namespace {
 
 constexpr std::size_t kCellLimit = 40;
@@ -113,12 +112,13 @@ std::string LowerCase(std::string_view text) {
   return lower;
 }
 
-std::vector<std::string_view> SplitWords(std::string_view text) {
+std::vector<std::string_view> SplitWords(std::string_view text,
+                                         std::string_view between) {
   std::vector<std::string_view> words;
   while (!text.empty()) {
-    const std::size_t blank = std::min(text.find(' '), text.size());
-    words.push_back(text.substr(0, blank));
-    text.remove_prefix(std::min(blank + 1, text.size()));
+    const std::size_t end = std::min(text.find_first_of(between), text.size());
+    words.push_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
   }
   return words;
 }

@@ -18,9 +18,10 @@ bool EndsWithIgnoringCase(std::string_view text, std::string_view ending);
 /// Returns the text with its ASCII letters in lower case.
 std::string LowerCase(std::string_view text);
 
-/// Returns the words of "one two", separated by single blanks; views into the
-/// text.
-std::vector<std::string_view> SplitWords(std::string_view text);
+/// Returns the words of "one two", separated by single blanks or other
+/// characters `between`; views into the text.
+std::vector<std::string_view> SplitWords(std::string_view text,
+                                         std::string_view between = " ");
 
 /// True if a word is among those of "one two", in any case.
 bool IsOneOf(std::string_view word, std::string_view words);

@@ -10,7 +10,7 @@
 
 #include "data/argument_name.h"
 #include "data/files/atomic_file.h"
-#include "data/files/same_file.h"
+#include "data/files/sheet_path.h"
 #include "data/input_error.h"
 #include "data/text.h"
 

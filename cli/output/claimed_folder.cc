@@ -11,7 +11,7 @@
 #include "cli/command.h"
 #include "data/files/atomic_file.h"
 #include "data/files/prepare_folder.h"
-#include "data/files/same_file.h"
+#include "data/files/sheet_path.h"
 #include "data/formats/nesting.h"
 #include "data/sha256.h"
 #include "data/text.h"

@@ -3,6 +3,8 @@
 #include <array>
 #include <string_view>
 
+#include <sys/stat.h>
+
 #include "data/text.h"
 
 namespace errmap::data {
@@ -18,6 +20,15 @@ SheetPath SplitSheetPath(const std::string& path) {
     }
   }
   return {path, ""};
+}
+
+bool IsSameFile(const std::string& a, const std::string& b) {
+  struct stat of_a {};
+  struct stat of_b {};
+  return stat(SplitSheetPath(a).file.c_str(), &of_a) == 0 &&
+         stat(SplitSheetPath(b).file.c_str(), &of_b) == 0 &&
+         S_ISREG(of_a.st_mode) && of_a.st_dev == of_b.st_dev &&
+         of_a.st_ino == of_b.st_ino;
 }
 
 }  // namespace errmap::data

@@ -13,4 +13,8 @@ struct SheetPath {
 
 SheetPath SplitSheetPath(const std::string& path);
 
+/// True if both paths lead to the same existing regular file. Compares device
+/// and inode, so it follows links and recognises hard links and /dev/stdin.
+bool IsSameFile(const std::string& a, const std::string& b);
+
 }  // namespace errmap::data

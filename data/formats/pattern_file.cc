@@ -422,14 +422,9 @@ PatternTable ReadPatterns(const std::string& path) {
 }
 
 PatternTable ParsePatterns(std::string_view text, const std::string& name) {
-  switch (PatternFormOf(name)) {
-    case PatternForm::kPlain:
-      return ParsePlain(text, name);
-    case PatternForm::kCsv:
-      return ParseCsvPatterns(text, name);
-    case PatternForm::kStacked:
-      break;
-  }
+  const PatternForm form = PatternFormOf(name);
+  if (form == PatternForm::kPlain) return ParsePlain(text, name);
+  if (form == PatternForm::kCsv) return ParseCsvPatterns(text, name);
   return ParseStacked(text, name);
 }
 
@@ -437,14 +432,8 @@ std::string PatternText(const PatternTable& table, PatternForm form) {
   if (table.inputs.empty() || table.targets.empty()) {
     throw std::invalid_argument("PatternText: no inputs or no targets");
   }
-  switch (form) {
-    case PatternForm::kPlain:
-      return PlainText(table);
-    case PatternForm::kCsv:
-      return CsvText(table);
-    case PatternForm::kStacked:
-      break;
-  }
+  if (form == PatternForm::kPlain) return PlainText(table);
+  if (form == PatternForm::kCsv) return CsvText(table);
   return StackedText(table);
 }
 

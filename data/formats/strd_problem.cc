@@ -1,5 +1,6 @@
 #include "data/formats/strd_problem.h"
 
+#include <map>
 #include <sstream>
 
 #include "data/formats/strd_texts.h"
@@ -60,13 +61,20 @@ class Parser {
              " values, found " + std::to_string(values));
       }
     };
-    if (key == "set") {
+    // Keys of one text.
+    static const std::map<std::string_view, std::string StrdProblem::*> kTexts =
+        {{"level", &StrdProblem::level},
+         {"rss", &StrdProblem::residual_sum_of_squares},
+         {"mean", &StrdProblem::mean},
+         {"sd", &StrdProblem::standard_deviation},
+         {"autocorrelation", &StrdProblem::autocorrelation}};
+    if (const auto text = kTexts.find(key); text != kTexts.end()) {
+      require(1);
+      problem_.*text->second = words[1];
+    } else if (key == "set") {
       require(2);
       problem_.kind = Kind(words[1]);
       problem_.name = words[2];
-    } else if (key == "level") {
-      require(1);
-      problem_.level = words[1];
     } else if (key == "parameter") {
       const bool nonlinear = problem_.kind == StrdKind::kNonlinear;
       require(nonlinear ? 5 : 3);
@@ -75,9 +83,6 @@ class Parser {
                                      .start2 = nonlinear ? words[3] : "",
                                      .certified = words[values - 1],
                                      .standard_deviation = words[values]});
-    } else if (key == "rss") {
-      require(1);
-      problem_.residual_sum_of_squares = words[1];
     } else if (key == "dof") {
       require(1);
       problem_.degrees_of_freedom = Whole(words[1]);
@@ -89,15 +94,6 @@ class Parser {
     } else if (key == "intercept") {
       require(0);
       problem_.design = StrdDesign::kIntercept;
-    } else if (key == "mean") {
-      require(1);
-      problem_.mean = words[1];
-    } else if (key == "sd") {
-      require(1);
-      problem_.standard_deviation = words[1];
-    } else if (key == "autocorrelation") {
-      require(1);
-      problem_.autocorrelation = words[1];
     } else if (key == "columns") {
       problem_.columns.assign(words.begin() + 1, words.end());
     } else {

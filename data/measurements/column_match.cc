@@ -179,10 +179,6 @@ void TakeOutTotals(TableForMap* result) {
                             ", the first on line " +
                             std::to_string(table.LineOfRow(
                                 static_cast<std::size_t>(totals.front()))));
-  std::vector<std::ptrdiff_t> kept = AllRows(table.num_rows);
-  std::erase_if(kept, [&](std::ptrdiff_t row) {
-    return !passes[static_cast<std::size_t>(row)];
-  });
   auto parts = table.parts;
   for (auto& part : parts) {
     part.first -= static_cast<std::size_t>(
@@ -190,7 +186,7 @@ void TakeOutTotals(TableForMap* result) {
                                  static_cast<std::ptrdiff_t>(part.first)) -
         totals.begin());
   }
-  table = TakeRows(table, kept);
+  table = TakeRows(table, MarkedRows(passes));
   table.parts = std::move(parts);
 }
 
@@ -199,7 +195,7 @@ void TakeOutTotals(TableForMap* result) {
 TableForMap InMapUnits(CsvTable table,
                        const std::vector<ColumnInfo>& inputs,
                        const TargetOfMap* target) {
-  TableForMap result{.table = std::move(table), .remarks = {}};
+  TableForMap result{.table = std::move(table)};
   FillMergedCells(&result.table);
   WriteDates(&result.table);
   // Told here, and to nobody again.

@@ -40,8 +40,9 @@ void NameLike(const std::string& name, CsvTable* table);
 /// A table in the names and units of a map, with remarks on the changes.
 struct TableForMap {
   CsvTable table;
-  std::vector<std::string> remarks;  // one line for each column that differs
-  Reading reading = {};              // of its rows
+  std::vector<std::string> remarks =
+      {};                // one line for each column that differs
+  Reading reading = {};  // of its rows
   /// Rows of the file, if they were sorted by time; else empty.
   std::vector<Eigen::Index> order = {};
 };

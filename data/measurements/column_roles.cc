@@ -163,8 +163,7 @@ class RoleChooser {
         .topic = "target",
         .question = "several columns could be the target; name one with " +
                     ArgumentName("target") + ": " +
-                    ListOfNames(NamesOf(candidates)),
-        .answers = {}};
+                    ListOfNames(NamesOf(candidates))};
     for (const std::size_t i : candidates) {
       question.answers.push_back({.option = ArgumentName("target", Name(i)),
                                   .means = QuotedName(Name(i)) + " alone"});
@@ -202,8 +201,7 @@ class RoleChooser {
             (one ? "is " + QuotedName(Name(first.read)) +
                        " what was measured where " +
                        QuotedName(Name(first.commanded)) + " was commanded?"
-                 : std::string("which is actual - nominal?")),
-        .answers = {}};
+                 : std::string("which is actual - nominal?"))};
     for (const ReadBeside& pair : pairs) {
       const Unit unit = UnitOfColumn(Name(pair.commanded));
       const std::string symbol = unit.symbol.empty() ? "mm" : unit.symbol;

@@ -96,7 +96,7 @@ Grouping GroupByNumber(const std::string& column,
   };
   std::map<double, Eigen::Index> code_of;
   for (const Eigen::Index row : rows) code_of.emplace(value_of(row), 0);
-  Grouping groups{.column = column, .labels = {}, .codes = {}};
+  Grouping groups{.column = column};
   for (auto& [value, code] : code_of) {
     code = static_cast<Eigen::Index>(groups.labels.size());
     groups.labels.push_back(CsvNumber(value));
@@ -242,13 +242,9 @@ Dataset Dataset::SelectRows(const std::vector<Eigen::Index>& indices) const {
               .target = parts_.target,
               .target_values = parts_.target_values(indices),
               .groups = {.column = parts_.groups.column,
-                         .labels = parts_.groups.labels,
-                         .codes = {}},
-              .weights = {},
-              .rows = {},
+                         .labels = parts_.groups.labels},
               .align = parts_.align,
-              .log = parts_.log,
-              .log_rows = {}};
+              .log = parts_.log};
   if (parts_.weights.size() != 0) parts.weights = parts_.weights(indices);
   parts.rows.reserve(indices.size());
   for (const Eigen::Index index : indices) {

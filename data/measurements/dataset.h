@@ -54,8 +54,8 @@ struct Grouping {
   std::string column;
   /// Distinct groups: sorted numerically if all are numbers, else in order of
   /// appearance.
-  std::vector<std::string> labels;
-  std::vector<Eigen::Index> codes;  // (rows) index into labels
+  std::vector<std::string> labels = {};
+  std::vector<Eigen::Index> codes = {};  // (rows) index into labels
 };
 
 /// Returns the word for one group: "day" if all labels are dates, "session" if
@@ -95,10 +95,11 @@ class Dataset {
     /// (m x p); empty: the log's values are used, with all its rows.
     Eigen::MatrixXd input_values;
     ColumnInfo target;
-    Eigen::VectorXd target_values;   // (m)
-    Grouping groups;                 // column "" if there are none
-    Eigen::VectorXd weights;         // (m) positive, or (0): all equal
-    std::vector<Eigen::Index> rows;  // (m) data row in the file; empty: 0..m-1
+    Eigen::VectorXd target_values;  // (m)
+    Grouping groups;                // column "" if there are none
+    Eigen::VectorXd weights = {};   // (m) positive, or (0): all equal
+    std::vector<Eigen::Index> rows =
+        {};  // (m) data row in the file; empty: 0..m-1
     /// Value subtracted from the target.
     Alignment align = Alignment::kNone;
     /// Null if sessions and times are unknown.

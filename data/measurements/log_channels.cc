@@ -50,7 +50,7 @@ class PartFinder {
     for (const std::size_t i : columns_) {
       if (std::vector<LogPart> parts = PartsBy(i); !parts.empty()) return parts;
     }
-    LogPart all{.rows = rows_, .columns = {}};
+    LogPart all{.rows = rows_};
     for (const std::size_t i : columns_) {
       all.columns.push_back({.column = i, .name = log_.columns[i].name});
     }

@@ -17,7 +17,7 @@ struct LogPart {
     std::size_t column = 0;  // index into the log
     std::string name;        // for whoever joins it
   };
-  std::vector<Column> columns;
+  std::vector<Column> columns = {};
 };
 
 /// Returns the columns of a log other than its times, as one part with all

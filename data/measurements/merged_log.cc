@@ -192,8 +192,7 @@ std::string TextOf(const Joined& joined, std::size_t num_rows) {
                   " have a time zone, those of " +
                   PrintablePath(log_is_zoned ? table.file : log.file) +
                   " have none; by how much is the clock of " +
-                  PrintablePath(log.file) + " ahead?",
-      .answers = {}};
+                  PrintablePath(log.file) + " ahead?"};
   const auto answer = [&](int hours) {
     const std::string text = hours == 0 ? "0" : std::to_string(hours) + "h";
     question.answers.push_back(

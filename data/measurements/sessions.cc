@@ -69,13 +69,11 @@ class SessionFinder : private RowColumns {
     if (!selection_.time.empty() || !clock_.is_found()) return;
     const bool in_files = BeginsAnewIn(FilesOfSessions());
     if (!in_files && !BeginsAnewIn(passes_)) return;
-    PassOver(false,
-             QuotedName(TimeColumn().name) + " restarts with each " +
-                 (in_files ? "file, so it tells no time"
-                           : "pass along the axis, so it shows no pauses") +
-                 " between them",
-             "",
-             &found_.remarks);
+    Skip(QuotedName(TimeColumn().name) + " restarts with each " +
+             (in_files ? "file, so it tells no time"
+                       : "pass along the axis, so it shows no pauses") +
+             " between them",
+         &found_.remarks);
     UseRowNumbers();
   }
 
@@ -281,23 +279,18 @@ class SessionFinder : private RowColumns {
       }
     }
     if (rows_known.empty() && !named) {
-      PassOver(false,
-               "column " + QuotedName(column.name) + " is empty",
-               "",
-               &found_.remarks);
+      Skip("column " + QuotedName(column.name) + " is empty", &found_.remarks);
       return false;
     }
     Grouping sessions = GroupByColumn(table_, column.name, rows_known);
     // Every row by itself: a number of the row, not of a run.
     if (!named && sessions.labels.size() > 1 &&
         sessions.labels.size() == rows_known.size()) {
-      PassOver(false,
-               "column " + QuotedName(column.name) + " has " +
-                   std::to_string(sessions.labels.size()) + " values in " +
-                   std::to_string(rows_known.size()) +
-                   " rows, which are not sessions",
-               "",
-               &found_.remarks);
+      Skip("column " + QuotedName(column.name) + " has " +
+               std::to_string(sessions.labels.size()) + " values in " +
+               std::to_string(rows_known.size()) +
+               " rows, which are not sessions",
+           &found_.remarks);
       return false;
     }
     std::vector<Index> codes(rows_.size());

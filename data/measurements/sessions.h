@@ -71,7 +71,7 @@ FoundSessions FindSessions(const CsvTable& table,
 /// Other ways to separate sessions than columns with such names.
 struct SessionClues {
   Clock clock;
-  Nights nights;
+  Nights nights = {};
   std::vector<Eigen::Index> passes = {};    // (n) along the axis; may be empty
   std::vector<std::ptrdiff_t> cycles = {};  // columns that count them; -1: none
   std::ptrdiff_t cycles_in_sessions = -1;   // column that is not a session

@@ -132,8 +132,7 @@ CsvTable ParseCsv(std::string_view text, const std::string& name, OddRows odd) {
     throw InputError(PrintablePath(name) + ": " + error.what());
   }
   const EncodedText converted =
-      sheet ? EncodedText{.text = *sheet, .encoding = ""}
-            : TextOfFile(text, name);
+      sheet ? EncodedText{.text = *sheet} : TextOfFile(text, name);
   if (!converted.text.empty()) text = converted.text;
   const std::optional<std::string> rewritten = RewrittenText(text);
   if (rewritten) text = *rewritten;

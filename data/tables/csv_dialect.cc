@@ -151,7 +151,7 @@ std::vector<CsvRecord> FirstRecords(CsvCells cells) {
         cells.SkipLine();
         continue;
       }
-      CsvRecord record{.cells = {}, .start = cells.position()};
+      CsvRecord record{.start = cells.position()};
       do {
         record.cells.emplace_back(cells.Next());
         is_too_wide = record.cells.size() > kMostCsvColumns;

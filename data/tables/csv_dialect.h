@@ -20,7 +20,7 @@ struct CsvDialect {
 
 /// A row at the beginning of a file.
 struct CsvRecord {
-  std::vector<std::string> cells;
+  std::vector<std::string> cells = {};
   CsvCells::Position start;
 };
 

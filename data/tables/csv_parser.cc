@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "data/formula_text.h"
-#include "data/tables/cells/angle_cells.h"
 #include "data/tables/cells/csv_cells.h"
 #include "data/tables/cells/loose_numbers.h"
 #include "data/tables/cells/unit_cells.h"

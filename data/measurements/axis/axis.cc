@@ -7,6 +7,7 @@
 #include "data/argument_name.h"
 #include "data/column_header.h"
 #include "data/column_words.h"
+#include "data/columns.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/text.h"
@@ -54,19 +55,37 @@ class AxisFinder {
       : table_(table), selection_(selection), target_(target), rows_(rows) {}
 
   Axis Find() {
-    if (!selection_.position.empty()) {
-      const std::size_t index =
-          RequireColumn(table_, selection_.position, ArgumentName("position"));
-      RequireNumbers(table_, {index, ColumnUse::kOther});
-      TakeFrom(Look(index, rows_.size()));
-      axis_.evidence = Evidence::kUser;
-      axis_.positions.push_back(index);
-      AddNamed();
-      FindNumbers();
-      FindReadings();
-      FindHeld();
-      return std::move(axis_);
+    if (selection_.position.empty()) {
+      ChooseByNameAndValues();
+    } else {
+      TakeNamed();
     }
+    FindNumbers();
+    FindReadings();
+    FindHeld();
+    return std::move(axis_);
+  }
+
+ private:
+  const std::string& Name(std::size_t i) const {
+    return table_.columns[i].name;
+  }
+
+  void TakeNamed() {
+    const std::size_t index =
+        RequireColumn(table_, selection_.position, ArgumentName("position"));
+    RequireNumbers(table_, {index, ColumnUse::kOther});
+    TakeFrom(Look(index, rows_.size()));
+    axis_.evidence = Evidence::kUser;
+    axis_.positions.push_back(index);
+    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+      if (i != index && IsFree(i) && IsCalledPosition(Name(i))) {
+        axis_.positions.push_back(i);
+      }
+    }
+  }
+
+  void ChooseByNameAndValues() {
     std::vector<Candidate> candidates = Named();
     if (candidates.empty()) {
       candidates = ByValues();
@@ -82,15 +101,6 @@ class AxisFinder {
       }
     }
     if (!candidates.empty()) Choose(&candidates);
-    FindNumbers();
-    FindReadings();
-    FindHeld();
-    return std::move(axis_);
-  }
-
- private:
-  const std::string& Name(std::size_t i) const {
-    return table_.columns[i].name;
   }
 
   bool IsFree(std::size_t i) const {
@@ -103,25 +113,15 @@ class AxisFinder {
                selection_.exclude.end();
   }
 
-  std::vector<double> ValuesInRows(std::size_t column,
-                                   std::size_t most_rows) const {
-    std::vector<double> values;
-    const std::size_t n = std::min(most_rows, rows_.size());
-    values.reserve(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      values.push_back(
-          table_.columns[column].values[static_cast<std::size_t>(rows_[i])]);
-    }
-    return values;
-  }
-
   Candidate Look(std::size_t column, std::size_t most_rows) const {
     Candidate candidate{.column = column};
     const std::vector<std::string> words = WordsOf(Name(column));
     candidate.named = IsCalledPosition(Name(column));
     candidate.nominal = SayAny(words, Word::kNominal);
     candidate.measured = SayAny(words, Word::kMeasured);
-    candidate.levels = LevelsOf(ValuesInRows(column, most_rows));
+    const std::span<const Index> looked(rows_.data(),
+                                        std::min(most_rows, rows_.size()));
+    candidate.levels = LevelsOf(ValuesOf(table_.columns[column], looked));
     candidate.motion = MotionThrough(candidate.levels);
     candidate.constant = candidate.levels.centers.size() <= 1;
     candidate.numbers =
@@ -299,18 +299,11 @@ class AxisFinder {
   // Counts of an encoder: a straight line over the positions, to a quarter of
   // what is between them.
   bool IsCountedBeside(std::size_t column, const Candidate& axis) const {
-    const ColumnValues& counts = table_.columns[column].values;
     const std::vector<double>& centers = axis.levels.centers;
     const double spacing = (centers.back() - centers.front()) /
                            static_cast<double>(centers.size() - 1);
-    Eigen::ArrayXd x(std::ssize(rows_));
-    Eigen::ArrayXd y(x.size());
-    for (Index i = 0; i < x.size(); ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      x[i] = table_.columns[axis.column]
-                 .values[static_cast<std::size_t>(rows_[at])];
-      y[i] = counts[static_cast<std::size_t>(rows_[at])];
-    }
+    Eigen::ArrayXd x = ValuesOfRows(table_.columns[axis.column], rows_);
+    Eigen::ArrayXd y = ValuesOfRows(table_.columns[column], rows_);
     x -= x.mean();
     y -= y.mean();
     const double slope = (x * y).sum() / x.square().sum();
@@ -371,17 +364,8 @@ class AxisFinder {
     if (axis_.motion.is_commanded || axis_.motion.is_sorted) return;
     // To and fro without a stop: its passes, if it has any.
     Motion swept = MotionThrough(
-        PartsOfRange(ValuesInRows(candidate.column, rows_.size())));
+        PartsOfRange(ValuesOf(table_.columns[candidate.column], rows_)));
     if (swept.is_commanded) axis_.motion = std::move(swept);
-  }
-
-  void AddNamed() {
-    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
-      if (IsFree(i) && IsCalledPosition(Name(i)) &&
-          std::cmp_not_equal(i, axis_.column)) {
-        axis_.positions.push_back(i);
-      }
-    }
   }
 
   static constexpr std::size_t kRowsLooked = 20000;

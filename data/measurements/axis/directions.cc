@@ -128,8 +128,6 @@ Reading::Direction ReadDirection(const CsvTable& table,
                                  bool ordered) {
   Reading::Direction direction{.column = column.name,
                                .by = "column",
-                               .values = {},
-                               .labels = {},
                                .evidence = Evidence::kName,
                                .sure = true};
   std::vector<std::string>& labels = direction.labels;

@@ -4,15 +4,6 @@
 
 namespace errmap::data {
 
-std::vector<double> RowColumns::ValuesOf(const CsvColumn& column) const {
-  std::vector<double> values;
-  values.reserve(rows_.size());
-  for (const Eigen::Index row : rows_) {
-    values.push_back(column.values[static_cast<std::size_t>(row)]);
-  }
-  return values;
-}
-
 bool RowColumns::IsMeasured(std::size_t column) const {
   const std::string& name = table_.columns[column].name;
   return name == selection_.target || name == selection_.weight;
@@ -33,7 +24,7 @@ void RowColumns::PassOver(bool named,
                           const std::string& remedy,
                           std::vector<std::string>* remarks) {
   if (named) throw InputError(why + "; " + remedy);
-  remarks->push_back(why + "; the column is skipped");
+  Skip(why, remarks);
 }
 
 bool RowColumns::MayBeMissing(std::size_t column,
@@ -45,10 +36,8 @@ bool RowColumns::MayBeMissing(std::size_t column,
     RefuseMissingCell(table_, {column, ColumnUse::kOther}, row);
     return true;
   }
-  PassOver(false,
-           table_.Where(row, table_.columns[column].name) + ": no value there",
-           "",
-           remarks);
+  Skip(table_.Where(row, table_.columns[column].name) + ": no value there",
+       remarks);
   return false;
 }
 

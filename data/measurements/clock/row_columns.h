@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "data/columns.h"
 #include "data/csv.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/dataset.h"
@@ -36,7 +37,9 @@ class RowColumns {
   }
 
   /// Returns a column in these rows.
-  std::vector<double> ValuesOf(const CsvColumn& column) const;
+  std::vector<double> ValuesOf(const CsvColumn& column) const {
+    return data::ValuesOf(column, rows_);
+  }
 
   /// True for the target and the weight: as times, they would let filters see
   /// the error.
@@ -52,6 +55,9 @@ class RowColumns {
                        const std::string& remedy,
                        std::vector<std::string>* remarks);
 
+  static void Skip(const std::string& why, std::vector<std::string>* remarks) {
+    remarks->push_back(why + "; the column is skipped");
+  }
   /// True if a missing cell of a column is allowed in this row of the table,
   /// which drops the row. Otherwise makes a remark, or throws InputError for a
   /// named column.

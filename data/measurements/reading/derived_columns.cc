@@ -26,7 +26,6 @@ using Eigen::Index;
 
 CsvTable Borrowed(const CsvTable& table) {
   CsvTable borrowed{.file = table.file,
-                    .columns = {},
                     .num_rows = table.num_rows,
                     .line_runs = table.line_runs,
                     .parts = table.parts,
@@ -99,7 +98,7 @@ std::optional<DerivedTarget> Difference(const CsvTable& table,
       column.texts.push_back(table.At(b).texts[text]);
     }
     std::ranges::sort(column.exceptions);
-    return DerivedTarget{.column = std::move(column), .of = {}};
+    return DerivedTarget{.column = std::move(column)};
   }
   return std::nullopt;
 }

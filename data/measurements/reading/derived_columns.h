@@ -23,7 +23,7 @@ CsvTable Borrowed(const CsvTable& table);
 /// of that name, or lacks the columns needed.
 struct DerivedTarget {
   CsvColumn column;
-  std::optional<std::size_t> of;  // index of the only column it is made of
+  std::optional<std::size_t> of = {};  // index of the only column it is made of
 };
 std::optional<DerivedTarget> FindDerivedTarget(const CsvTable& table,
                                                const std::string& name);

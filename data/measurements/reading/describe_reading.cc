@@ -55,21 +55,21 @@ void DescribeSessions(const CsvTable& table,
   sessions.count = std::ssize(found.sessions.labels);
   sessions.evidence = found.evidence;
   sessions.sure = found.by != "one" || nights.sure;
-  if (found.by == "column" && found.evidence == Evidence::kValues) {
+  const auto doubt = [&](const std::string& alternative) {
     sessions.sure = false;
-    sessions.alternative = "one";
+    sessions.alternative = alternative;
+  };
+  if (found.by == "column" && found.evidence == Evidence::kValues) {
+    doubt("one");
   }
   if (!found.alternative.empty()) {
-    sessions.sure = false;
-    sessions.alternative = found.alternative;
+    doubt(found.alternative);
   }
   if (!read->repeated_rows.empty() && found.by == "clock") {
-    sessions.sure = false;
-    sessions.alternative = "fewer, without the rows that occur twice";
+    doubt("fewer, without the rows that occur twice");
   }
   if (clock.hours_alone && found.by != "column" && !AreAlike(found)) {
-    sessions.sure = false;
-    sessions.alternative = "more, as times of day hide whole days";
+    doubt("more, as times of day hide whole days");
   }
   if (std::isfinite(found.gap) && found.gap > 0.0) {
     sessions.gap_s = found.gap;

@@ -83,19 +83,13 @@ void TakeRowsThatPass(TableInReading* in) {
       in->read.passes[static_cast<std::size_t>(row)] = false;
     }
   }
-  if (!in->selection.with_log) return;
-  for (std::size_t row = 0; row < in->read.passes.size(); ++row) {
-    if (in->read.passes[row]) {
-      in->read.log_rows.push_back(static_cast<Index>(row));
-    }
-  }
+  if (in->selection.with_log) in->read.log_rows = MarkedRows(in->read.passes);
 }
 
 // The clock of the rows of the log, which are among the base rows.
 SessionClues CluesOfLog(const TableInReading& in) {
   SessionClues clues{.clock = in.clock,
                      .nights = in.nights,
-                     .passes = {},
                      .cycles = {in.read.roles.group,
                                 in.FirstThatCounts(Counted::kPasses),
                                 in.FirstThatCounts(Counted::kElapsed),
@@ -220,7 +214,7 @@ ReadTable ReadRowsForMap(const CsvTable& table,
 FoundSessions FindSessions(const CsvTable& table,
                            const DatasetSelection& selection,
                            const std::vector<Index>& rows) {
-  SessionClues clues{.clock = FindClock(table, selection, rows), .nights = {}};
+  SessionClues clues{.clock = FindClock(table, selection, rows)};
   const std::ptrdiff_t target = table.Find(selection.target);
   const Axis axis =
       FindAxis(table,

@@ -36,10 +36,10 @@ struct Reading {
   };
   struct Direction {
     std::optional<std::string> column;
-    std::string by;                   // "column", "position", ""
-    std::vector<std::string> values;  // "up", "down" of the position
-    std::vector<std::string> labels;  // the column's words for them
-    std::string chosen = {};          // the only one of these in use; "": all
+    std::string by;                        // "column", "position", ""
+    std::vector<std::string> values = {};  // "up", "down" of the position
+    std::vector<std::string> labels = {};  // the column's words for them
+    std::string chosen = {};  // the only one of these in use; "": all
     Evidence evidence = Evidence::kNone;
     bool sure = false;
   };
@@ -85,7 +85,7 @@ struct Reading {
   struct Question {
     std::string topic;
     std::string question;
-    std::vector<Answer> answers;
+    std::vector<Answer> answers = {};
   };
 
   std::string schema = "errmap-reading-1";

@@ -118,12 +118,7 @@ std::vector<double> CyclesOf(const TableInReading& in) {
   std::ptrdiff_t column = in.read.roles.group;
   if (column == kNoColumn) column = in.FirstCalled(Word::kRun);
   if (column == kNoColumn) return {};
-  std::vector<double> cycles;
-  for (const Index row : in.base_rows) {
-    cycles.push_back(
-        in.table().At(column).values[static_cast<std::size_t>(row)]);
-  }
-  return cycles;
+  return ValuesOf(in.table().At(column), in.base_rows);
 }
 
 bool CyclesAreMixed(const TableInReading& in) {

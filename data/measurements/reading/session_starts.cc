@@ -13,7 +13,6 @@
 #include "data/units.h"
 
 namespace errmap::data {
-
 namespace {
 
 using Eigen::Index;

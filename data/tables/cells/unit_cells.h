@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "data/csv.h"
+
 namespace errmap::data {
 
 /// Reads a cell below a name that has a unit or means no unit: "mm", "[um]",
@@ -32,5 +34,13 @@ std::optional<std::string> NameWithUnit(const std::string& name,
 /// Adds the unit in a cell to a name that states none. Any other cell, or a
 /// name with another unit, changes nothing.
 void AddUnitOfCell(const std::string& cell, std::string* name);
+
+/// Returns an angle in degrees, read from degrees, minutes and, if present,
+/// seconds ("-27°30'15.5"", "27° 30.5'"). Nothing for other cells.
+std::optional<double> ReadAngle(std::string_view cell, bool decimal_comma);
+
+/// Converts the angles in columns that hold mostly these to degrees. Adds
+/// "[deg]" to their names.
+void TakeAngleCells(bool decimal_comma, CsvTable* table);
 
 }  // namespace errmap::data

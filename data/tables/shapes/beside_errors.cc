@@ -6,9 +6,9 @@
 
 #include "data/column_header.h"
 #include "data/column_words.h"
+#include "data/columns.h"
 
 namespace errmap::data {
-
 namespace {
 
 // "T1" is a tool in a column of words, and a thermometer among numbers.
@@ -34,25 +34,22 @@ std::ptrdiff_t Nearest(const std::vector<std::ptrdiff_t>& rows,
 InputRows FindInputRows(const CsvTable& table,
                         const std::vector<std::size_t>& columns) {
   std::map<std::string, std::vector<std::ptrdiff_t>> named;
-  std::vector<bool> is_input(table.num_rows, false);
+  std::vector<bool> is_error(table.num_rows, true);
   for (const std::size_t i : columns) {
     const CsvColumn& column = table.columns[i];
     for (const auto& [row, text] : column.exceptions) {
       const std::string& name = column.texts[text];
-      if (is_input[row] || !NamesInput(name, column.is_text())) continue;
-      is_input[row] = true;
+      if (!is_error[row] || !NamesInput(name, column.is_text())) continue;
+      is_error[row] = false;
       named[name].push_back(static_cast<std::ptrdiff_t>(row));
     }
   }
-  InputRows found;
-  for (std::size_t row = 0; row < is_input.size(); ++row) {
-    if (!is_input[row]) found.errors.push_back(std::ptrdiff_t(row));
-  }
+  InputRows found{.errors = MarkedRows(is_error)};
   if (found.errors.empty()) return found;
   for (auto& [name, rows] : named) {
     std::ranges::sort(rows);
     for (const std::ptrdiff_t row : found.errors) {
-      found.inputs[name].push_back(Nearest(rows, row, is_input[0]));
+      found.inputs[name].push_back(Nearest(rows, row, !is_error[0]));
     }
   }
   return found;

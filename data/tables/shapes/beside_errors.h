@@ -14,7 +14,7 @@ namespace errmap::data {
 struct InputRows {
   std::vector<std::ptrdiff_t> errors;  // rows
   /// For each name, the row that belongs to each row of errors.
-  std::map<std::string, std::vector<std::ptrdiff_t>> inputs;
+  std::map<std::string, std::vector<std::ptrdiff_t>> inputs = {};
 };
 
 /// Finds them by the names in these columns. They belong to the rows above

@@ -16,7 +16,6 @@
 #include "data/text.h"
 
 namespace errmap::data {
-
 namespace {
 
 constexpr std::size_t kMostVariables = 64;
@@ -78,10 +77,7 @@ class Spreader {
     }
     if (!FindMoments()) return std::nullopt;
     CsvTable spread{.file = table_.file,
-                    .columns = {},
                     .num_rows = firsts_.size(),
-                    .line_runs = {},
-                    .parts = {},
                     .titles = table_.titles,
                     .remarks = table_.remarks};
     for (const std::size_t i : others_) {

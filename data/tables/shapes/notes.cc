@@ -15,7 +15,6 @@
 #include "data/units.h"
 
 namespace errmap::data {
-
 namespace {
 
 // A line that states units, and of what; "" for no unit of a kind, or several.
@@ -34,11 +33,7 @@ void ReadUnits(const std::string& text, UnitNote* note) {
   std::set<std::string> sizes;
   std::set<std::string> temperatures;
   constexpr std::string_view kBetween = " \t,;:.=()[]\"";
-  std::string_view rest = text;
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find_first_of(kBetween), rest.size());
-    const std::string_view word = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
+  for (const std::string_view word : SplitWords(text, kBetween)) {
     const std::optional<Unit> unit = ReadUnit(word, UnitPlace::kBracketed);
     if (word == "in" || !unit) continue;  // "in" is a word, too
     if (unit->quantity == Quantity::kTemperature) {

@@ -8,7 +8,6 @@
 #include "data/text.h"
 
 namespace errmap::data {
-
 namespace {
 
 constexpr std::string_view kLabviewBegin = "LabVIEW Measurement";

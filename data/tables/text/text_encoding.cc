@@ -95,10 +95,8 @@ std::optional<Decoded> Decode(std::string_view bytes, const char* encoding) {
 int CountKnownWords(std::string_view text) {
   constexpr std::string_view kBetween = ",;|\t\r\n\"";
   int count = 0;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find_first_of(kBetween), text.size());
-    const std::string cell = AsUtf8(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
+  for (const std::string_view part : SplitWords(text, kBetween)) {
+    const std::string cell = AsUtf8(part);
     if (std::ranges::all_of(cell, [](char c) { return (c & 0x80) == 0; })) {
       continue;
     }

@@ -7,8 +7,8 @@ namespace errmap::data {
 
 /// The text of a file in another encoding, converted to UTF-8.
 struct EncodedText {
-  std::string text;      // "": the file is UTF-8, or Latin-1
-  std::string encoding;  // to be told; "" where the file itself says it
+  std::string text;           // "": the file is UTF-8, or Latin-1
+  std::string encoding = {};  // to be told; "" where the file itself says it
 };
 
 /// Recognises UTF-16 by its byte order mark or by the NULs among its first
