@@ -48,11 +48,10 @@ CsvColumn TakeRows(const CsvColumn& column,
   TextIndex index;
   const auto note = [&](std::ptrdiff_t from, std::ptrdiff_t* first) {
     const auto at = static_cast<std::ptrdiff_t>(taken.values.size()) - 1;
-    if (*first < 0 && from == rows[static_cast<std::size_t>(at)]) *first = at;
+    if (*first < 0 && from == rows[at]) *first = at;
   };
   for (const std::ptrdiff_t row : rows) {
-    const double value =
-        row < 0 ? std::nan("") : column.values[static_cast<std::size_t>(row)];
+    const double value = row < 0 ? std::nan("") : column.values[row];
     if (std::isnan(value)) {
       AddText(
           row < 0 ? std::string_view() : *column.TextAt(row), &index, &taken);
@@ -146,7 +145,7 @@ std::vector<double> ValuesOf(const CsvColumn& column,
   std::vector<double> values;
   values.reserve(rows.size());
   for (const std::ptrdiff_t row : rows) {
-    values.push_back(column.values[static_cast<std::size_t>(row)]);
+    values.push_back(column.values[row]);
   }
   return values;
 }

@@ -245,13 +245,12 @@ PatternTable TakeDataset(const CsvTable& csv) {
   std::vector<Index> order;
   for (Index i = 0; i < dataset.num_inputs(); ++i) order.push_back(i);
   std::stable_partition(order.begin(), order.end(), [&](Index i) {
-    return StartsWithIgnoringCase(
-        dataset.inputs()[static_cast<std::size_t>(i)].name, "position");
+    return StartsWithIgnoringCase(dataset.inputs()[i].name, "position");
   });
   for (const Index i : order) {
     table.input_values.col(static_cast<Index>(table.inputs.size())) =
         dataset.input_values().col(i);
-    table.inputs.push_back(dataset.inputs()[static_cast<std::size_t>(i)].name);
+    table.inputs.push_back(dataset.inputs()[i].name);
   }
   return table;
 }
@@ -332,7 +331,7 @@ std::string CsvText(const PatternTable& table) {
   for (Index p = 0; p < table.input_values.rows(); ++p) {
     std::string line;
     if (!table.index.empty()) {
-      append(std::to_string(table.index[static_cast<std::size_t>(p)]), &line);
+      append(std::to_string(table.index[p]), &line);
     }
     for (const double value : table.input_values.row(p)) {
       append(CsvNumber(value), &line);
@@ -381,9 +380,7 @@ std::string StackedText(const PatternTable& table) {
   for (std::size_t k = 0; k < first; ++k) text += EditI(label(k), kNarrow);
   text += '\n';
   for (Index p = 0; p < rows; ++p) {
-    text += EditI(
-        table.index.empty() ? p + 1 : table.index[static_cast<std::size_t>(p)],
-        kNarrow);
+    text += EditI(table.index.empty() ? p + 1 : table.index[p], kNarrow);
     const double position = table.input_values(p, 0);
     text += Fixed(EditF(position, kWide, 4), position);
     for (const double target : table.target_values.row(p)) {

@@ -210,7 +210,7 @@ std::string NearestColumn(std::string_view name,
   const auto found = std::ranges::find(without_unit, base);
   return base.empty() || found == without_unit.end()
              ? ""
-             : known[static_cast<std::size_t>(found - without_unit.begin())];
+             : known[found - without_unit.begin()];
 }
 
 std::size_t RequireColumn(const CsvTable& table,
@@ -425,8 +425,7 @@ Eigen::VectorXd ValuesOfRows(const CsvColumn& column,
                              const std::vector<Eigen::Index>& rows) {
   Eigen::VectorXd values(static_cast<Eigen::Index>(rows.size()));
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    values(static_cast<Eigen::Index>(i)) =
-        column.values[static_cast<std::size_t>(rows[i])];
+    values(static_cast<Eigen::Index>(i)) = column.values[rows[i]];
   }
   return values;
 }

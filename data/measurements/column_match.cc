@@ -93,8 +93,7 @@ void TakeAs(const MatchedColumn& match, TableForMap* result) {
   if (match.Remark().empty()) return;
   result->remarks.push_back(match.Remark());
   CsvTable& table = result->table;
-  CsvColumn& column =
-      table.columns[static_cast<std::size_t>(table.Find(match.of_file.name))];
+  CsvColumn& column = table.columns[table.Find(match.of_file.name)];
   column.name = match.of_map.name;
   if (!match.is_converted()) return;
   for (double& value : column.values.Own()) value = match.InMapUnit(value);

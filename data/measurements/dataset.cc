@@ -91,9 +91,7 @@ Grouping GroupByNumber(const std::string& column,
                        const ColumnValues& values,
                        const std::vector<Eigen::Index>& rows) {
   // Negative zero would compare equal to zero, yet be written "-0".
-  const auto value_of = [&](Eigen::Index row) {
-    return values[static_cast<std::size_t>(row)] + 0.0;
-  };
+  const auto value_of = [&](Eigen::Index row) { return values[row] + 0.0; };
   std::map<double, Eigen::Index> code_of;
   for (const Eigen::Index row : rows) code_of.emplace(value_of(row), 0);
   Grouping groups{.column = column};
@@ -210,7 +208,7 @@ std::vector<Eigen::Index> Dataset::session_codes() const {
   std::vector<Eigen::Index> codes;
   codes.reserve(parts_.log_rows.size());
   for (const Eigen::Index row : parts_.log_rows) {
-    codes.push_back(parts_.log->sessions.codes[static_cast<std::size_t>(row)]);
+    codes.push_back(parts_.log->sessions.codes[row]);
   }
   return codes;
 }
@@ -279,8 +277,7 @@ Dataset WithoutRows(const Dataset& dataset,
                     const std::vector<Eigen::Index>& rows) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < dataset.num_rows(); ++i) {
-    if (!std::ranges::binary_search(
-            rows, dataset.rows()[static_cast<std::size_t>(i)])) {
+    if (!std::ranges::binary_search(rows, dataset.rows()[i])) {
       kept.push_back(i);
     }
   }
@@ -314,7 +311,7 @@ Grouping GroupByColumn(const CsvTable& table,
           "errmap::data::GroupByColumn: row " + std::to_string(row) +
           " is outside the rows 0.." + std::to_string(table.num_rows - 1));
     }
-    if (!std::isnan(cells.values[static_cast<std::size_t>(row)])) continue;
+    if (!std::isnan(cells.values[row])) continue;
     all_numbers = false;
     RefuseMissingCell(
         table, {index, ColumnUse::kGroup}, static_cast<std::size_t>(row));

@@ -29,7 +29,7 @@ class PartFinder {
     std::vector<std::pair<double, Index>> in_order;
     std::set<double> moments;
     for (Index row = 0; row < time.size(); ++row) {
-      if (!known[static_cast<std::size_t>(row)]) continue;
+      if (!known[row]) continue;
       in_order.emplace_back(time[row], row);
       moments.insert(time[row]);
     }

@@ -55,7 +55,7 @@ Times TimesOf(const CsvTable& table, const DatasetSelection& selection) {
               .columns = {clock.column, clock.date_column}};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     times.time[rows[i]] = clock.time[static_cast<Index>(i)];
-    times.known[static_cast<std::size_t>(rows[i])] = clock.known[i];
+    times.known[rows[i]] = clock.known[i];
   }
   return times;
 }

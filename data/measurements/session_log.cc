@@ -21,7 +21,7 @@ Eigen::MatrixXd LoggedInputs(const CsvTable& table,
   Eigen::MatrixXd values(static_cast<Eigen::Index>(log_rows.size()),
                          parts.input_values.cols());
   for (Eigen::Index i = 0; i < values.cols(); ++i) {
-    const std::string& name = parts.inputs[static_cast<std::size_t>(i)].name;
+    const std::string& name = parts.inputs[i].name;
     values.col(i) = ValuesOfRows(table.At(table.Find(name)), log_rows);
   }
   return values;
@@ -81,8 +81,7 @@ std::string AlignTarget(Dataset::Parts* parts) {
   std::vector<double> first(log.sessions.labels.size());
   // Backwards, so that the first row has the last word.
   const auto session_of = [&](std::size_t i) {
-    return static_cast<std::size_t>(
-        log.sessions.codes[static_cast<std::size_t>(parts->log_rows[i])]);
+    return static_cast<std::size_t>(log.sessions.codes[parts->log_rows[i]]);
   };
   for (std::size_t i = parts->rows.size(); i-- > 0;) {
     first[session_of(i)] = parts->target_values[static_cast<Eigen::Index>(i)];

@@ -208,7 +208,7 @@ class SessionFinder : private RowColumns {
     for (Index i = 1; i < found_.time.size(); ++i) {
       const double step = found_.time[i] - found_.time[i - 1];
       if (step < 0.0) return false;
-      const bool is_first = firsts.contains(rows_[static_cast<std::size_t>(i)]);
+      const bool is_first = firsts.contains(rows_[i]);
       double& longest = is_first ? between : within;
       longest = std::max(longest, step);
     }

@@ -252,10 +252,9 @@ class AxisFinder {
     const double spacing = (levels.centers.back() - levels.centers.front()) /
                            static_cast<double>(levels.centers.size() - 1);
     for (const Index row : rows_) {
-      const double value = a[static_cast<std::size_t>(row)];
+      const double value = a[row];
       const double away =
-          (converts ? Converted(value, of_read, of_commanded) : value) -
-          b[static_cast<std::size_t>(row)];
+          (converts ? Converted(value, of_read, of_commanded) : value) - b[row];
       if (std::abs(away) > 0.25 * spacing) return false;
     }
     return true;
@@ -278,10 +277,10 @@ class AxisFinder {
       std::vector<double> number(axis_.levels.centers.size(), std::nan(""));
       bool goes_with = true;
       for (std::size_t k = 0; goes_with && k < rows_.size(); ++k) {
-        const double value = values[static_cast<std::size_t>(rows_[k])];
+        const double value = values[rows_[k]];
         goes_with = codes[k] >= 0 && value == std::floor(value);
         if (!goes_with) break;
-        double& known = number[static_cast<std::size_t>(codes[k])];
+        double& known = number[codes[k]];
         if (std::isnan(known)) known = value;
         goes_with = known == value;
       }
@@ -319,8 +318,7 @@ class AxisFinder {
     double low = INFINITY;
     double high = -INFINITY;
     for (const Index row : rows_) {
-      const double at =
-          table_.columns[column].values[static_cast<std::size_t>(row)];
+      const double at = table_.columns[column].values[row];
       low = std::min(low, at);
       high = std::max(high, at);
     }

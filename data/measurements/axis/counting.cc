@@ -136,7 +136,7 @@ std::vector<double> NumbersOf(const CsvTable& table,
   std::vector<double> numbers;
   if (!column.is_text()) {
     for (const Index row : rows) {
-      const double value = column.values[static_cast<std::size_t>(row)];
+      const double value = column.values[row];
       if (value != std::floor(value)) return {};  // NaN, too
       numbers.push_back(value);
     }

@@ -184,7 +184,7 @@ CsvColumn DirectionColumn(const CsvTable& table,
                           const Motion& motion) {
   std::vector<Index> codes(table.num_rows, 2);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    codes[static_cast<std::size_t>(rows[i])] = motion.directions[i] > 0 ? 0 : 1;
+    codes[rows[i]] = motion.directions[i] > 0 ? 0 : 1;
   }
   return WordColumn(kDirectionColumn, codes, {"up", "down", ""});
 }

@@ -219,9 +219,7 @@ Levels PartsOfRange(std::span<const double> values) {
   Index now = -1;
   for (const double value : values) {
     if (std::isfinite(value) &&
-        (now < 0 ||
-         std::abs(value - parts.centers[static_cast<std::size_t>(now)]) >
-             kReach * width)) {
+        (now < 0 || std::abs(value - parts.centers[now]) > kReach * width)) {
       now = std::min(kParts - 1, static_cast<Index>((value - low) / width));
     }
     parts.codes.push_back(std::isfinite(value) ? now : -1);

@@ -88,8 +88,7 @@ RepeatedInputs::Found RepeatedInputs::Look(const Dataset::Parts& parts) {
   const auto used = static_cast<Eigen::Index>(parts.inputs.size()) - 1;
   Found found;
   const auto values = parts.input_values.col(used);
-  const std::string name =
-      NameInRemark(parts.inputs[static_cast<std::size_t>(used)].name);
+  const std::string name = NameInRemark(parts.inputs[used].name);
   if (values == parts.target_values) {
     found.remarks.push_back("input " + name + " repeats the target " +
                             NameInRemark(parts.target.name) +
@@ -100,7 +99,7 @@ RepeatedInputs::Found RepeatedInputs::Look(const Dataset::Parts& parts) {
       inputs_by_sum_[std::accumulate(values.begin(), values.end(), 0.0)];
   for (const Eigen::Index other : alike) {
     if (parts.input_values.col(other) != values) continue;
-    found.repeats = parts.inputs[static_cast<std::size_t>(other)].name;
+    found.repeats = parts.inputs[other].name;
     return found;
   }
   alike.push_back(used);

@@ -156,7 +156,7 @@ void KeepRows(const std::vector<Index>& kept, Dataset::Parts* parts) {
   if (kept.size() == parts->rows.size()) return;
   std::vector<Index> rows;
   for (const Index i : kept) {
-    rows.push_back(parts->rows[static_cast<std::size_t>(i)]);
+    rows.push_back(parts->rows[i]);
   }
   parts->rows = std::move(rows);
   parts->target_values = parts->target_values(kept).eval();

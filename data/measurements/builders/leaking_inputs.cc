@@ -117,12 +117,10 @@ class LeakFinder {
     bool used = false;
   };
 
-  const Candidate& Of(Index k) const {
-    return candidates_[static_cast<std::size_t>(k)];
-  }
+  const Candidate& Of(Index k) const { return candidates_[k]; }
 
   void TakeCandidate(Index input, VectorXd values) {
-    const ColumnInfo& column = inputs_[static_cast<std::size_t>(input)];
+    const ColumnInfo& column = inputs_[input];
     const Quantity quantity = column.unit.quantity;
     if (!column.unit.symbol.empty() && quantity != unit_.quantity &&
         quantity != Quantity::kLength) {
@@ -152,14 +150,14 @@ class LeakFinder {
   void FindShares(const VectorXd& target, const Eigen::MatrixXd& values) {
     if (std::ssize(rows_) < kFewestRowsToTell || !(sd_ > 0.0)) return;
     for (Index j = 0; j < values.cols(); ++j) {
-      const auto& column = inputs_[static_cast<std::size_t>(j)];
+      const auto& column = inputs_[j];
       if (column.unit.quantity != Quantity::kRatio) continue;
       std::optional<Leak> leak;
       if (ErrorSign(column.name) != 0) {
         leak = ShareOf(target, j, values.col(j), VectorXd::Ones(target.size()));
       }
       for (Index k = 0; !leak && k < values.cols(); ++k) {
-        if (!IsPosition(inputs_[static_cast<std::size_t>(k)])) continue;
+        if (!IsPosition(inputs_[k])) continue;
         leak = ShareOf(target, j, values.col(j), values.col(k));
         if (!leak) continue;
         leak->statement += " times " + NameOf(k);
@@ -196,7 +194,7 @@ class LeakFinder {
     const bool has_both_signs =
         target.minCoeff() < 0.0 && target.maxCoeff() > 0.0;
     for (Index j = 0; j < values.cols(); ++j) {
-      const ColumnInfo& input = inputs_[static_cast<std::size_t>(j)];
+      const ColumnInfo& input = inputs_[j];
       if (IsPosition(input) || (!input.unit.symbol.empty() &&
                                 input.unit.quantity != unit_.quantity &&
                                 input.unit.quantity != Quantity::kRatio)) {
@@ -258,7 +256,7 @@ class LeakFinder {
   }
 
   std::string NameOf(Index input) const {
-    return NameInRemark(inputs_[static_cast<std::size_t>(input)].name);
+    return NameInRemark(inputs_[input].name);
   }
 
   // All sets of that many that begin with `set`.
@@ -359,7 +357,7 @@ class LeakFinder {
     leak.statement = name_ + " = " + formula;
     for (const Index k : set) {
       if (!Of(k).position && !Of(k).settings) {
-        candidates_[static_cast<std::size_t>(k)].used = true;
+        candidates_[k].used = true;
         leak.left_out.push_back(Of(k).input);
       }
     }
@@ -369,7 +367,7 @@ class LeakFinder {
         const VectorXd& values = Of(i).values;
         return std::set<double>(values.begin(), values.end()).size();
       });
-      candidates_[static_cast<std::size_t>(k)].used = true;
+      candidates_[k].used = true;
       leak.left_out.push_back(Of(k).input);
     }
     return leak;
@@ -390,7 +388,7 @@ class LeakFinder {
              std::abs(std::abs(b[0]) / Converted(1.0, unit, unit_) - 1.0) <
                  kUnitSlack;
     };
-    const Unit& unit = inputs_[static_cast<std::size_t>(Of(set[0]).input)].unit;
+    const Unit& unit = inputs_[Of(set[0]).input].unit;
     if (!unit.symbol.empty()) return is_factor_of(unit);
     return std::ranges::any_of(
         std::array{"mm", "in", "m", "um", "cm"},

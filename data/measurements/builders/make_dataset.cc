@@ -122,7 +122,7 @@ class DatasetBuilder {
     std::size_t num_unknown = 0;
     for (std::size_t i = 0; i < read_.log_rows.size(); ++i) {
       if (read_.found.known[i]) continue;
-      read_.passes[static_cast<std::size_t>(read_.log_rows[i])] = false;
+      read_.passes[read_.log_rows[i]] = false;
       ++num_unknown;
     }
     if (num_unknown > 0) {
@@ -307,9 +307,9 @@ class DatasetBuilder {
   std::vector<Eigen::Index> SessionOfRows() const {
     std::vector<Eigen::Index> sessions;
     for (const Eigen::Index row : parts_.rows) {
-      sessions.push_back(read_.found.sessions.codes[static_cast<std::size_t>(
-          std::ranges::lower_bound(read_.log_rows, row) -
-          read_.log_rows.begin())]);
+      sessions.push_back(read_.found.sessions.codes[std::ranges::lower_bound(
+                                                        read_.log_rows, row) -
+                                                    read_.log_rows.begin()]);
     }
     return sessions;
   }
@@ -379,13 +379,12 @@ class DatasetBuilder {
       ThrowNoInputs(table_, said_.dropped);
     }
     std::erase_if(faults_, [&](const ColumnFault& fault) {
-      return fault.input >= 0 &&
-             left_out[static_cast<std::size_t>(fault.input)];
+      return fault.input >= 0 && left_out[fault.input];
     });
     const std::vector<Eigen::Index> places = LeaveOutInputs(left_out, &parts_);
     for (ColumnFault& fault : faults_) {
       if (fault.input < 0) continue;
-      fault.input = places[static_cast<std::size_t>(fault.input)];
+      fault.input = places[fault.input];
     }
   }
 

@@ -14,7 +14,7 @@ std::vector<UselessInput> CountingInputs(const Dataset::Parts& parts,
                                          const std::vector<Index>& sessions) {
   std::vector<UselessInput> useless;
   for (Index i = 0; i < parts.input_values.cols(); ++i) {
-    const ColumnInfo& input = parts.inputs[static_cast<std::size_t>(i)];
+    const ColumnInfo& input = parts.inputs[i];
     const auto values = parts.input_values.col(i);
     const bool counts = (CountsCycles(input) && CountsOn(values, sessions)) ||
                         (input.unit.symbol.empty() &&

@@ -191,8 +191,7 @@ Eigen::VectorXd WeightsOf(const CsvTable& table,
   Eigen::VectorXd weights = ValuesOfRows(column, rows);
   Eigen::Index least = 0;
   const double smallest = weights.minCoeff(&least);
-  const auto row =
-      static_cast<std::size_t>(rows[static_cast<std::size_t>(least)]);
+  const auto row = static_cast<std::size_t>(rows[least]);
   const std::string weight =
       table.Where(row, column.name) + ": weight " + CsvNumber(smallest);
   if (!(smallest > 0.0)) {
@@ -217,8 +216,7 @@ void RequireSquares(const CsvTable& table,
   const double largest = values.cwiseAbs().maxCoeff(&row);
   if (largest == 0.0 || (largest >= kLeast && largest <= kMost)) return;
   throw InputError(
-      table.Where(static_cast<std::size_t>(rows[static_cast<std::size_t>(row)]),
-                  column) +
+      table.Where(static_cast<std::size_t>(rows[row]), column) +
       ": the largest " + what + ", " + CsvNumber(values[row]) +
       ", is not a size between 1e-100 and 1e100, whose squares can be summed; "
       "correct it or choose another unit");

@@ -240,8 +240,7 @@ class ClockFinder : private RowColumns {
       const std::string* const text = column.TextAt(DataRow(i));
       const auto place = text == nullptr
                              ? std::optional<double>()
-                             : dates.seconds[static_cast<std::size_t>(
-                                   text - column.texts.data())];
+                             : dates.seconds[text - column.texts.data()];
       days.push_back(place.value_or(std::nan("")));
     }
     if (!AddDays(std::move(days), values, known)) return;

@@ -69,9 +69,8 @@ void GoOnOverMidnight(const CsvTable& table,
       const double lost = is_hour ? kHour : back + step;
       added += lost;
       clock->remarks.push_back(
-          table.Where(
-              static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]),
-              table.At(clock->column).name) +
+          table.Where(static_cast<std::size_t>(rows[i]),
+                      table.At(clock->column).name) +
           ": the clock is set back by " +
           (is_hour ? "an hour, as when summer time ends; an hour is"
                    : Rounded(back / 60.0) + " min; " + Rounded(lost / 60.0) +

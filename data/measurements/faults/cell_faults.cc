@@ -133,11 +133,11 @@ Bounds BoundsOfTheRest(const VectorXd& values) {
       std::min(MostCells(values.size()), values.size() / 4));
   std::vector<double> low(values.begin(), values.end());
   std::nth_element(low.begin(), low.begin() + most, low.end());
-  const double core_low = low[static_cast<std::size_t>(most)];
+  const double core_low = low[most];
   std::vector<double> high(values.begin(), values.end());
   std::nth_element(
       high.begin(), high.begin() + most, high.end(), std::greater<>());
-  const double core_high = high[static_cast<std::size_t>(most)];
+  const double core_high = high[most];
   // Most columns: no gap can be that wide.
   if (!IsCode(all.low) && !IsCode(all.high) &&
       all.high - all.low <= kFarRanges * (core_high - core_low)) {
@@ -149,8 +149,7 @@ Bounds BoundsOfTheRest(const VectorXd& values) {
   std::ranges::sort(high, std::greater<>());
   const Index above = NumOutlying(high, low.back());
   const Index below = NumOutlying(low, high.back());
-  return {low[static_cast<std::size_t>(below)],
-          high[static_cast<std::size_t>(above)]};
+  return {low[below], high[above]};
 }
 
 // Noise by second differences (the bend of white noise of variance 1 has
@@ -229,8 +228,7 @@ class CellFaultFinder {
   }
 
   const Unit& UnitOf(Index input) const {
-    return input < 0 ? measured_.target.unit
-                     : measured_.inputs[static_cast<std::size_t>(input)].unit;
+    return input < 0 ? measured_.target.unit : measured_.inputs[input].unit;
   }
 
   void Add(FaultKind kind, Index input, Rows rows, double value, Bounds held) {

@@ -50,7 +50,7 @@ std::vector<ColumnFault> FindColumnFaults(const MeasuredColumns& measured) {
   std::ranges::stable_sort(faults, {}, &ColumnFault::input);
   for (ColumnFault& fault : faults) {
     for (Index& row : fault.rows) {
-      row = measured.rows[static_cast<std::size_t>(row)];
+      row = measured.rows[row];
     }
   }
   return faults;
@@ -72,9 +72,7 @@ std::string DoubtOfRows(const ColumnFault& fault,
   } else if (fault.kind == FaultKind::kImpossible ||
              (fault.kind == FaultKind::kOutlying && fault.input < 0)) {
     const ColumnInfo& column =
-        fault.input < 0
-            ? measured.target
-            : measured.inputs[static_cast<std::size_t>(fault.input)];
+        fault.input < 0 ? measured.target : measured.inputs[fault.input];
     what = " rows have " + NameInRemark(column.name) + " " +
            Rounded(fault.value) + ", which is not a reading";
   } else {

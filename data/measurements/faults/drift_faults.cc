@@ -83,8 +83,7 @@ std::vector<Index> SpreadRows(std::vector<Index> rows, Index most) {
   if (size <= most) return rows;
   std::vector<Index> spread;
   for (Index i = 0; i < most; ++i) {
-    spread.push_back(
-        rows[static_cast<std::size_t>(i * (size - 1) / (most - 1))]);
+    spread.push_back(rows[i * (size - 1) / (most - 1)]);
   }
   return spread;
 }
@@ -106,19 +105,15 @@ Standardised StandardiseRows(const MeasuredColumns& measured,
                      .sd = VectorXd(size),
                      .time = VectorXd(std::ssize(rows))};
   for (Index k = 0; k < size; ++k) {
-    const Index input = thermometers[static_cast<std::size_t>(
-                                         used[static_cast<std::size_t>(k)])]
-                            .input;
+    const Index input = thermometers[used[k]].input;
     found.values.col(k) = measured.input_values.col(input)(rows);
     // Of what varies little about a large value the mean is exact enough then.
     found.values.col(k).array() -= found.values(0, k);
     found.sd[k] = Standardise(found.values.col(k));
   }
   for (Index i = 0; i < found.time.size(); ++i) {
-    found.time[i] = 2.0 *
-                        static_cast<double>(rows[static_cast<std::size_t>(i)]) /
-                        std::max(m - 1.0, 1.0) -
-                    1.0;
+    found.time[i] =
+        2.0 * static_cast<double>(rows[i]) / std::max(m - 1.0, 1.0) - 1.0;
   }
   found.time_sd = Standardise(found.time);
   return found;
@@ -268,7 +263,7 @@ std::vector<ColumnFault> FindDrift(const MeasuredColumns& measured,
       const Index k = used[at];
       const std::optional<Drift> drift =
           DriftOf(of, axes, static_cast<Index>(at));
-      const Thermometer& t = thermometers[static_cast<std::size_t>(k)];
+      const Thermometer& t = thermometers[k];
       if (!drift || std::abs(drift->change) < kLeastDrift * t.degree ||
           drift->scatter > kMostScatterNoise * t.noise ||
           drift->ratio() < times || drift->ratio() < worst.ratio()) {
@@ -281,7 +276,7 @@ std::vector<ColumnFault> FindDrift(const MeasuredColumns& measured,
     faults.push_back(
         MakeFault(measured,
                   FaultKind::kDrifting,
-                  thermometers[static_cast<std::size_t>(worst_at)].input,
+                  thermometers[worst_at].input,
                   {},
                   worst.change,
                   {static_cast<double>(used.size() - 1), worst.scatter}));
@@ -297,7 +292,7 @@ std::optional<ColumnFault> FindColdDrift(
   const Unit degc = UnitOfSymbol("degC");
   std::vector<Index> used;
   for (Index k = 0; k < measured.input_values.cols(); ++k) {
-    const Unit& unit = measured.inputs[static_cast<std::size_t>(k)].unit;
+    const Unit& unit = measured.inputs[k].unit;
     if (unit.quantity == degc.quantity && IsTrusted(k, known)) {
       used.push_back(k);
     }
@@ -307,22 +302,18 @@ std::optional<ColumnFault> FindColdDrift(
   if (num_starts < kFewestStarts || num_others < 1) return std::nullopt;
   MatrixXd cold(num_starts, num_others + 1);  // degC
   for (Index k = 0; k <= num_others; ++k) {
-    const Index input = used[static_cast<std::size_t>(k)];
-    const Unit& unit = measured.inputs[static_cast<std::size_t>(input)].unit;
+    const Index input = used[k];
+    const Unit& unit = measured.inputs[input].unit;
     for (Index i = 0; i < num_starts; ++i) {
-      cold(i, k) =
-          Converted(measured.input_values(
-                        session_starts[static_cast<std::size_t>(i)], input),
-                    unit,
-                    degc);
+      cold(i, k) = Converted(
+          measured.input_values(session_starts[i], input), unit, degc);
     }
   }
   VectorXd time(num_starts);
   const auto first = static_cast<double>(session_starts.front());
   const auto last = static_cast<double>(session_starts.back());
   for (Index i = 0; i < num_starts; ++i) {
-    const auto start =
-        static_cast<double>(session_starts[static_cast<std::size_t>(i)]);
+    const auto start = static_cast<double>(session_starts[i]);
     time[i] = (2.0 * start - first - last) / (last - first);
   }
   Drift worst{.change = 0.0, .scatter = 1.0};
@@ -343,11 +334,10 @@ std::optional<ColumnFault> FindColdDrift(
     if (change < own) continue;
     own = change;
     worst = drift;
-    worst_at = used[static_cast<std::size_t>(k)];
+    worst_at = used[k];
   }
   if (worst_at < 0) return std::nullopt;
-  const double degree =
-      DegreeIn(measured.inputs[static_cast<std::size_t>(worst_at)].unit);
+  const double degree = DegreeIn(measured.inputs[worst_at].unit);
   return MakeFault(measured,
                    FaultKind::kDrifting,
                    worst_at,

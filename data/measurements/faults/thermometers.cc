@@ -56,7 +56,7 @@ std::vector<Index> SoundRows(const MeasuredColumns& measured,
       static_cast<std::size_t>(measured.target_values.size()), true);
   for (const Thermometer& t : thermometers) {
     for (const Index row : t.wrong) {
-      is_sound[static_cast<std::size_t>(row)] = false;
+      is_sound[row] = false;
     }
   }
   return MarkedRows(is_sound);
@@ -122,7 +122,7 @@ double MedianStepIn(const std::vector<double>& values) {
 std::vector<double> LikesOf(const MeasuredColumns& measured, Index input) {
   std::vector<double> likes;
   for (Index other = 0; other < measured.input_values.cols(); ++other) {
-    const Unit& unit = measured.inputs[static_cast<std::size_t>(other)].unit;
+    const Unit& unit = measured.inputs[other].unit;
     if (other == input || unit.quantity != Quantity::kTemperature) continue;
     const double median = MedianOf(InDegC(measured, other, unit));
     if (IsWithin({kColdest, kHottest}, median)) likes.push_back(median);
@@ -139,7 +139,7 @@ bool HasAnotherUnit(const MeasuredColumns& measured,
     bounds = {std::ranges::min(likes) - kLikes,
               std::ranges::max(likes) + kLikes};
   }
-  const Unit& own = measured.inputs[static_cast<std::size_t>(input)].unit;
+  const Unit& own = measured.inputs[input].unit;
   if (IsWithin(bounds, MedianOf(InDegC(measured, input, own)))) return false;
   return std::ranges::any_of(
       UnitsOf(Quantity::kTemperature), [&](const Unit& unit) {
@@ -171,8 +171,8 @@ double WidestGap(const std::vector<double>& values) {
 bool AreBelieved(const MeasuredColumns& measured,
                  Index input,
                  const std::vector<Index>& wrong) {
-  const std::vector<double> values = InDegC(
-      measured, input, measured.inputs[static_cast<std::size_t>(input)].unit);
+  const std::vector<double> values =
+      InDegC(measured, input, measured.inputs[input].unit);
   const auto [least, most] = std::ranges::minmax(values);
   const std::set<double> levels(values.begin(), values.end());
   if (least < kAbsoluteZero || levels.size() < kFewestDegrees) return false;

@@ -314,7 +314,7 @@ std::optional<CsvColumn> FindSessionsInLabels(
   }
   std::vector<std::ptrdiff_t> codes(table.num_rows, 0);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    codes[static_cast<std::size_t>(rows[i])] = code_of[found.codes[i]];
+    codes[rows[i]] = code_of[found.codes[i]];
   }
   CsvColumn column =
       WordColumn(SessionsNamedIn(labels.name), codes, std::move(words));

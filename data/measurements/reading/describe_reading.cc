@@ -20,7 +20,7 @@ using Eigen::Index;
 bool AreAlike(const FoundSessions& found) {
   std::vector<Index> counts(found.sessions.labels.size(), 0);
   for (const Index code : found.sessions.codes) {
-    ++counts[static_cast<std::size_t>(code)];
+    ++counts[code];
   }
   return counts.size() > 1 &&
          std::ranges::count(counts, counts[0]) == std::ssize(counts);
@@ -83,7 +83,7 @@ void DescribeSessions(const CsvTable& table,
   const std::ptrdiff_t group = read->roles.group;
   for (std::size_t i = 0; i < found.sessions.codes.size(); ++i) {
     const Index code = found.sessions.codes[i];
-    auto& at = first[static_cast<std::size_t>(code)];
+    auto& at = first[code];
     if (at < 0) at = static_cast<std::int64_t>(read->log_rows[i]);
     const auto row = static_cast<std::size_t>(read->log_rows[i]);
     if (group != kNoColumn && have_target[row] && found.known[i]) {
@@ -109,7 +109,7 @@ double StepOf(const Eigen::VectorXd& time,
               const std::vector<bool>& have_target) {
   std::vector<Index> places;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (have_target[static_cast<std::size_t>(rows[i])]) {
+    if (have_target[rows[i]]) {
       places.push_back(static_cast<Index>(i));
     }
   }

@@ -54,8 +54,7 @@ void NumberPassesAs(TableInReading* in, std::string name) {
   const Motion& motion = in->Passes();
   std::vector<double> numbers(in->table().num_rows, std::nan(""));
   for (std::size_t i = 0; i < in->base_rows.size(); ++i) {
-    numbers[static_cast<std::size_t>(in->base_rows[i])] =
-        static_cast<double>(motion.passes[i] + 1);
+    numbers[in->base_rows[i]] = static_cast<double>(motion.passes[i] + 1);
   }
   const std::ptrdiff_t named = in->table().Find(name);
   const std::size_t place =

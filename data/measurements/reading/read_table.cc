@@ -80,7 +80,7 @@ void TakeRowsThatPass(TableInReading* in) {
   }
   if (in->selection.faults == FaultPolicy::kDropRows) {
     for (const Index row : in->read.repeated_rows) {
-      in->read.passes[static_cast<std::size_t>(row)] = false;
+      in->read.passes[row] = false;
     }
   }
   if (in->selection.with_log) in->read.log_rows = MarkedRows(in->read.passes);

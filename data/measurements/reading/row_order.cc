@@ -83,8 +83,8 @@ std::optional<std::vector<Index>> OrderOfTime(
   std::vector<Index> places(sessions.size());
   std::iota(places.begin(), places.end(), Index{0});
   std::ranges::stable_sort(places, [&](Index a, Index b) {
-    const auto& of_a = sessions[static_cast<std::size_t>(a)];
-    const auto& of_b = sessions[static_cast<std::size_t>(b)];
+    const auto& of_a = sessions[a];
+    const auto& of_b = sessions[b];
     if (!apart && of_a != of_b) return RanksBefore(of_a, of_b, rank);
     return time[a] < time[b];
   });
@@ -158,8 +158,8 @@ void TakeInOrder(TableInReading* in, const std::vector<Index>& places) {
   std::vector<Index> order;
   std::vector<bool> taken(in->given.num_rows, false);
   for (const Index place : places) {
-    order.push_back(in->base_rows[static_cast<std::size_t>(place)]);
-    taken[static_cast<std::size_t>(order.back())] = true;
+    order.push_back(in->base_rows[place]);
+    taken[order.back()] = true;
   }
   for (std::size_t row = 0; row < taken.size(); ++row) {
     if (!taken[row]) order.push_back(static_cast<Index>(row));

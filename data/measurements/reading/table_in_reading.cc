@@ -27,7 +27,7 @@ void TableInReading::PutColumn(std::size_t place, CsvColumn column) {
 std::vector<bool> TableInReading::IsBaseRow() const {
   std::vector<bool> is_base(table().num_rows, false);
   for (const Eigen::Index row : base_rows) {
-    is_base[static_cast<std::size_t>(row)] = true;
+    is_base[row] = true;
   }
   return is_base;
 }
@@ -75,7 +75,7 @@ void LeaveOutWords(TableInReading* in, std::vector<bool>* passes) {
   if (left_out.empty()) return;
   std::vector<Index> kept = AllRows(in->table().num_rows);
   for (const Index row : left_out) {
-    kept[static_cast<std::size_t>(row)] = -1;
+    kept[row] = -1;
     in->read.reading.rows_left_out.push_back(
         {.row = row, .why = "holds words where the others have numbers"});
   }
@@ -96,7 +96,7 @@ std::vector<Index> LeaveOutTotals(const CsvTable& table,
     numbering.push_back(KeepsRecord(column.name) ||
                         IsCalled(column.name, Word::kTime));
   }
-  if (group != kNoColumn) numbering[static_cast<std::size_t>(group)] = true;
+  if (group != kNoColumn) numbering[group] = true;
   return LeaveOutRowsOfWords(table, numbering, missing, passes);
 }
 
@@ -117,7 +117,7 @@ bool LeaveOutSavedTwice(TableInReading* in) {
       in->table(), in->read.roles.target, is_kept, NumTimesAgain(in->clock));
   if (again.empty()) return false;
   for (const Index row : again) {
-    is_kept[static_cast<std::size_t>(row)] = false;
+    is_kept[row] = false;
     in->read.reading.rows_left_out.push_back(
         {.row = row, .why = "occurs twice, with its time"});
   }

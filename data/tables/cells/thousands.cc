@@ -41,7 +41,7 @@ bool PartThousands(std::vector<ColumnShape>* shapes, CsvTable* table) {
         kFourDigits * shape.least_parted <= kNext * shape.most_whole;
     const auto first =
         std::max(column.first_decimal_comma, column.first_decimal_point);
-    const double value = column.values[static_cast<std::size_t>(first)];
+    const double value = column.values[first];
     std::string remark = "column " + QuotedName(column.name);
     const std::string as_thousands = CsvNumber(kFourDigits * value);
     const auto line = table->LineOfRow(static_cast<std::size_t>(first));
