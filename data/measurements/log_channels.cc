@@ -1,5 +1,3 @@
-#include "data/measurements/log_channels.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -10,6 +8,7 @@
 #include "data/columns.h"
 #include "data/measurements/clock/text_times.h"
 #include "data/measurements/column_roles.h"
+#include "data/measurements/merged_log.h"
 #include "data/text.h"
 
 namespace errmap::data {

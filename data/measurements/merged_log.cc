@@ -14,7 +14,6 @@
 #include "data/measurements/clock/text_times.h"
 #include "data/measurements/clock/time_units.h"
 #include "data/measurements/column_checks.h"
-#include "data/measurements/log_channels.h"
 #include "data/measurements/reading/reading.h"
 #include "data/text.h"
 

@@ -1,5 +1,3 @@
-#include "data/measurements/session_log.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,6 +7,7 @@
 
 #include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
+#include "data/measurements/sessions.h"
 #include "data/text.h"
 
 namespace errmap::data {

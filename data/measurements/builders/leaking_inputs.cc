@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "data/column_words.h"
-#include "data/measurements/builders/useless_inputs.h"
+#include "data/measurements/builders/value_checks.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/least_squares.h"
 #include "data/text.h"
@@ -110,10 +110,10 @@ class LeakFinder {
   struct Candidate {
     Index input;
     VectorXd values;  // of the rows looked at, less their mean
-    double sd;
-    double resolution;
     bool position;
-    bool settings;  // few values, as of a grid
+    double sd = 0.0;
+    double resolution = 0.0;
+    bool settings = false;  // few values, as of a grid
     bool used = false;
   };
 
@@ -128,10 +128,7 @@ class LeakFinder {
     }
     Candidate candidate{.input = input,
                         .values = std::move(values),
-                        .sd = 0.0,
-                        .resolution = 0.0,
-                        .position = IsPosition(column),
-                        .settings = false};
+                        .position = IsPosition(column)};
     const std::set<double> levels(candidate.values.begin(),
                                   candidate.values.end());
     candidate.settings = 3 * levels.size() <= rows_.size();

@@ -14,18 +14,14 @@
 #include "data/measurements/builders/dataset_remarks.h"
 #include "data/measurements/builders/idle_inputs.h"
 #include "data/measurements/builders/inputs_in_use.h"
-#include "data/measurements/builders/useless_inputs.h"
 #include "data/measurements/builders/value_checks.h"
-#include "data/measurements/builders/word_columns.h"
 #include "data/measurements/clock/text_times.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/dataset.h"
 #include "data/measurements/faults/row_faults.h"
 #include "data/measurements/faults/thermometers.h"
-#include "data/measurements/input_choice.h"
 #include "data/measurements/reading/read_table.h"
-#include "data/measurements/session_log.h"
 #include "data/measurements/sessions.h"
 #include "data/text.h"
 
@@ -180,13 +176,11 @@ class DatasetBuilder {
     for (const std::size_t input : inputs_) {
       columns.push_back({input, ColumnUse::kInput});
     }
-    if (read_.roles.group != kNoColumn) {
-      columns.push_back(
-          {static_cast<std::size_t>(read_.roles.group), ColumnUse::kGroup});
-    }
-    if (read_.roles.weight != kNoColumn) {
-      columns.push_back(
-          {static_cast<std::size_t>(read_.roles.weight), ColumnUse::kWeight});
+    for (const auto& [column, use] :
+         {std::pair(read_.roles.group, ColumnUse::kGroup),
+          {read_.roles.weight, ColumnUse::kWeight}}) {
+      if (column == kNoColumn) continue;
+      columns.push_back({static_cast<std::size_t>(column), use});
     }
     RefuseMixedDecimals(table_, columns);
     KeptRows kept =
@@ -342,7 +336,6 @@ class DatasetBuilder {
     if (!read_.repeated_rows.empty()) {
       faults_.insert(faults_.begin(),
                      {.kind = FaultKind::kRepeated,
-                      .input = -1,
                       .rows = read_.repeated_rows,
                       .of_cells = true});
     }

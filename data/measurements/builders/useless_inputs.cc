@@ -1,8 +1,7 @@
-#include "data/measurements/builders/useless_inputs.h"
-
 #include "data/argument_name.h"
 #include "data/csv.h"
 #include "data/measurements/builders/idle_inputs.h"
+#include "data/measurements/builders/value_checks.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 

@@ -1,5 +1,3 @@
-#include "data/measurements/builders/word_columns.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +5,7 @@
 
 #include "data/argument_name.h"
 #include "data/columns.h"
+#include "data/measurements/builders/value_checks.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/least_squares.h"

@@ -1,5 +1,3 @@
-#include "data/measurements/input_choice.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -11,6 +9,7 @@
 #include "data/column_header.h"
 #include "data/column_values.h"
 #include "data/column_words.h"
+#include "data/measurements/builders/inputs_in_use.h"
 #include "data/measurements/clock/text_times.h"
 #include "data/measurements/clock/time_units.h"
 #include "data/measurements/column_checks.h"
