@@ -16,22 +16,19 @@ constexpr auto kWords = std::to_array<std::string_view>({
     // kError
     "error err errors xerr yerr zerr deviation dev fehler abweichung abw "
     "messfehler erreur ecart deviazione errore scarto scostamento desvio "
-    "desviacion erro "
-    "afwijking fout odchylka blad chyba avvikelse fel afvigelse avvik fejl "
-    "hiba elteres eroare abatere napaka odstopanje odstupanje похибка "
-    "відхилення σφαλμα αποκλιση "
-    "feil virhe poikkeama hata sapma gosa ошибка погрешность отклонение откл "
-    "誤差 误差 偏差 오차 편차",
+    "desviacion erro afwijking fout odchylka blad chyba avvikelse fel "
+    "afvigelse avvik fejl hiba elteres eroare abatere napaka odstopanje "
+    "odstupanje похибка відхилення σφαλμα αποκλιση feil virhe poikkeama hata "
+    "sapma gosa ошибка погрешность отклонение откл 誤差 误差 偏差 오차 편차",
     // kCorrection
     "correction compensation corrective correctif corr comp korr komp "
-    "korrektur kompensation correccion compensacion correzione "
-    "compensazione correcao compensacao correctie compensatie korekta "
-    "korekcja kompensacja korekce kompenzace korrigering hosei коррекция "
-    "поправка 補正 补偿",
+    "korrektur kompensation correccion compensacion correzione compensazione "
+    "correcao compensacao correctie compensatie korekta korekcja kompensacja "
+    "korekce kompenzace korrigering hosei коррекция поправка 補正 补偿",
     // kPosition
-    "position pos posn coordinate coord posicion posizione posicao quota "
-    "weg stellung koordinate positie pozycja polozenie poloha pozice lage "
-    "asema konum ichi travel verfahrweg положение позиция координата 位置 위치",
+    "position pos posn coordinate coord posicion posizione posicao quota weg "
+    "stellung koordinate positie pozycja polozenie poloha pozice lage asema "
+    "konum ichi travel verfahrweg положение позиция координата 位置 위치",
     // kHeight
     "height hohe hoehe hauteur altezza altura hoogte wysokosc",
     // kNominal
@@ -40,16 +37,15 @@ constexpr auto kWords = std::to_array<std::string_view>({
     "nominalna zadana zadane theoretical theoretisch programmed programmiert "
     "desired demand demanded bor borvarde gewenst заданное номинал 指令 目標",
     // kMeasured
-    "actual act meas measured encoder laser ist istwert istposition "
-    "gemessen reelle mesuree mesure misurata misurato medida medido gemeten "
-    "zmierzona real reel werkelijk skutecna skutecny skutecne rzeczywista "
-    "feedback fbk ar arvarde измеренное факт 実測 实测",
+    "actual act meas measured encoder laser ist istwert istposition gemessen "
+    "reelle mesuree mesure misurata misurato medida medido gemeten zmierzona "
+    "real reel werkelijk skutecna skutecny skutecne rzeczywista feedback fbk "
+    "ar arvarde измеренное факт 実測 实测",
     // kTime
     "time timestamp datetime elapsed uptime runtime laufzeit utc zeit uhrzeit "
-    "zeitstempel zeitpunkt tick ticks "
-    "uhr tiempo hora ora heure horodatage orario temps tempo tijd czas "
-    "godzina cas tid klockslag klokken kello aika saat zaman jikoku jikan "
-    "время 時刻 時間 时间 시간 시각",
+    "zeitstempel zeitpunkt tick ticks uhr tiempo hora ora heure horodatage "
+    "orario temps tempo tijd czas godzina cas tid klockslag klokken kello aika "
+    "saat zaman jikoku jikan время 時刻 時間 时间 시간 시각",
     // kDate
     "date datum fecha datetime datenum data dato tarih hizuke дата 日付 日期 "
     "날짜",
@@ -61,8 +57,7 @@ constexpr auto kWords = std::to_array<std::string_view>({
     "avance velocidad velocita giri otacky obroty обороты 转速 回転数",
     // kDirection
     "direction dir bidir approach motion richtung anfahrrichtung anfahrt "
-    "direccion "
-    "direzione direcao sens sentido senso richting kierunek riktning "
+    "direccion direzione direcao sens sentido senso richting kierunek riktning "
     "retning smer suunta yon verso fangxiang направление 方向 방향",
     // kCycle
     "cycle zyklus takt ciclo cyclus cykl cykel cyklus цикл 循环 サイクル "
@@ -79,15 +74,14 @@ constexpr auto kWords = std::to_array<std::string_view>({
     // kWeek
     "week kalenderwoche woche kw semaine settimana semana",
     // kCounter
-    "segment record index row id sample messung versuch durchgang nr no "
-    "number nummer zeile test trial repeat rep reps repetition wiederholung "
-    "repeticion ripetizione block batch hour hr minute min "
-    "second sec stunde sekunde ms msec usec microsec nsec millis millitm "
-    "millisecond microsecond nanosecond night nacht nuit notte noche week "
-    "woche kw semaine settimana semana attempt tentative tentativo essai "
-    "intento charge los lotto lote visit campaign kampagne sitzung warmup "
-    "experiment dataset group gruppe groupe grupo gruppo groep year jahr annee "
-    "anno doy hhmm hhmmss",
+    "segment record index row id sample messung versuch durchgang nr no number "
+    "nummer zeile test trial repeat rep reps repetition wiederholung "
+    "repeticion ripetizione block batch hour hr minute min second sec stunde "
+    "sekunde ms msec usec microsec nsec millis millitm millisecond microsecond "
+    "nanosecond night nacht nuit notte noche week woche kw semaine settimana "
+    "semana attempt tentative tentativo essai intento charge los lotto lote "
+    "visit campaign kampagne sitzung warmup experiment dataset group gruppe "
+    "groupe grupo gruppo groep year jahr annee anno doy hhmm hhmmss",
     // kIdentifier
     "serial sn s_n seriennummer seriennr matricola matricule employee staff "
     "personalnr personalnummer pernr badge firmware fw version revision "

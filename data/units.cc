@@ -41,7 +41,10 @@ constexpr auto kKnownUnits = std::to_array<KnownUnit>({
      "micron microns micrometer micrometers micrometre micrometres mikrometer "
      "mikron мкм 微米",
      "u 0.001mm 1/1000mm 10^-3mm x10^-3mm 1e-6m 10^-6m"},
-    {"mm", kLength, 1e3, "millimeter millimeters millimetre millimetres мм 毫米"},
+    {"mm",
+     kLength,
+     1e3,
+     "millimeter millimeters millimetre millimetres мм 毫米"},
     {"cm", kLength, 1e4, "centimeter centimetre"},
     {"m", kLength, 1e6, "meter meters metre metres", "", true},
     {"in", kLength, 25400.0, "inch inches zoll", "", true},
@@ -215,9 +218,9 @@ std::string RateOf(std::string_view normalised) {
              : "";
 }
 
-const KnownUnit* FindSymbol(const Unit& unit) {
+const KnownUnit* FindSymbol(std::string_view symbol) {
   const auto* const found =
-      std::ranges::find(kKnownUnits, unit.symbol, &KnownUnit::symbol);
+      std::ranges::find(kKnownUnits, symbol, &KnownUnit::symbol);
   return found == kKnownUnits.end() ? nullptr : found;
 }
 
@@ -271,10 +274,8 @@ bool IsUnitOfErrors(const Unit& unit) {
 }
 
 Unit UnitOfSymbol(std::string_view symbol) {
-  for (const KnownUnit& unit : kKnownUnits) {
-    if (unit.symbol == symbol) return MakeUnit(unit);
-  }
-  return OtherUnit(symbol);
+  const KnownUnit* const known = FindSymbol(symbol);
+  return known == nullptr ? OtherUnit(symbol) : MakeUnit(*known);
 }
 
 std::string KnownUnits() {
@@ -296,8 +297,9 @@ std::vector<Unit> UnitsOf(Quantity quantity) {
 
 bool AreConvertible(const Unit& from, const Unit& to) {
   if (from.symbol == to.symbol) return true;
-  return FindSymbol(from) != nullptr && FindSymbol(to) != nullptr &&
-         from.quantity == to.quantity && from.quantity != Quantity::kOther;
+  return FindSymbol(from.symbol) != nullptr &&
+         FindSymbol(to.symbol) != nullptr && from.quantity == to.quantity &&
+         from.quantity != Quantity::kOther;
 }
 
 double Converted(double value, const Unit& from, const Unit& to) {
@@ -306,8 +308,8 @@ double Converted(double value, const Unit& from, const Unit& to) {
     throw std::invalid_argument("errmap::data::Converted: " + from.symbol +
                                 " cannot be written in " + to.symbol);
   }
-  const KnownUnit& a = *FindSymbol(from);
-  const KnownUnit& b = *FindSymbol(to);
+  const KnownUnit& a = *FindSymbol(from.symbol);
+  const KnownUnit& b = *FindSymbol(to.symbol);
   return (value + a.offset) * a.factor / b.factor - b.offset;
 }
 

@@ -293,53 +293,46 @@ std::string FirstLine(const PatternTable& table) {
          "\n";
 }
 
+// Names, and numbers of a pattern: inputs, then targets.
+std::vector<std::string> NamesOf(const PatternTable& table) {
+  std::vector<std::string> names = table.inputs;
+  names.insert(names.end(), table.targets.begin(), table.targets.end());
+  return names;
+}
+
+std::vector<std::string> NumbersOf(const PatternTable& table, Index p) {
+  std::vector<std::string> numbers;
+  for (const double value : table.input_values.row(p)) {
+    numbers.push_back(CsvNumber(value));
+  }
+  for (const double value : table.target_values.row(p)) {
+    numbers.push_back(CsvNumber(value));
+  }
+  return numbers;
+}
+
 std::string PlainText(const PatternTable& table) {
-  std::string text = FirstLine(table);
-  const auto append_names = [&](const std::vector<std::string>& names) {
-    for (std::string name : names) {
-      std::ranges::replace(name, ' ', '_');
-      text += (text.ends_with('\n') ? "" : " ") + name;
-    }
-  };
-  append_names(table.inputs);
-  append_names(table.targets);
-  text += '\n';
+  std::vector<std::string> names = NamesOf(table);
+  for (std::string& name : names) std::ranges::replace(name, ' ', '_');
+  std::string text = FirstLine(table) + JoinWords(names, " ") + "\n";
   for (Index p = 0; p < table.input_values.rows(); ++p) {
-    for (const double value : table.input_values.row(p)) {
-      text += (text.ends_with('\n') ? "" : " ") + CsvNumber(value);
-    }
-    for (const double value : table.target_values.row(p)) {
-      text += " " + CsvNumber(value);
-    }
-    text += '\n';
+    text += JoinWords(NumbersOf(table, p), " ") + "\n";
   }
   return text;
 }
 
 std::string CsvText(const PatternTable& table) {
+  const bool has_index = !table.index.empty();
+  std::vector<std::string> names = NamesOf(table);
+  for (std::string& name : names) name = CsvField(name);
   std::string text = "# patterns for errmap netcg: targets " +
                      std::to_string(table.targets.size()) + ", scale " +
-                     ScaleText(table.scale) + "\n";
-  std::string header;
-  const auto append = [](const std::string& field, std::string* line) {
-    *line += (line->empty() ? "" : ",") + field;
-  };
-  if (!table.index.empty()) append(kIndexColumn, &header);
-  for (const std::string& name : table.inputs) append(CsvField(name), &header);
-  for (const std::string& name : table.targets) append(CsvField(name), &header);
-  text += header + "\n";
+                     ScaleText(table.scale) + "\n" +
+                     (has_index ? std::string(kIndexColumn) + "," : "") +
+                     JoinWords(names, ",") + "\n";
   for (Index p = 0; p < table.input_values.rows(); ++p) {
-    std::string line;
-    if (!table.index.empty()) {
-      append(std::to_string(table.index[p]), &line);
-    }
-    for (const double value : table.input_values.row(p)) {
-      append(CsvNumber(value), &line);
-    }
-    for (const double value : table.target_values.row(p)) {
-      append(CsvNumber(value), &line);
-    }
-    text += line + "\n";
+    if (has_index) text += std::to_string(table.index[p]) + ",";
+    text += JoinWords(NumbersOf(table, p), ",") + "\n";
   }
   return text;
 }

@@ -271,21 +271,18 @@ void RequireKnownUnit(const CsvTable& table, const ColumnInUse& column) {
                             header.source == UnitSource::kDoubtful) &&
                            column.use == ColumnUse::kTarget);
   if (!is_refused) return;
-  if (header.source == UnitSource::kDoubtful) {
-    throw InputError(PrintablePath(table.file) + ": column " +
-                     QuotedName(name) + ": " + WhyNoUnit(header) +
-                     "; rename the column, its unit in brackets at the end: "
-                     "'error [um]', 'error [mm]'");
-  }
-  throw InputError(
-      PrintablePath(table.file) + ": column " + QuotedName(name) + ": " +
-      WhyNoUnit(header) +
-      (column.use == ColumnUse::kTarget
-           ? "; add one to the name: " +
-                 ArgumentName("target", name + " [um]") +
-                 " (or mm, in, arcsec, urad, deg)"
-           : "; rename the column, with one of these in brackets: " +
-                 KnownUnits()));
+  ThrowUnusable(
+      table,
+      "column " + QuotedName(name) + ": " + WhyNoUnit(header) +
+          (header.source == UnitSource::kDoubtful
+               ? "; rename the column, its unit in brackets at the end: "
+                 "'error [um]', 'error [mm]'"
+           : column.use == ColumnUse::kTarget
+               ? "; add one to the name: " +
+                     ArgumentName("target", name + " [um]") +
+                     " (or mm, in, arcsec, urad, deg)"
+               : "; rename the column, with one of these in brackets: " +
+                     KnownUnits()));
 }
 
 void RefuseNumbersAsText(const CsvTable& table, const CsvColumn& column) {

@@ -196,14 +196,11 @@ std::optional<Epoch> EpochOf(const Pace& pace, Named called) {
 std::optional<double> NamedDays(std::string_view column) {
   constexpr double kJulianTo1970 = 2440587.5;
   constexpr double kModifiedJulianTo1970 = 40587.0;
-  const std::vector<std::string> words = WordsOf(column);
-  const auto says = [&](std::string_view known) {
-    return std::ranges::any_of(
-        words, [&](const std::string& word) { return IsOneOf(word, known); });
-  };
-  if (says("mjd")) return kModifiedJulianTo1970;
-  if (says("jd bjd hjd julian")) return kJulianTo1970;
-  if (says("days tage jours") && column.find("1970") != column.npos) return 0.0;
+  if (HasWordOf(column, "mjd")) return kModifiedJulianTo1970;
+  if (HasWordOf(column, "jd bjd hjd julian")) return kJulianTo1970;
+  if (HasWordOf(column, "days tage jours") &&
+      column.find("1970") != column.npos)
+    return 0.0;
   return std::nullopt;
 }
 

@@ -179,10 +179,8 @@ void LookForZeros(const MeasuredColumns& measured,
     return;
   }
   faults->push_back({.kind = FaultKind::kZero,
-                     .input = -1,
                      .rows = zeros,
                      .of_cells = true,
-                     .value = 0.0,
                      .low = predicted[*worst],
                      .high = sd});
 }
@@ -305,12 +303,9 @@ void LookForOtherUnit(const MeasuredColumns& measured,
   for (std::vector<Index>& run : runs) {
     if (run.size() < kFewestRows) continue;
     faults->push_back({.kind = FaultKind::kOtherUnit,
-                       .input = -1,
                        .rows = std::move(run),
                        .of_cells = true,
-                       .value = two.ratio,
-                       .low = 0.0,
-                       .high = 0.0});
+                       .value = two.ratio});
   }
 }
 
@@ -430,8 +425,7 @@ std::vector<ColumnFault> FindSlippedPoints(const MeasuredColumns& measured) {
   const VectorXd predicted = LinearPrediction(measured, all);
   if (predicted.size() == 0) return {};
   const double sd = SpreadOfMisses(measured, predicted, all);
-  ColumnFault fault{
-      .kind = FaultKind::kOutlying, .input = -1, .rows = {}, .of_cells = true};
+  ColumnFault fault{.kind = FaultKind::kOutlying, .rows = {}, .of_cells = true};
   fault.low = std::numeric_limits<double>::infinity();
   fault.high = -fault.low;
   for (const Index row : all) {

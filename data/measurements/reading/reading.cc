@@ -12,13 +12,9 @@
 namespace errmap::data {
 namespace {
 
-std::string Many(std::int64_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 std::string SessionsText(const Reading& reading) {
   const Reading::Sessions& sessions = reading.sessions;
-  std::string text = Many(sessions.count, "session");
+  std::string text = CountText(sessions.count, "session");
   if (sessions.by == "nights" || sessions.by == "clock") {
     text += " (by nights in " + NameInRemark(reading.time.column.value_or("")) +
             ")";
@@ -52,8 +48,9 @@ std::string CyclesText(const Reading& reading) {
       std::max<std::int64_t>(reading.sessions.count, 1);
   const bool even = reading.cycles.count % sessions == 0;
   return " of " +
-         Many(even ? reading.cycles.count / sessions : reading.cycles.count,
-              "cycle") +
+         CountText(
+             even ? reading.cycles.count / sessions : reading.cycles.count,
+             "cycle") +
          (even || sessions == 1 ? "" : " in all");
 }
 
@@ -98,10 +95,10 @@ OpenQuestion::OpenQuestion(const std::string& file, Reading::Question question)
       question_(std::move(question)) {}
 
 std::vector<std::string> ReadingLines(const Reading& reading) {
-  std::string first = "Read: " + Many(reading.rows, "row") + " in " +
+  std::string first = "Read: " + CountText(reading.rows, "row") + " in " +
                       SessionsText(reading) + CyclesText(reading) + "; " +
                       AxisText(reading) + "; " +
-                      Many(std::ssize(reading.sensors), "sensor");
+                      CountText(std::ssize(reading.sensors), "sensor");
   if (const std::string step = StepText(reading); !step.empty()) {
     first += "; " + step;
   }
