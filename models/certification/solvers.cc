@@ -10,77 +10,63 @@
 namespace errmap::models {
 namespace {
 
-using fitting::Optimizer;
 using fitting::StoppingRules;
-using OptimizerPointer = std::unique_ptr<Optimizer>;
+using Maker =
+    std::function<std::unique_ptr<fitting::Optimizer>(const StoppingRules&)>;
 
-OptimizerPointer MakeLm(const StoppingRules& stopping,
-                        fitting::LmScaling scaling) {
-  return std::make_unique<fitting::LevenbergMarquardt>(
-      fitting::LevenbergMarquardtOptions{.stopping = stopping,
-                                         .scaling = scaling});
+// Makes an optimizer of these options, but for the stopping rules.
+template <typename Optimizer, typename Options>
+Maker MakerOf(Options options) {
+  return [options](const StoppingRules& stopping) {
+    Options own = options;
+    own.stopping = stopping;
+    return std::make_unique<Optimizer>(own);
+  };
 }
 
-OptimizerPointer MakeScg(const StoppingRules& stopping,
-                         fitting::ScgVariant variant) {
-  return std::make_unique<fitting::ScaledConjugateGradient>(
-      fitting::ScaledConjugateGradientOptions{.stopping = stopping,
-                                              .variant = variant});
+Maker Lm(fitting::LmScaling scaling) {
+  return MakerOf<fitting::LevenbergMarquardt>(
+      fitting::LevenbergMarquardtOptions{.scaling = scaling});
 }
 
-using Maker = std::function<OptimizerPointer(const StoppingRules&)>;
+Maker Scg(fitting::ScgVariant variant) {
+  return MakerOf<fitting::ScaledConjugateGradient>(
+      fitting::ScaledConjugateGradientOptions{.variant = variant});
+}
 
 Maker Ceres(fitting::CeresMethod method) {
-  return [method](const StoppingRules& stopping) {
-    return std::make_unique<fitting::CeresOptimizer>(
-        fitting::CeresOptions{.stopping = stopping, .method = method});
-  };
+  return MakerOf<fitting::CeresOptimizer>(
+      fitting::CeresOptions{.method = method});
 }
 
 Maker Nlopt(fitting::NloptMethod method) {
-  return [method](const StoppingRules& stopping) {
-    return std::make_unique<fitting::NloptOptimizer>(
-        fitting::NloptOptions{.stopping = stopping, .method = method});
-  };
+  return MakerOf<fitting::NloptOptimizer>(
+      fitting::NloptOptions{.method = method});
 }
 
 }  // namespace
 
 const std::vector<CertifiedSolver>& CertifiedSolvers() {
-  using Rules = StoppingRules;
   using fitting::CeresMethod;
   using fitting::NloptMethod;
   static const std::vector<CertifiedSolver> kSolvers{
       {.name = "lm:marquardt",
-       .make =
-           [](const Rules& r) {
-             return MakeLm(r, fitting::LmScaling::kMarquardt);
-           },
+       .make = Lm(fitting::LmScaling::kMarquardt),
        .floors = {.solved = 50, .mean_lre_parameters = 9.2},
        .needs_residuals = true},
       {.name = "lm:unscaled",
-       .make =
-           [](const Rules& r) { return MakeLm(r, fitting::LmScaling::kNone); },
+       .make = Lm(fitting::LmScaling::kNone),
        .floors = {.solved = 42, .mean_lre_parameters = 7.9},
        .needs_residuals = true},
       {.name = "scg:moller",
-       .make =
-           [](const Rules& r) {
-             return MakeScg(r, fitting::ScgVariant::kMoller);
-           },
+       .make = Scg(fitting::ScgVariant::kMoller),
        .floors = {.solved = 18, .mean_lre_parameters = 3.2}},
       {.name = "scg:netcg",
-       .make =
-           [](const Rules& r) {
-             return MakeScg(r, fitting::ScgVariant::kNetcg);
-           },
+       .make = Scg(fitting::ScgVariant::kNetcg),
        .floors = {.solved = 11, .mean_lre_parameters = 1.8}},
       {.name = "cg",
-       .make =
-           [](const Rules& r) {
-             return std::make_unique<fitting::ConjugateGradient>(
-                 fitting::ConjugateGradientOptions{.stopping = r});
-           },
+       .make = MakerOf<fitting::ConjugateGradient>(
+           fitting::ConjugateGradientOptions()),
        .floors = {.solved = 18, .mean_lre_parameters = 3.0}},
       {.name = "ceres:levenberg_marquardt",
        .make = Ceres(CeresMethod::kLevenbergMarquardt),
@@ -127,10 +113,7 @@ const std::vector<CertifiedSolver>& CertifiedSolvers() {
        .fits_nets = false},
       {.name = "backprop",
        .make =
-           [](const Rules& r) {
-             return std::make_unique<fitting::GradientDescent>(
-                 fitting::GradientDescentOptions{.stopping = r});
-           },
+           MakerOf<fitting::GradientDescent>(fitting::GradientDescentOptions()),
        .floors = {.agreement_difference = 1e-4, .agreement_prediction = 5e-3},
        .fits_formulas = false},
   };

@@ -25,206 +25,147 @@ T Square(const T& x) {
   return x * x;
 }
 
-// How many parameters a model has, and which of them are linear.
-template <int kNumber, int... kIndices>
-struct Form {
-  static constexpr int kParameters = kNumber;
-  static constexpr std::array<int, sizeof...(kIndices)> kLinear = {kIndices...};
-};
-
 using std::atan;
 using std::cos;
 using std::exp;
 using std::pow;
 using std::sin;
 
-// NIST's models; b[0] is b1. Written so that X (data) and T (parameters, with
-// derivatives) mix: constants become T where they meet one.
-struct Bennett5 : Form<3, 0> {
+// A model with its number of parameters, some of which are linear.
+template <typename Model, int kNumber, int... kIndices>
+struct Formula {
+  static constexpr int kParameters = kNumber;
+  static constexpr std::array<int, sizeof...(kIndices)> kLinear = {kIndices...};
+
   template <typename T, typename X>
   static T Predict(const T* b, const X* x) {
-    return b[0] * pow(b[1] + T(x[0]), T(X(-1.0)) / b[2]);
+    return Model()(b, x);
   }
 };
 
-struct BoxBod : Form<2, 0> {  // and Misra1a
-  template <typename T, typename X>
-  static T Predict(const T* b, const X* x) {
-    return b[0] * (T(X(1.0)) - exp(-b[1] * T(x[0])));
-  }
-};
+using Function = std::unique_ptr<fitting::RegressionFunction>;
+using FunctionMaker = Function (*)(ExtendedMatrix, ExtendedVector);
 
-struct Chwirut : Form<3> {
-  template <typename T, typename X>
-  static T Predict(const T* b, const X* x) {
-    return exp(-b[0] * T(x[0])) / (b[1] + b[2] * T(x[0]));
-  }
-};
-
-struct DanWood : Form<2, 0> {
-  template <typename T, typename X>
-  static T Predict(const T* b, const X* x) {
-    return b[0] * pow(T(x[0]), b[1]);
-  }
-};
-
-struct Eckerle4 : Form<3, 0> {
-  template <typename T, typename X>
-  static T Predict(const T* b, const X* x) {
-    return b[0] / b[1] * exp(T(X(-0.5)) * Square<T>((T(x[0]) - b[2]) / b[1]));
-  }
-};
-
-struct Enso : Form<9, 0, 1, 2, 4, 5, 7, 8> {
-  template <typename T, typename X>
-  static T Predict(const T* b, const X* x) {
-    const X turn = X(2.0) * Pi<X>() * x[0];
-    const T year = T(turn / X(12.0));
-    const T second = T(turn) / b[3];
-    const T third = T(turn) / b[6];
-    return b[0] + b[1] * cos(year) + b[2] * sin(year) + b[4] * cos(second) +
-           b[5] * sin(second) + b[7] * cos(third) + b[8] * sin(third);
-  }
-};
-
-struct Gauss : Form<8, 0, 2, 5> {
-  template <typename T, typename X>
-  static T Predict(const T* b, const X* x) {
-    return b[0] * exp(-b[1] * T(x[0])) +
-           b[2] * exp(-Square<T>((T(x[0]) - b[3]) / b[4])) +
-           b[5] * exp(-Square<T>((T(x[0]) - b[6]) / b[7]));
-  }
-};
-
-struct CubicOverCubic : Form<7, 0, 1, 2, 3> {  // Hahn1, Thurber
-  template <typename T, typename X>
-  static T Predict(const T* b, const X* x) {
-    const T t(x[0]);
-    return (b[0] + t * (b[1] + t * (b[2] + t * b[3]))) /
-           (T(X(1.0)) + t * (b[4] + t * (b[5] + t * b[6])));
-  }
-};
-
-struct Kirby2 : Form<5, 0, 1, 2> {
-  template <typename T, typename X>
-  static T Predict(const T* b, const X* x) {
-    const T t(x[0]);
-    return (b[0] + t * (b[1] + t * b[2])) / (T(X(1.0)) + t * (b[3] + t * b[4]));
-  }
-};
-
-struct Lanczos : Form<6, 0, 2, 4> {
-  template <typename T, typename X>
-  static T Predict(const T* b, const X* x) {
-    const T t(x[0]);
-    return b[0] * exp(-b[1] * t) + b[2] * exp(-b[3] * t) +
-           b[4] * exp(-b[5] * t);
-  }
-};
-
-struct Mgh09 : Form<4, 0> {
-  template <typename T, typename X>
-  static T Predict(const T* b, const X* x) {
-    const T t(x[0]);
-    return b[0] * (t * (t + b[1])) / (t * (t + b[2]) + b[3]);
-  }
-};
-
-struct Mgh10 : Form<3, 0> {
-  template <typename T, typename X>
-  static T Predict(const T* b, const X* x) {
-    return b[0] * exp(b[1] / (T(x[0]) + b[2]));
-  }
-};
-
-struct Mgh17 : Form<5, 0, 1, 2> {
-  template <typename T, typename X>
-  static T Predict(const T* b, const X* x) {
-    const T t(x[0]);
-    return b[0] + b[1] * exp(-t * b[3]) + b[2] * exp(-t * b[4]);
-  }
-};
-
-struct Misra1b : Form<2, 0> {
-  template <typename T, typename X>
-  static T Predict(const T* b, const X* x) {
-    const T one(X(1.0));
-    const T base = one + b[1] * T(x[0] / X(2.0));
-    return b[0] * (one - one / (base * base));
-  }
-};
-
-struct Misra1c : Form<2, 0> {
-  template <typename T, typename X>
-  static T Predict(const T* b, const X* x) {
-    const T one(X(1.0));
-    return b[0] * (one - pow(one + T(X(2.0)) * b[1] * T(x[0]), T(X(-0.5))));
-  }
-};
-
-struct Misra1d : Form<2, 0> {
-  template <typename T, typename X>
-  static T Predict(const T* b, const X* x) {
-    const T product = b[1] * T(x[0]);
-    return b[0] * product / (T(X(1.0)) + product);
-  }
-};
-
-struct Nelson : Form<3, 0, 1> {  // of log y
-  template <typename T, typename X>
-  static T Predict(const T* b, const X* x) {
-    return b[0] - b[1] * T(x[0]) * exp(-b[2] * T(x[1]));
-  }
-};
-
-struct Rat42 : Form<3, 0> {
-  template <typename T, typename X>
-  static T Predict(const T* b, const X* x) {
-    return b[0] / (T(X(1.0)) + exp(b[1] - b[2] * T(x[0])));
-  }
-};
-
-struct Rat43 : Form<4, 0> {
-  template <typename T, typename X>
-  static T Predict(const T* b, const X* x) {
-    const T one(X(1.0));
-    return b[0] / pow(one + exp(b[1] - b[2] * T(x[0])), one / b[3]);
-  }
-};
-
-struct Roszman1 : Form<4, 0, 1> {
-  template <typename T, typename X>
-  static T Predict(const T* b, const X* x) {
-    return b[0] - b[1] * T(x[0]) - atan(b[2] / (T(x[0]) - b[3])) / T(Pi<X>());
-  }
-};
-
-using FunctionMaker = std::unique_ptr<fitting::RegressionFunction> (*)(
-    ExtendedMatrix, ExtendedVector);
-
-template <typename Formula>
-std::unique_ptr<fitting::RegressionFunction> Make(ExtendedMatrix predictors,
-                                                  ExtendedVector target) {
-  return std::make_unique<fitting::FormulaRegression<Formula>>(
-      std::move(predictors), std::move(target));
+template <int kParameters, int... kLinear, typename Model>
+FunctionMaker Of(Model /*by its type*/) {
+  return [](ExtendedMatrix predictors, ExtendedVector target) -> Function {
+    return std::make_unique<
+        fitting::FormulaRegression<Formula<Model, kParameters, kLinear...>>>(
+        std::move(predictors), std::move(target));
+  };
 }
 
+// NIST's models; b[0] is b1. Written so that X (data) and T (parameters, with
+// derivatives) mix: constants become T where they meet one.
 const std::map<std::string, FunctionMaker>& Makers() {
+  static const FunctionMaker rise =
+      Of<2, 0>([]<typename T, typename X>(const T* b, const X* x) {
+        return b[0] * (T(X(1.0)) - exp(-b[1] * T(x[0])));
+      });
+  static const FunctionMaker chwirut =
+      Of<3>([]<typename T, typename X>(const T* b, const X* x) {
+        return exp(-b[0] * T(x[0])) / (b[1] + b[2] * T(x[0]));
+      });
+  static const FunctionMaker gauss =
+      Of<8, 0, 2, 5>([]<typename T, typename X>(const T* b, const X* x) {
+        return b[0] * exp(-b[1] * T(x[0])) +
+               b[2] * exp(-Square<T>((T(x[0]) - b[3]) / b[4])) +
+               b[5] * exp(-Square<T>((T(x[0]) - b[6]) / b[7]));
+      });
+  static const FunctionMaker cubic_over_cubic =
+      Of<7, 0, 1, 2, 3>([]<typename T, typename X>(const T* b, const X* x) {
+        const T t(x[0]);
+        return (b[0] + t * (b[1] + t * (b[2] + t * b[3]))) /
+               (T(X(1.0)) + t * (b[4] + t * (b[5] + t * b[6])));
+      });
+  static const FunctionMaker lanczos =
+      Of<6, 0, 2, 4>([]<typename T, typename X>(const T* b, const X* x) {
+        const T t(x[0]);
+        return b[0] * exp(-b[1] * t) + b[2] * exp(-b[3] * t) +
+               b[4] * exp(-b[5] * t);
+      });
   static const std::map<std::string, FunctionMaker> kMakers{
-      {"Bennett5", Make<Bennett5>},     {"BoxBOD", Make<BoxBod>},
-      {"Chwirut1", Make<Chwirut>},      {"Chwirut2", Make<Chwirut>},
-      {"DanWood", Make<DanWood>},       {"ENSO", Make<Enso>},
-      {"Eckerle4", Make<Eckerle4>},     {"Gauss1", Make<Gauss>},
-      {"Gauss2", Make<Gauss>},          {"Gauss3", Make<Gauss>},
-      {"Hahn1", Make<CubicOverCubic>},  {"Kirby2", Make<Kirby2>},
-      {"Lanczos1", Make<Lanczos>},      {"Lanczos2", Make<Lanczos>},
-      {"Lanczos3", Make<Lanczos>},      {"MGH09", Make<Mgh09>},
-      {"MGH10", Make<Mgh10>},           {"MGH17", Make<Mgh17>},
-      {"Misra1a", Make<BoxBod>},        {"Misra1b", Make<Misra1b>},
-      {"Misra1c", Make<Misra1c>},       {"Misra1d", Make<Misra1d>},
-      {"Nelson", Make<Nelson>},         {"Rat42", Make<Rat42>},
-      {"Rat43", Make<Rat43>},           {"Roszman1", Make<Roszman1>},
-      {"Thurber", Make<CubicOverCubic>}};
+      {"Bennett5", Of<3, 0>([]<typename T, typename X>(const T* b, const X* x) {
+         return b[0] * pow(b[1] + T(x[0]), T(X(-1.0)) / b[2]);
+       })},
+      {"BoxBOD", rise},
+      {"Chwirut1", chwirut},
+      {"Chwirut2", chwirut},
+      {"DanWood", Of<2, 0>([]<typename T, typename X>(const T* b, const X* x) {
+         return b[0] * pow(T(x[0]), b[1]);
+       })},
+      {"Eckerle4", Of<3, 0>([]<typename T, typename X>(const T* b, const X* x) {
+         return b[0] / b[1] *
+                exp(T(X(-0.5)) * Square<T>((T(x[0]) - b[2]) / b[1]));
+       })},
+      {"ENSO",
+       Of<9, 0, 1, 2, 4, 5, 7, 8>(
+           []<typename T, typename X>(const T* b, const X* x) {
+             const X turn = X(2.0) * Pi<X>() * x[0];
+             const T year = T(turn / X(12.0));
+             const T second = T(turn) / b[3];
+             const T third = T(turn) / b[6];
+             return b[0] + b[1] * cos(year) + b[2] * sin(year) +
+                    b[4] * cos(second) + b[5] * sin(second) +
+                    b[7] * cos(third) + b[8] * sin(third);
+           })},
+      {"Gauss1", gauss},
+      {"Gauss2", gauss},
+      {"Gauss3", gauss},
+      {"Hahn1", cubic_over_cubic},
+      {"Kirby2",
+       Of<5, 0, 1, 2>([]<typename T, typename X>(const T* b, const X* x) {
+         const T t(x[0]);
+         return (b[0] + t * (b[1] + t * b[2])) /
+                (T(X(1.0)) + t * (b[3] + t * b[4]));
+       })},
+      {"Lanczos1", lanczos},
+      {"Lanczos2", lanczos},
+      {"Lanczos3", lanczos},
+      {"MGH09", Of<4, 0>([]<typename T, typename X>(const T* b, const X* x) {
+         const T t(x[0]);
+         return b[0] * (t * (t + b[1])) / (t * (t + b[2]) + b[3]);
+       })},
+      {"MGH10", Of<3, 0>([]<typename T, typename X>(const T* b, const X* x) {
+         return b[0] * exp(b[1] / (T(x[0]) + b[2]));
+       })},
+      {"MGH17",
+       Of<5, 0, 1, 2>([]<typename T, typename X>(const T* b, const X* x) {
+         const T t(x[0]);
+         return b[0] + b[1] * exp(-t * b[3]) + b[2] * exp(-t * b[4]);
+       })},
+      {"Misra1a", rise},
+      {"Misra1b", Of<2, 0>([]<typename T, typename X>(const T* b, const X* x) {
+         const T one(X(1.0));
+         const T base = one + b[1] * T(x[0] / X(2.0));
+         return b[0] * (one - one / (base * base));
+       })},
+      {"Misra1c", Of<2, 0>([]<typename T, typename X>(const T* b, const X* x) {
+         const T one(X(1.0));
+         return b[0] *
+                (one - pow(one + T(X(2.0)) * b[1] * T(x[0]), T(X(-0.5))));
+       })},
+      {"Misra1d", Of<2, 0>([]<typename T, typename X>(const T* b, const X* x) {
+         const T product = b[1] * T(x[0]);
+         return b[0] * product / (T(X(1.0)) + product);
+       })},
+      {"Nelson",
+       Of<3, 0, 1>([]<typename T, typename X>(const T* b, const X* x) {
+         return b[0] - b[1] * T(x[0]) * exp(-b[2] * T(x[1]));
+       })},
+      {"Rat42", Of<3, 0>([]<typename T, typename X>(const T* b, const X* x) {
+         return b[0] / (T(X(1.0)) + exp(b[1] - b[2] * T(x[0])));
+       })},
+      {"Rat43", Of<4, 0>([]<typename T, typename X>(const T* b, const X* x) {
+         const T one(X(1.0));
+         return b[0] / pow(one + exp(b[1] - b[2] * T(x[0])), one / b[3]);
+       })},
+      {"Roszman1",
+       Of<4, 0, 1>([]<typename T, typename X>(const T* b, const X* x) {
+         return b[0] - b[1] * T(x[0]) -
+                atan(b[2] / (T(x[0]) - b[3])) / T(Pi<X>());
+       })},
+      {"Thurber", cubic_over_cubic}};
   return kMakers;
 }
 
