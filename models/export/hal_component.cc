@@ -298,86 +298,46 @@ class HalWriter {
                : unit.symbol;
   }
 
-  std::string Component() const;
-  std::string OffsetWiring() const;
-  std::string ExternalOffsetWiring() const;
-  std::string InputWiring() const;
-  std::string StateComment() const;
-
-  const MapExport& map_;
-  const HalOptions& options_;
-  std::string name_;
-  std::vector<std::string> pins_;
-};
-
-std::string HalWriter::Component() const {
-  const MapProgram& program = map_.program;
-  std::string pins;
-  std::string readings;
-  for (std::size_t i = 0; i < pins_.size(); ++i) {
-    pins += fmt::format("pin in float {} \"{}, {}\";\n",
-                        pins_[i],
-                        CommentText(program.readings[i].column.name),
-                        CommentText(PinUnit(i)));
-    readings += fmt::format("  x[{}] = {};\n", i, Reading(i));
+  std::string Component() const {
+    const MapProgram& program = map_.program;
+    std::string pins;
+    std::string readings;
+    for (std::size_t i = 0; i < pins_.size(); ++i) {
+      pins += fmt::format("pin in float {} \"{}, {}\";\n",
+                          pins_[i],
+                          CommentText(program.readings[i].column.name),
+                          CommentText(PinUnit(i)));
+      readings += fmt::format("  x[{}] = {};\n", i, Reading(i));
+    }
+    const double scale = InMachine(1.0, program.target.unit);
+    const double count = InMachine(1e-6, data::UnitOfSymbol("mm"));
+    const std::string map_name = SafeIdentifier(map_.name, kLongestMap);
+    return fmt::format(kHalDeclarations,
+                       name_,
+                       fmt::format("Minus the error that the map {} predicts",
+                                   CommentText(program.model)),
+                       options_.unit.symbol,
+                       pins,
+                       RealText(scale * program.limits.max_error),
+                       RealText(scale * program.limits.max_rate),
+                       RealText(count),
+                       NumSaved(program),
+                       static_cast<int>(program.export_id)) +
+           CFragment(program, map_name) +
+           fmt::format(kBody,
+                       map_name,
+                       RealText(scale),
+                       std::max<std::size_t>(pins_.size(), 1),
+                       pins_.empty() ? "  x[0] = 0.0;\n" : readings,
+                       10,
+                       program.Uses(Cell::kSettling)
+                           ? "  settling_s = errmap_kept.settles_in;\n"
+                           : "");
   }
-  const double scale = InMachine(1.0, program.target.unit);
-  const double count = InMachine(1e-6, data::UnitOfSymbol("mm"));
-  const std::string map_name = SafeIdentifier(map_.name, kLongestMap);
-  return fmt::format(kHalDeclarations,
-                     name_,
-                     fmt::format("Minus the error that the map {} predicts",
-                                 CommentText(program.model)),
-                     options_.unit.symbol,
-                     pins,
-                     RealText(scale * program.limits.max_error),
-                     RealText(scale * program.limits.max_rate),
-                     RealText(count),
-                     NumSaved(program),
-                     static_cast<int>(program.export_id)) +
-         CFragment(program, map_name) +
-         fmt::format(kBody,
-                     map_name,
-                     RealText(scale),
-                     std::max<std::size_t>(pins_.size(), 1),
-                     pins_.empty() ? "  x[0] = 0.0;\n" : readings,
-                     10,
-                     program.Uses(Cell::kSettling)
-                         ? "  settling_s = errmap_kept.settles_in;\n"
-                         : "");
-}
 
-std::string HalWriter::InputWiring() const {
-  std::string text;
-  const MapProgram& program = map_.program;
-  if (PositionOf(program) >= 0) {
-    text = fmt::format("net {0}-at joint.{1}.pos-cmd => {0}.position\n",
-                       HalName(name_),
-                       options_.joint);
-  }
-  for (std::size_t i = 0; i < pins_.size(); ++i) {
-    if (pins_[i] == "position") continue;
-    text += fmt::format("# net SENSOR{0} => {1}.{2} # {3}, {4}\n",
-                        i,
-                        HalName(name_),
-                        HalName(pins_[i]),
-                        CommentText(program.readings[i].column.name),
-                        CommentText(PinUnit(i)));
-  }
-  return text;
-}
-
-std::string HalWriter::StateComment() const {
-  return fmt::format(
-      "# To go on where it was after a restart:\n"
-      "# loadusr -Wn {}-state python3 ./{}_state.py FILE\n",
-      HalName(name_),
-      name_);
-}
-
-std::string HalWriter::OffsetWiring() const {
-  std::string text = fmt::format(
-      R"(# {0}.hal: compensates joint {1} by {2}, offset = -error in {3}.
+  std::string OffsetWiring() const {
+    std::string text = fmt::format(
+        R"(# {0}.hal: compensates joint {1} by {2}, offset = -error in {3}.
 # After the machine's own HALFILE, less its nets of joint.{1}.motor-pos-cmd and
 # joint.{1}.motor-pos-fb. Between the two stands the stock component offset, so
 # that LinuxCNC sees no following error; it holds through machine off and on.
@@ -389,14 +349,14 @@ addf {2} servo-thread
 addf {2}-add.update-output servo-thread
 
 )",
-      name_,
-      options_.joint,
-      HalName(name_),
-      options_.unit.symbol,
-      static_cast<int>(map_.program.export_id));
-  return text + InputWiring() + StateComment() +
-         fmt::format(
-             R"(
+        name_,
+        options_.joint,
+        HalName(name_),
+        options_.unit.symbol,
+        static_cast<int>(map_.program.export_id));
+    return text + InputWiring() + StateComment() +
+           fmt::format(
+               R"(
 net {0}-cmd joint.{1}.motor-pos-cmd => {0}-add.in
 net {0}-by {0}.offset => {0}-add.offset
 net {0}-fb {0}-add.fb-out => joint.{1}.motor-pos-fb
@@ -404,16 +364,16 @@ net {0}-fb {0}-add.fb-out => joint.{1}.motor-pos-fb
 # comes to add.fb-in.
 net {0}-motor {0}-add.out => {0}-add.fb-in
 )",
-             HalName(name_),
-             options_.joint);
-}
+               HalName(name_),
+               options_.joint);
+  }
 
-std::string HalWriter::ExternalOffsetWiring() const {
-  constexpr const char* kAxes = "xyzabcuvw";
-  const char axis = kAxes[options_.joint];
-  const std::string hal = HalName(name_);
-  std::string text = fmt::format(
-      R"(# {0}_eoffset.hal: the same as an external offset, in place of {0}.hal.
+  std::string ExternalOffsetWiring() const {
+    constexpr const char* kAxes = "xyzabcuvw";
+    const char axis = kAxes[options_.joint];
+    const std::string hal = HalName(name_);
+    std::string text = fmt::format(
+        R"(# {0}_eoffset.hal: the same as an external offset, in place of {0}.hal.
 # The INI file needs, in [AXIS_{1}]:  OFFSET_AV_RATIO = 0.2
 # Counts are whole numbers of counts-scale, relative to the moment when the
 # machine is on and homed, and lost at machine off: {2} holds them at 0
@@ -424,13 +384,13 @@ addf {2}-ready servo-thread
 addf {2} servo-thread
 
 )",
-      name_,
-      static_cast<char>(axis - 'a' + 'A'),
-      hal,
-      static_cast<int>(map_.program.export_id));
-  return text + InputWiring() + StateComment() +
-         fmt::format(
-             R"(
+        name_,
+        static_cast<char>(axis - 'a' + 'A'),
+        hal,
+        static_cast<int>(map_.program.export_id));
+    return text + InputWiring() + StateComment() +
+           fmt::format(
+               R"(
 setp axis.{1}.eoffset-scale {2}
 setp {0}.counts-scale {2}
 net {0}-on motion.motion-enabled => {0}-ready.in0
@@ -439,10 +399,44 @@ net {0}-set {0}-ready.out => {0}.machine-on
 net {0}-enable {0}.counts-enable => axis.{1}.eoffset-enable
 net {0}-counts {0}.counts => axis.{1}.eoffset-counts
 )",
-             hal,
-             axis,
-             RealText(InMachine(1e-6, data::UnitOfSymbol("mm"))));
-}
+               hal,
+               axis,
+               RealText(InMachine(1e-6, data::UnitOfSymbol("mm"))));
+  }
+
+  std::string InputWiring() const {
+    std::string text;
+    const MapProgram& program = map_.program;
+    if (PositionOf(program) >= 0) {
+      text = fmt::format("net {0}-at joint.{1}.pos-cmd => {0}.position\n",
+                         HalName(name_),
+                         options_.joint);
+    }
+    for (std::size_t i = 0; i < pins_.size(); ++i) {
+      if (pins_[i] == "position") continue;
+      text += fmt::format("# net SENSOR{0} => {1}.{2} # {3}, {4}\n",
+                          i,
+                          HalName(name_),
+                          HalName(pins_[i]),
+                          CommentText(program.readings[i].column.name),
+                          CommentText(PinUnit(i)));
+    }
+    return text;
+  }
+
+  std::string StateComment() const {
+    return fmt::format(
+        "# To go on where it was after a restart:\n"
+        "# loadusr -Wn {}-state python3 ./{}_state.py FILE\n",
+        HalName(name_),
+        name_);
+  }
+
+  const MapExport& map_;
+  const HalOptions& options_;
+  std::string name_;
+  std::vector<std::string> pins_;
+};
 
 }  // namespace
 

@@ -77,6 +77,14 @@ std::string Language::Number(double value, bool /*single*/) const {
   return RealText(value);
 }
 
+std::string Language::List(const std::vector<double>& values,
+                           const std::string& indent,
+                           bool single) const {
+  std::vector<std::string> numbers;
+  for (const double value : values) numbers.push_back(Number(value, single));
+  return Joined(Wrapped(numbers, indent), "");
+}
+
 std::string Language::ArrayAt(Operand first, const char* index) const {
   const std::string place = Place(first);
   const std::string array = place.substr(0, place.find('['));
@@ -138,9 +146,9 @@ Lines Language::Grow(Operand to, const std::string& by, bool narrows) const {
 
 std::string Language::ValueText(const Instruction& it, bool single) const {
   const std::string to = Place(it.to);
-  std::string a = Place(it.a);
+  const std::string a = Place(it.a);
   const std::string b = Place(it.b);
-  std::string c = Number(it.c, single);
+  const std::string c = Number(it.c, single);
   switch (it.op) {
     case Op::kSet:
       return c;
@@ -163,7 +171,7 @@ std::string Language::ValueText(const Instruction& it, bool single) const {
     case Op::kAccumulate:
       return to + " + " + a + " * " + c;
     case Op::kMeanDecay:
-      return Call(Function::kMeanDecay, Place(it.a) + " / " + c, false);
+      return Call(kMeanDecayHelper, a + " / " + c);
     case Op::kGain:
       return a + " / " + c + " * " + b;
     case Op::kLag:
@@ -171,11 +179,14 @@ std::string Language::ValueText(const Instruction& it, bool single) const {
     case Op::kAddProduct:
       return a + " * " + b;
     case Op::kSine:
-      return Call(Function::kSine, a + " * " + c, single);
     case Op::kCosine:
-      return Call(Function::kCosine, a + " * " + c, single);
+      return fmt::format("{}{}({} * {})",
+                         it.op == Op::kSine ? syntax_.sine : syntax_.cosine,
+                         single ? syntax_.of_single : "",
+                         a,
+                         c);
     case Op::kSigmoid:
-      return Call(Function::kSigmoid, to, single);
+      return Call(kSigmoidHelper, to);
     case Op::kFloor:
     case Op::kCeiling:
     case Op::kAffine:

@@ -30,7 +30,18 @@ struct Syntax {
   const char* end_loop;
   const char* index;
   const char* indent;
+  const char* sine;  // functions
+  const char* cosine;
+  const char* of_single;  // end of their names in single precision
 };
+
+/// A function that an exported file defines for its own use.
+struct Helper {
+  const char* name;
+  const char* argument;  // in structured text
+};
+inline constexpr Helper kMeanDecayHelper{"mean_decay", "U"};
+inline constexpr Helper kSigmoidHelper{"sigmoid", "A"};
 
 /// Writes the instructions and routines of a program in one language. The
 /// program determines the arithmetic and its order; a language determines only
@@ -47,6 +58,10 @@ class Language {
 
   /// Returns the shortest text that reads back as the same double.
   virtual std::string Number(double value, bool single) const;
+  /// Returns the numbers with commas, in lines that each begin with `indent`.
+  std::string List(const std::vector<double>& values,
+                   const std::string& indent,
+                   bool single = false) const;
   /// Returns the language's expression for a cell's value.
   virtual std::string CellName(Cell cell) const = 0;
   /// Returns a coordinate of a form's trained state, inside the loop over them.
@@ -55,8 +70,6 @@ class Language {
   virtual std::string HasAny(int mask) const = 0;
 
  protected:
-  enum class Function { kMeanDecay, kSine, kCosine, kSigmoid };
-
   /// Returns the operand with arrays named as in C: "x[2]", "dt_s", "s[0]",
   /// "e".
   virtual std::string Place(Operand operand) const;
@@ -69,9 +82,8 @@ class Language {
   /// Assigns a value to a place (Set), or adds to it (Grow).
   virtual Lines Set(Operand to, const std::string& value, bool narrows) const;
   virtual Lines Grow(Operand to, const std::string& by, bool narrows) const;
-  virtual std::string Call(Function function,
-                           const std::string& argument,
-                           bool single) const = 0;
+  virtual std::string Call(const Helper& helper,
+                           const std::string& argument) const = 0;
   /// If `condition` holds, sets `to` to `value`, and `clipped` if `guards`.
   virtual Lines Bound(const std::string& condition,
                       const std::string& to,

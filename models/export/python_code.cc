@@ -22,7 +22,10 @@ constexpr Syntax kPython{.conjunction = "and",
                          .loop = "for i in range({0}):",
                          .end_loop = "",
                          .index = "i",
-                         .indent = "    "};
+                         .indent = "    ",
+                         .sine = "math.sin",
+                         .cosine = "math.cos",
+                         .of_single = ""};
 
 // Lists, named as in C.
 class PythonLanguage final : public Language {
@@ -68,20 +71,9 @@ class PythonLanguage final : public Language {
     return to + " = " + value;
   }
 
-  std::string Call(Function function,
-                   const std::string& argument,
-                   bool /*single*/) const override {
-    switch (function) {
-      case Function::kMeanDecay:
-        return "_mean_decay(" + argument + ")";
-      case Function::kSine:
-        return "math.sin(" + argument + ")";
-      case Function::kCosine:
-        return "math.cos(" + argument + ")";
-      case Function::kSigmoid:
-        return "_sigmoid(" + argument + ")";
-    }
-    return "";
+  std::string Call(const Helper& helper,
+                   const std::string& argument) const override {
+    return fmt::format("_{}({})", helper.name, argument);
   }
 
   Lines Affine(const Instruction& it, const MatrixXd& table) const override {
@@ -103,99 +95,6 @@ class PythonLanguage final : public Language {
             fmt::format("    {} = _sigmoid({})", to, to)};
   }
 };
-
-class PythonWriter {
- public:
-  PythonWriter(const MapProgram& program, const std::string& name)
-      : program_(program), name_(name) {}
-
-  std::string Module(const std::vector<SelfTestRow>& rows,
-                     double tolerance) const;
-
- private:
-  std::string Tables() const;
-  std::string Helpers() const;
-  std::string MapClass() const;
-  std::string SelfTest(const std::vector<SelfTestRow>& rows,
-                       double tolerance) const;
-
-  const MapProgram& program_;
-  const std::string& name_;
-  PythonLanguage language_;
-};
-
-std::string ListText(const std::vector<double>& values,
-                     const std::string& indent) {
-  std::vector<std::string> numbers;
-  for (const double value : values) numbers.push_back(RealText(value));
-  return "[\n" + Joined(Wrapped(numbers, indent + "    "), "") + indent + "]";
-}
-
-// In a self-test, which has readings that are not numbers.
-std::string NumberText(double value) {
-  if (std::isnan(value)) return "math.nan";
-  if (std::isinf(value)) return value > 0.0 ? "math.inf" : "-math.inf";
-  return RealText(value);
-}
-
-std::string PythonWriter::Tables() const {
-  std::string text;
-  for (const ReadingTable& table : kTables) {
-    if (!program_.Uses(table.cell)) continue;
-    text += fmt::format("{} = {}\n",
-                        language_.CellName(table.cell),
-                        ListText(TableValues(program_, table), ""));
-  }
-  for (std::size_t form = 0; form < program_.forms.size(); ++form) {
-    const MatrixXd& states = program_.forms[form].states;
-    if (states.size() == 0) continue;
-    text += fmt::format("_STATES{} = [\n", form);
-    for (const auto coordinate : states.colwise()) {
-      text += "    " +
-              ListText({coordinate.begin(), coordinate.end()}, "    ") + ",\n";
-    }
-    text += "]\n";
-  }
-  for (std::size_t k = 0; k < program_.tables.size(); ++k) {
-    const MatrixXd& table = program_.tables[k];
-    const Index num_inputs = table.cols() - 1;
-    const VectorXd bias = table.col(num_inputs);
-    text += fmt::format(
-        "_BIAS{} = {}\n", k, ListText({bias.begin(), bias.end()}, ""));
-    text += fmt::format("_WEIGHTS{} = [\n", k);
-    for (Index i = 0; i < num_inputs; ++i) {
-      const VectorXd weights = table.col(i);
-      text +=
-          "    " + ListText({weights.begin(), weights.end()}, "    ") + ",\n";
-    }
-    text += "]\n";
-  }
-  return text;
-}
-
-std::string PythonWriter::Helpers() const {
-  std::string text;
-  if (program_.Uses(Op::kMeanDecay)) {
-    text += fmt::format(R"(
-
-def _mean_decay(u):
-    """(1 - exp(-u)) / u; of a short step by its series."""
-    if u >= {}:
-        return (1.0 - math.exp(-u)) / u
-    return {}
-)",
-                        RealText(kMeanDecaySeriesBelow),
-                        MeanDecaySeries("u"));
-  }
-  if (program_.Uses(Op::kSigmoid)) {
-    text += R"(
-
-def _sigmoid(a):
-    return 1.0 / (1.0 + math.exp(-a)) if a > -700.0 else 0.0
-)";
-  }
-  return text;
-}
 
 constexpr const char* kClass = R"(
 
@@ -283,58 +182,158 @@ class Map:
 {move}        return self.given, status
 )";
 
-std::string PythonWriter::MapClass() const {
-  std::string kept;
-  std::string begin;
-  for (const CellInfo& cell : KeptCells(program_)) {
-    kept += fmt::format("        self.{} = {}\n",
-                        cell.name,
-                        cell.is_array
-                            ? "[0.0] * len(INPUTS)"
-                            : RealText(InitialValue(program_, cell.cell)));
-    if (IsOfSession(cell.cell)) {
-      begin += fmt::format("        self.{} = 0.0\n", cell.name);
-    }
-  }
-  if (program_.zero.empty()) kept += "        self.zero_due = 0.0\n";
-  std::string locals;
-  for (const LocalArray list : kLocalArrays) {
-    if (program_.size(list.space) == 0) continue;
-    locals += fmt::format(
-        "        {} = [0.0] * {}\n", list.name, program_.size(list.space));
-  }
-  const auto body = [&](const Routine& routine) {
-    return Joined(language_.Write(program_, routine), "        ");
-  };
-  return fmt::format(
-      kClass,
-      fmt::arg("begin", begin),
-      fmt::arg("fingerprint", RealText(Fingerprint(program_))),
-      fmt::arg("age", LongestAge(program_)),
-      fmt::arg("rate", RealText(program_.limits.max_rate)),
-      fmt::arg("forgive",
-               program_.Uses(Cell::kLeapt) ? "        self.leapt = 0.0\n" : ""),
-      fmt::arg("states", program_.size(Space::kState)),
-      fmt::arg("kept", kept),
-      fmt::arg("locals", locals),
-      fmt::arg("read", body(program_.read)),
-      fmt::arg("move", body(program_.move)));
+// In a self-test, which has readings that are not numbers.
+std::string NumberText(double value) {
+  if (std::isnan(value)) return "math.nan";
+  if (std::isinf(value)) return value > 0.0 ? "math.inf" : "-math.inf";
+  return RealText(value);
 }
 
-std::string PythonWriter::SelfTest(const std::vector<SelfTestRow>& rows,
-                                   double tolerance) const {
-  std::string text =
-      "\n\n# Seconds since the row before, error and status expected, "
-      "inputs.\n_SESSION = [\n";
-  for (const SelfTestRow& row : rows) {
-    std::vector<std::string> numbers{
-        NumberText(row.dt), RealText(row.error), fmt::format("{}", row.status)};
-    for (const double reading : row.readings) {
-      numbers.push_back(NumberText(reading));
+class PythonWriter {
+ public:
+  PythonWriter(const MapProgram& program, const std::string& name)
+      : program_(program), name_(name) {}
+
+  std::string Module(const std::vector<SelfTestRow>& rows,
+                     double tolerance) const {
+    std::string text =
+        "\"\"\"" + Joined(AboutMap(program_, name_, Precision::kDouble), "") +
+        "\"\"\"\n\nimport math\n\n";
+    text += fmt::format("EXPORT = {:.0f}  # which one this is\n\n",
+                        program_.export_id);
+    text += "# Bits of a status; 0: all is well.\n";
+    for (const StatusBit& bit : StatusBits()) {
+      text += fmt::format("{} = {}  # {}\n", bit.name, bit.bit, bit.what);
     }
-    text += "    [\n" + Joined(Wrapped(numbers, "        "), "") + "    ],\n";
+    text +=
+        fmt::format("NOT_TAKEN = {}  # those of a step that is not taken\n\n",
+                    kMapNotTaken);
+    text += "INPUTS = [\n";
+    for (const ProgramReading& reading : program_.readings) {
+      text += "    \"" + CommentText(reading.column.name) + "\",\n";
+    }
+    text += "]\n" + Tables() + Helpers() + MapClass();
+    return text + SelfTest(rows, tolerance);
   }
-  return text + fmt::format(R"(]
+
+ private:
+  std::string List(const std::vector<double>& values,
+                   const std::string& indent) const {
+    return "[\n" + language_.List(values, indent + "    ") + indent + "]";
+  }
+
+  // A list of its columns.
+  std::string List(const MatrixXd& matrix) const {
+    std::string text = "[\n";
+    for (const auto column : matrix.colwise()) {
+      text += "    " + List({column.begin(), column.end()}, "    ") + ",\n";
+    }
+    return text + "]\n";
+  }
+
+  std::string Tables() const {
+    std::string text;
+    for (const ReadingTable& table : kTables) {
+      if (!program_.Uses(table.cell)) continue;
+      text += fmt::format("{} = {}\n",
+                          language_.CellName(table.cell),
+                          List(TableValues(program_, table), ""));
+    }
+    for (std::size_t form = 0; form < program_.forms.size(); ++form) {
+      const MatrixXd& states = program_.forms[form].states;
+      if (states.size() == 0) continue;
+      text += fmt::format("_STATES{} = {}", form, List(states));
+    }
+    for (std::size_t k = 0; k < program_.tables.size(); ++k) {
+      const MatrixXd& table = program_.tables[k];
+      const Index num_inputs = table.cols() - 1;
+      const VectorXd bias = table.col(num_inputs);
+      text += fmt::format("_BIAS{0} = {1}\n_WEIGHTS{0} = {2}",
+                          k,
+                          List({bias.begin(), bias.end()}, ""),
+                          List(table.leftCols(num_inputs)));
+    }
+    return text;
+  }
+
+  std::string Helpers() const {
+    std::string text;
+    if (program_.Uses(Op::kMeanDecay)) {
+      text += fmt::format(R"(
+
+def _mean_decay(u):
+    """(1 - exp(-u)) / u; of a short step by its series."""
+    if u >= {}:
+        return (1.0 - math.exp(-u)) / u
+    return {}
+)",
+                          RealText(kMeanDecaySeriesBelow),
+                          MeanDecaySeries("u"));
+    }
+    if (program_.Uses(Op::kSigmoid)) {
+      text += R"(
+
+def _sigmoid(a):
+    return 1.0 / (1.0 + math.exp(-a)) if a > -700.0 else 0.0
+)";
+    }
+    return text;
+  }
+
+  std::string MapClass() const {
+    std::string kept;
+    std::string begin;
+    for (const CellInfo& cell : KeptCells(program_)) {
+      kept += fmt::format("        self.{} = {}\n",
+                          cell.name,
+                          cell.is_array
+                              ? "[0.0] * len(INPUTS)"
+                              : RealText(InitialValue(program_, cell.cell)));
+      if (IsOfSession(cell.cell)) {
+        begin += fmt::format("        self.{} = 0.0\n", cell.name);
+      }
+    }
+    if (program_.zero.empty()) kept += "        self.zero_due = 0.0\n";
+    std::string locals;
+    for (const LocalArray list : kLocalArrays) {
+      if (program_.size(list.space) == 0) continue;
+      locals += fmt::format(
+          "        {} = [0.0] * {}\n", list.name, program_.size(list.space));
+    }
+    const auto body = [&](const Routine& routine) {
+      return Joined(language_.Write(program_, routine), "        ");
+    };
+    return fmt::format(
+        kClass,
+        fmt::arg("begin", begin),
+        fmt::arg("fingerprint", RealText(Fingerprint(program_))),
+        fmt::arg("age", LongestAge(program_)),
+        fmt::arg("rate", RealText(program_.limits.max_rate)),
+        fmt::arg(
+            "forgive",
+            program_.Uses(Cell::kLeapt) ? "        self.leapt = 0.0\n" : ""),
+        fmt::arg("states", program_.size(Space::kState)),
+        fmt::arg("kept", kept),
+        fmt::arg("locals", locals),
+        fmt::arg("read", body(program_.read)),
+        fmt::arg("move", body(program_.move)));
+  }
+
+  std::string SelfTest(const std::vector<SelfTestRow>& rows,
+                       double tolerance) const {
+    std::string text =
+        "\n\n# Seconds since the row before, error and status expected, "
+        "inputs.\n_SESSION = [\n";
+    for (const SelfTestRow& row : rows) {
+      std::vector<std::string> numbers{NumberText(row.dt),
+                                       RealText(row.error),
+                                       fmt::format("{}", row.status)};
+      for (const double reading : row.readings) {
+        numbers.push_back(NumberText(reading));
+      }
+      text += "    [\n" + Joined(Wrapped(numbers, "        "), "") + "    ],\n";
+    }
+    return text + fmt::format(R"(]
 
 
 def _self_test():
@@ -354,30 +353,14 @@ def _self_test():
 if __name__ == "__main__":
     raise SystemExit(_self_test())
 )",
-                            RealText(tolerance),
-                            name_);
-}
+                              RealText(tolerance),
+                              name_);
+  }
 
-std::string PythonWriter::Module(const std::vector<SelfTestRow>& rows,
-                                 double tolerance) const {
-  std::string text = "\"\"\"" +
-                     Joined(AboutMap(program_, name_, Precision::kDouble), "") +
-                     "\"\"\"\n\nimport math\n\n";
-  text += fmt::format("EXPORT = {:.0f}  # which one this is\n\n",
-                      program_.export_id);
-  text += "# Bits of a status; 0: all is well.\n";
-  for (const StatusBit& bit : StatusBits()) {
-    text += fmt::format("{} = {}  # {}\n", bit.name, bit.bit, bit.what);
-  }
-  text += fmt::format("NOT_TAKEN = {}  # those of a step that is not taken\n\n",
-                      kMapNotTaken);
-  text += "INPUTS = [\n";
-  for (const ProgramReading& reading : program_.readings) {
-    text += "    \"" + CommentText(reading.column.name) + "\",\n";
-  }
-  text += "]\n" + Tables() + Helpers() + MapClass();
-  return text + SelfTest(rows, tolerance);
-}
+  const MapProgram& program_;
+  const std::string& name_;
+  PythonLanguage language_;
+};
 
 }  // namespace
 

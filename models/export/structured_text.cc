@@ -21,7 +21,10 @@ constexpr Syntax kStandard{.conjunction = "AND",
                            .loop = "FOR I := 0 TO {1} DO",
                            .end_loop = "END_FOR;",
                            .index = "I",
-                           .indent = "  "};
+                           .indent = "  ",
+                           .sine = "SIN",
+                           .cosine = "COS",
+                           .of_single = ""};
 
 // Siemens marks what is local.
 constexpr Syntax kScl = [] {
@@ -80,8 +83,9 @@ class StructuredTextLanguage final : public Language {
     return RealText(value, is_single());
   }
 
-  std::string MeanDecayName() const { return name_ + "_mean_decay"; }
-  std::string SigmoidName() const { return name_ + "_sigmoid"; }
+  std::string NameOf(const Helper& helper) const {
+    return fmt::format("{}_{}", name_, helper.name);
+  }
   bool is_single() const { return precision() == Precision::kSingle; }
 
   static std::string VariableOf(Cell cell) {
@@ -126,28 +130,14 @@ class StructuredTextLanguage final : public Language {
     return to + " := " + value + ";";
   }
 
-  std::string Call(Function function,
-                   const std::string& argument,
-                   bool /*single*/) const override {
-    switch (function) {
-      case Function::kMeanDecay:
-        return CallOf(MeanDecayName(), "U", argument);
-      case Function::kSine:
-        return "SIN(" + argument + ")";
-      case Function::kCosine:
-        return "COS(" + argument + ")";
-      case Function::kSigmoid:
-        return CallOf(SigmoidName(), "A", argument);
-    }
-    return "";
-  }
-
-  std::string CallOf(const std::string& function,
-                     const char* named,
-                     const std::string& argument) const {
+  std::string Call(const Helper& helper,
+                   const std::string& argument) const override {
     const char* quote = is_scl_ ? "\"" : "";
-    return fmt::format(
-        "{0}{1}{0}({2} := {3})", quote, function, named, argument);
+    return fmt::format("{0}{1}{0}({2} := {3})",
+                       quote,
+                       NameOf(helper),
+                       helper.argument,
+                       argument);
   }
 
   // A slow filter would stop in single precision: the part of a step below the
@@ -218,7 +208,7 @@ class StructuredTextLanguage final : public Language {
     Lines lines;
     for (int i = 0; i < it.count; ++i) {
       const std::string to = Place({it.to.space, it.to.index + i});
-      lines.push_back(Assign(to, Call(Function::kSigmoid, to, false), false));
+      lines.push_back(Assign(to, Call(kSigmoidHelper, to), false));
     }
     return lines;
   }
@@ -244,15 +234,15 @@ using Type = TextVariable::Type;
 std::vector<TextFunction> Functions(const MapProgram& program,
                                     const StructuredTextLanguage& language) {
   std::vector<TextFunction> functions;
-  const auto add = [&](const std::string& name,
-                       const char* argument,
+  const auto add = [&](const Helper& helper,
                        const char* comment,
                        const std::string& condition,
                        const std::string& value,
                        const std::string& otherwise) {
+    const std::string name = language.NameOf(helper);
     functions.push_back(
         {.name = name,
-         .argument = argument,
+         .argument = helper.argument,
          .comment = comment,
          .body = fmt::format("IF {1} THEN\n  {0} := {2};\nELSE\n"
                              "  {0} := {3};\nEND_IF;\n",
@@ -263,8 +253,7 @@ std::vector<TextFunction> Functions(const MapProgram& program,
   };
   if (program.Uses(Op::kMeanDecay)) {
     const std::string u = language.Local("U");
-    add(language.MeanDecayName(),
-        "U",
+    add(kMeanDecayHelper,
         "(1 - exp(-U)) / U; of a short step by its series, since the "
         "difference would\n   keep no digits.",
         u + " >= " + language.Number(kMeanDecaySeriesBelow),
@@ -274,8 +263,7 @@ std::vector<TextFunction> Functions(const MapProgram& program,
   if (program.Uses(Op::kSigmoid)) {
     const std::string a = language.Local("A");
     // What EXP can take.
-    add(language.SigmoidName(),
-        "A",
+    add(kSigmoidHelper,
         "",
         a + (language.is_single() ? " > -80.0" : " > -700.0"),
         fmt::format("1.0 / (1.0 + EXP(-{}))", a),
