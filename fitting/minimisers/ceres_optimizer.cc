@@ -211,10 +211,6 @@ void CeresOptions::Validate() const {
       memory >= 1, "CeresOptions: memory must be at least 1", memory);
 }
 
-CeresOptimizer::CeresOptimizer(CeresOptions options) : options_(options) {
-  options_.Validate();
-}
-
 std::string CeresOptimizer::name() const {
   return "ceres:" + std::string(ToString(options_.method));
 }

@@ -46,10 +46,10 @@ struct CeresOptions {
 ///
 /// Claims kGradient only if our own evaluation confirms it. If Ceres stops by
 /// itself, the summary says kNoDescent with Ceres' own text.
-class CeresOptimizer final : public Optimizer {
+class CeresOptimizer final : public OptimizerWith<CeresOptions> {
  public:
-  /// Throws std::invalid_argument if an option is out of range.
-  explicit CeresOptimizer(CeresOptions options);
+  explicit CeresOptimizer(CeresOptions options)
+      : OptimizerWith(std::move(options)) {}
 
   /// "ceres:lbfgs", ...
   std::string name() const override;
@@ -63,8 +63,6 @@ class CeresOptimizer final : public Optimizer {
   Minimum DoMinimize(const Objective& f,
                      const VectorXd& x0,
                      const RunControl& run) const override;
-
-  CeresOptions options_;
 };
 
 }  // namespace errmap::fitting

@@ -192,11 +192,6 @@ void ConjugateGradientOptions::Validate() const {
       sigma > 0.0, "ConjugateGradientOptions: sigma must be above 0", sigma);
 }
 
-ConjugateGradient::ConjugateGradient(ConjugateGradientOptions options)
-    : options_(options) {
-  options_.Validate();
-}
-
 Minimum ConjugateGradient::DoMinimize(const Objective& f,
                                       const VectorXd& x0,
                                       const RunControl& run) const {

@@ -25,10 +25,10 @@ struct ConjugateGradientOptions {
 /// replaces the direction. Each trial evaluates cost and gradient.
 ///
 /// Ends like kMoller of ScaledConjugateGradient.
-class ConjugateGradient final : public Optimizer {
+class ConjugateGradient final : public OptimizerWith<ConjugateGradientOptions> {
  public:
-  /// Throws std::invalid_argument if an option is out of range.
-  explicit ConjugateGradient(ConjugateGradientOptions options);
+  explicit ConjugateGradient(ConjugateGradientOptions options)
+      : OptimizerWith(std::move(options)) {}
 
   std::string name() const override { return "cg"; }
 
@@ -36,8 +36,6 @@ class ConjugateGradient final : public Optimizer {
   Minimum DoMinimize(const Objective& f,
                      const VectorXd& x0,
                      const RunControl& run) const override;
-
-  ConjugateGradientOptions options_;
 };
 
 }  // namespace errmap::fitting

@@ -1,35 +1,25 @@
 #include "fitting/minimisers/fit_summary.h"
 
+#include <array>
 #include <cmath>
 
 namespace errmap::fitting {
 
 std::string_view ToString(Termination termination) {
-  switch (termination) {
-    case Termination::kDirect:
-      return "direct";
-    case Termination::kFailed:
-      return "failed";
-    case Termination::kCostGoal:
-      return "cost_goal";
-    case Termination::kGradient:
-      return "gradient";
-    case Termination::kResolution:
-      return "cost_resolution";
-    case Termination::kSlowProgress:
-      return "slow_progress";
-    case Termination::kNoDescent:
-      return "no_descent";
-    case Termination::kIterationLimit:
-      return "iteration_limit";
-    case Termination::kEvaluationLimit:
-      return "evaluation_limit";
-    case Termination::kTimeLimit:
-      return "time_limit";
-    case Termination::kInterrupted:
-      return "interrupted";
-  }
-  return "failed";
+  // In the order of the enumeration.
+  constexpr auto kNames = std::to_array<std::string_view>({"direct",
+                                                           "failed",
+                                                           "cost_goal",
+                                                           "gradient",
+                                                           "slow_progress",
+                                                           "no_descent",
+                                                           "iteration_limit",
+                                                           "evaluation_limit",
+                                                           "time_limit",
+                                                           "interrupted",
+                                                           "cost_resolution"});
+  const auto place = static_cast<std::size_t>(termination);
+  return place < kNames.size() ? kNames[place] : "failed";
 }
 
 bool IsConverged(Termination termination) {

@@ -16,11 +16,6 @@ void GradientDescentOptions::Validate() const {
       momentum);
 }
 
-GradientDescent::GradientDescent(GradientDescentOptions options)
-    : options_(options) {
-  options_.Validate();
-}
-
 Minimum GradientDescent::DoMinimize(const Objective& f,
                                     const VectorXd& x0,
                                     const RunControl& run) const {

@@ -25,10 +25,10 @@ struct GradientDescentOptions {
 /// Ends like ScaledConjugateGradient. Ends with kNoDescent if a step makes the
 /// objective infinite or NaN, or if the gradient is small at a point that is
 /// not the best found.
-class GradientDescent final : public Optimizer {
+class GradientDescent final : public OptimizerWith<GradientDescentOptions> {
  public:
-  /// Throws std::invalid_argument if an option is out of range.
-  explicit GradientDescent(GradientDescentOptions options);
+  explicit GradientDescent(GradientDescentOptions options)
+      : OptimizerWith(std::move(options)) {}
 
   std::string name() const override { return "backprop"; }
 
@@ -36,8 +36,6 @@ class GradientDescent final : public Optimizer {
   Minimum DoMinimize(const Objective& f,
                      const VectorXd& x0,
                      const RunControl& run) const override;
-
-  GradientDescentOptions options_;
 };
 
 }  // namespace errmap::fitting

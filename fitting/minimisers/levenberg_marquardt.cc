@@ -306,11 +306,6 @@ void LevenbergMarquardtOptions::Validate() const {
   }
 }
 
-LevenbergMarquardt::LevenbergMarquardt(LevenbergMarquardtOptions options)
-    : options_(options) {
-  options_.Validate();
-}
-
 Minimum LevenbergMarquardt::DoMinimize(const Objective& f,
                                        const VectorXd& x0,
                                        const RunControl& run) const {

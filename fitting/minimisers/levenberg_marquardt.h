@@ -80,10 +80,11 @@ struct LevenbergMarquardtOptions {
 /// kNoDescent, at the last point or at x0, whichever has the lower objective.
 /// Final cost and gradient are those of the objective, evaluated again at the
 /// end.
-class LevenbergMarquardt final : public Optimizer {
+class LevenbergMarquardt final
+    : public OptimizerWith<LevenbergMarquardtOptions> {
  public:
-  /// Throws std::invalid_argument if an option is out of range.
-  explicit LevenbergMarquardt(LevenbergMarquardtOptions options);
+  explicit LevenbergMarquardt(LevenbergMarquardtOptions options)
+      : OptimizerWith(std::move(options)) {}
 
   std::string name() const override { return "lm"; }
 
@@ -92,8 +93,6 @@ class LevenbergMarquardt final : public Optimizer {
   Minimum DoMinimize(const Objective& f,
                      const VectorXd& x0,
                      const RunControl& run) const override;
-
-  LevenbergMarquardtOptions options_;
 };
 
 }  // namespace errmap::fitting

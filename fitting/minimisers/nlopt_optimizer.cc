@@ -20,24 +20,23 @@ struct DestroyNlopt {
 };
 using NloptProblem = std::unique_ptr<nlopt_opt_s, DestroyNlopt>;
 
+struct NamedAlgorithm {
+  const char* name;
+  nlopt_algorithm algorithm;
+};
+
+// In the order of NloptMethod.
+constexpr NamedAlgorithm kAlgorithms[] = {
+    {"lbfgs", NLOPT_LD_LBFGS},
+    {"tnewton_precond_restart", NLOPT_LD_TNEWTON_PRECOND_RESTART},
+    {"var2", NLOPT_LD_VAR2},
+    {"slsqp", NLOPT_LD_SLSQP},
+    {"mma", NLOPT_LD_MMA},
+    {"sbplx", NLOPT_LN_SBPLX},
+    {"crs2_lm", NLOPT_GN_CRS2_LM}};
+
 nlopt_algorithm AlgorithmOf(NloptMethod method) {
-  switch (method) {
-    case NloptMethod::kLbfgs:
-      return NLOPT_LD_LBFGS;
-    case NloptMethod::kTnewtonPrecondRestart:
-      return NLOPT_LD_TNEWTON_PRECOND_RESTART;
-    case NloptMethod::kVar2:
-      return NLOPT_LD_VAR2;
-    case NloptMethod::kSlsqp:
-      return NLOPT_LD_SLSQP;
-    case NloptMethod::kMma:
-      return NLOPT_LD_MMA;
-    case NloptMethod::kSbplx:
-      return NLOPT_LN_SBPLX;
-    case NloptMethod::kCrs2Lm:
-      return NLOPT_GN_CRS2_LM;
-  }
-  return NLOPT_LD_LBFGS;
+  return kAlgorithms[static_cast<std::size_t>(method)].algorithm;
 }
 
 bool HasDerivatives(NloptMethod method) {
@@ -127,13 +126,11 @@ std::string NloptVersion() {
 }
 
 const std::vector<std::string>& NloptMethodNames() {
-  static const std::vector<std::string> names = {"lbfgs",
-                                                 "tnewton_precond_restart",
-                                                 "var2",
-                                                 "slsqp",
-                                                 "mma",
-                                                 "sbplx",
-                                                 "crs2_lm"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const NamedAlgorithm& known : kAlgorithms) all.push_back(known.name);
+    return all;
+  }();
   return names;
 }
 
@@ -148,10 +145,6 @@ void NloptOptions::Validate() const {
   stats::Require(box > 0.0 && std::isfinite(box),
                  "NloptOptions: box must be above 0 and finite",
                  box);
-}
-
-NloptOptimizer::NloptOptimizer(NloptOptions options) : options_(options) {
-  options_.Validate();
 }
 
 std::string NloptOptimizer::name() const {

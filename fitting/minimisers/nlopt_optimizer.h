@@ -52,13 +52,13 @@ struct NloptOptions {
 /// Claims kGradient only if our own evaluation confirms it. If NLopt ends by
 /// itself (also by round-off or failure), the result is the best point found,
 /// and the summary says kNoDescent with NLopt's own text.
-class NloptOptimizer final : public Optimizer {
+class NloptOptimizer final : public OptimizerWith<NloptOptions> {
  public:
   /// Maximum number of parameters that crs2_lm searches.
   static constexpr Index kMostCrs2Parameters = 100;
 
-  /// Throws std::invalid_argument if an option is out of range.
-  explicit NloptOptimizer(NloptOptions options);
+  explicit NloptOptimizer(NloptOptions options)
+      : OptimizerWith(std::move(options)) {}
 
   /// "nlopt:lbfgs", ...
   std::string name() const override;
@@ -69,8 +69,6 @@ class NloptOptimizer final : public Optimizer {
   Minimum DoMinimize(const Objective& f,
                      const VectorXd& x0,
                      const RunControl& run) const override;
-
-  NloptOptions options_;
 };
 
 }  // namespace errmap::fitting

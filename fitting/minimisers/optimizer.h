@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "fitting/minimisers/fit_summary.h"
 #include "fitting/minimisers/objective.h"
@@ -84,6 +85,19 @@ class BasicOptimizer {
 };
 
 using Optimizer = BasicOptimizer<double>;
+
+/// A minimiser with options of its own.
+template <typename Options, typename Scalar = double>
+class OptimizerWith : public BasicOptimizer<Scalar> {
+ public:
+  /// Throws std::invalid_argument if an option is out of range.
+  explicit OptimizerWith(Options options) : options_(std::move(options)) {
+    options_.Validate();
+  }
+
+ protected:
+  Options options_;
+};
 
 extern template class BasicOptimizer<double>;
 extern template class BasicOptimizer<float>;

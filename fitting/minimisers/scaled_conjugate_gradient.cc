@@ -1,7 +1,5 @@
 #include "fitting/minimisers/scaled_conjugate_gradient.h"
 
-#include <utility>
-
 #include "fitting/minimisers/scg_moller.h"
 #include "fitting/minimisers/scg_netcg.h"
 #include "stats/require.h"
@@ -24,20 +22,13 @@ void ScaledConjugateGradientOptions::Validate() const {
 }
 
 template <typename Scalar>
-BasicScaledConjugateGradient<Scalar>::BasicScaledConjugateGradient(
-    ScaledConjugateGradientOptions options)
-    : options_(std::move(options)) {
-  options_.Validate();
-}
-
-template <typename Scalar>
 Minimum BasicScaledConjugateGradient<Scalar>::DoMinimize(
     const BasicObjective<Scalar>& f,
     const Vector& x0,
     const RunControl& run) const {
-  return options_.variant == ScgVariant::kMoller
-             ? MollerRun<Scalar>(options_, f, x0, run).Minimize()
-             : NetcgRun<Scalar>(options_, f, x0, run).Minimize();
+  return this->options_.variant == ScgVariant::kMoller
+             ? MollerRun<Scalar>(this->options_, f, x0, run).Minimize()
+             : NetcgRun<Scalar>(this->options_, f, x0, run).Minimize();
 }
 
 template class BasicScaledConjugateGradient<double>;

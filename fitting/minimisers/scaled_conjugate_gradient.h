@@ -67,22 +67,20 @@ struct ScaledConjugateGradientOptions {
 /// kResolution if the cost shows a minimum (cost_resolution.h). Else the run
 /// ends with kNoDescent.
 template <typename Scalar>
-class BasicScaledConjugateGradient final : public BasicOptimizer<Scalar> {
+class BasicScaledConjugateGradient final
+    : public OptimizerWith<ScaledConjugateGradientOptions, Scalar> {
  public:
   using Vector = VectorOf<Scalar>;
-
-  /// Throws std::invalid_argument if an option is out of range.
-  explicit BasicScaledConjugateGradient(ScaledConjugateGradientOptions options);
+  explicit BasicScaledConjugateGradient(ScaledConjugateGradientOptions options)
+      : OptimizerWith<ScaledConjugateGradientOptions, Scalar>(
+            std::move(options)) {}
 
   std::string name() const override { return "scg"; }
-  const ScaledConjugateGradientOptions& options() const { return options_; }
 
  private:
   Minimum DoMinimize(const BasicObjective<Scalar>& f,
                      const Vector& x0,
                      const RunControl& run) const override;
-
-  ScaledConjugateGradientOptions options_;
 };
 
 using ScaledConjugateGradient = BasicScaledConjugateGradient<double>;
