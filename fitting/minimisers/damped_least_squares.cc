@@ -10,10 +10,6 @@
 namespace errmap::fitting {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // Works in q = D p, on J D^-1: damping then is a multiple of the identity, and
 // columns of any size are of one.
 class ParameterSpace final : public DampedLeastSquares {

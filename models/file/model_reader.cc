@@ -158,9 +158,7 @@ void RequirePositive(const Node& node, const VectorXd& values, Index size) {
   if (!(values.array() > 0.0).all()) node.Refuse("must be above 0");
 }
 
-void RequireSquare(const Node& node,
-                   const Eigen::MatrixXd& matrix,
-                   Index size) {
+void RequireSquare(const Node& node, const MatrixXd& matrix, Index size) {
   if (matrix.rows() == size && matrix.cols() == size) return;
   node.Refuse(fmt::format("needs {0} rows of {0} numbers", size));
 }

@@ -21,10 +21,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Of the variance of the states, what the directions leave to each column by

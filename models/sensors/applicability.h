@@ -4,11 +4,10 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/map_experience.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -16,15 +15,15 @@ struct Holdout;
 
 /// Distances of thermal states (m x s) from the trained ones.
 struct StateMeasures {
-  Eigen::VectorXd distance;  // (m) to the nearest trained state, whitened
-  Eigen::VectorXd leverage;  // (m) of a linear map in the scores
+  VectorXd distance;  // (m) to the nearest trained state, whitened
+  VectorXd leverage;  // (m) of a linear map in the scores
   /// (m x s) Each column minus its value expected from the others, over the
   /// standard deviation of this difference in the factor model.
-  Eigen::MatrixXd relation;
-  Eigen::MatrixXd expected;  // (m x s) from the others, input's unit
+  MatrixXd relation;
+  MatrixXd expected;  // (m x s) from the others, input's unit
 };
 StateMeasures MeasureStates(const Applicability& trained,
-                            const Eigen::MatrixXd& states);
+                            const MatrixXd& states);
 
 /// Returns the applicability of a map fitted to these rows; empty if all its
 /// inputs are positions or there are fewer than three rows.
@@ -60,8 +59,8 @@ struct RowFlag {
 /// and `form_inputs` (m x inputs of the form, FittedModel::FormInputs). Without
 /// an applicability, only the columns' ranges count.
 std::vector<RowFlag> FlagRows(const FittedModel& fitted,
-                              const Eigen::MatrixXd& inputs,
-                              const Eigen::MatrixXd& form_inputs);
+                              const MatrixXd& inputs,
+                              const MatrixXd& form_inputs);
 
 /// Returns, for each held-out row in the order of the folds, true if it is
 /// inside its fold's training data.

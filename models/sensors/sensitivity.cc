@@ -11,10 +11,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // How a reading enters one input of the form.
 struct Path {
   std::string sensor;   // the column that it is derived from in the end

@@ -2,10 +2,9 @@
 
 #include <string>
 
-#include <Eigen/Core>
-
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 

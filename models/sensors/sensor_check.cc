@@ -16,10 +16,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 const data::ColumnInfo& ColumnOf(const FittedModel& fitted, Index state) {
   const Index input =
       fitted.applicability->columns[static_cast<std::size_t>(state)];

@@ -5,10 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -30,7 +29,7 @@ struct SensorFaultFound {
   /// For kOff: reading minus expected reading; kDead, kFrozen and kSpike: its
   /// reading (NaN: none). In the column's unit.
   double value = 0.0;
-  Eigen::Index row = -1;        // for kSpike: the first row
+  Index row = -1;               // for kSpike: the first row
   std::string looks_like = {};  // for kUnit: "K"
 };
 
@@ -42,7 +41,7 @@ struct SensorFaultFound {
 /// without the fault. If all sensors differ from training, the thermal state is
 /// new and no sensor is at fault. Rows with a spike are excluded; spikes are
 /// reported if nothing else is wrong.
-std::optional<SensorFaultFound> FindSensorFault(
-    const FittedModel& fitted, const Eigen::MatrixXd& readings);
+std::optional<SensorFaultFound> FindSensorFault(const FittedModel& fitted,
+                                                const MatrixXd& readings);
 
 }  // namespace errmap::models

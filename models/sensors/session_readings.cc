@@ -11,10 +11,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // Variances of x' (tests/benchmarks/mornings.py).
 constexpr double kShift = 25.0;   // of a column that may stand anywhere
 constexpr double kShared = 25.0;  // of columns of one unit

@@ -2,10 +2,9 @@
 
 #include <optional>
 
-#include <Eigen/Core>
-
 #include "models/error_model.h"
 #include "models/map_experience.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -25,41 +24,41 @@ class SessionLikelihood {
  public:
   /// `fitted` has applicability->sessions. `states` (n x s) has at least one
   /// row, all finite.
-  SessionLikelihood(const FittedModel& fitted, const Eigen::MatrixXd& states);
+  SessionLikelihood(const FittedModel& fitted, const MatrixXd& states);
 
   /// Returns the log of the density, up to a constant.
   double LogDensity() const;
   /// Returns the same if this column may have any offset. A column with larger
   /// scatter needs `scatter` times the offset for the same evidence.
-  double LogDensityShifted(Eigen::Index column, double scatter = 1.0) const;
+  double LogDensityShifted(Index column, double scatter = 1.0) const;
   /// Returns the same after two columns are exchanged.
-  double LogDensitySwapped(Eigen::Index i, Eigen::Index j) const;
+  double LogDensitySwapped(Index i, Index j) const;
 
   /// Returns by how much a column exceeds its estimate from the others, in its
   /// unit.
-  double Shift(Eigen::Index column) const;
+  double Shift(Index column) const;
 
  private:
   /// Likelihood of rows under one distribution.
   class Draw {
    public:
-    Draw(const Eigen::MatrixXd& rows,
-         const Eigen::VectorXd& mean,
-         const Eigen::MatrixXd& covariance,
-         Eigen::Index sessions);
+    Draw(const MatrixXd& rows,
+         const VectorXd& mean,
+         const MatrixXd& covariance,
+         Index sessions);
     double LogDensity() const { return LogDensityOf(square_); }
-    double LogDensityShifted(Eigen::Index column, double scatter) const;
-    double LogDensitySwapped(Eigen::Index i, Eigen::Index j) const;
+    double LogDensityShifted(Index column, double scatter) const;
+    double LogDensitySwapped(Index i, Index j) const;
     /// The likelihood of rows whose mean square equals its expectation.
     double LogDensityExpected() const;
-    double Shift(Eigen::Index column) const;
+    double Shift(Index column) const;
 
    private:
     double LogDensityOf(double square) const;
 
-    Eigen::MatrixXd rows_;
-    Eigen::MatrixXd precision_;
-    Eigen::MatrixXd pulled_;  // rows less the mean, times the precision
+    MatrixXd rows_;
+    MatrixXd precision_;
+    MatrixXd pulled_;  // rows less the mean, times the precision
     double square_ = 0.0;
     double log_determinant_ = 0.0;  // of the covariance
     double freedom_ = 1.0;
@@ -72,15 +71,15 @@ class SessionLikelihood {
   };
 
   SessionLikelihood(const Applicability& trained,
-                    const Eigen::MatrixXd& scaled,
-                    const Eigen::MatrixXd& any_row,
-                    const Eigen::MatrixXd& shared);
+                    const MatrixXd& scaled,
+                    const MatrixXd& any_row,
+                    const MatrixXd& shared);
   /// Combines both hypotheses from their densities.
   template <typename OfReadings, typename OfChanges>
   double Together(const OfReadings& of_readings,
                   const OfChanges& of_changes) const;
 
-  Eigen::VectorXd scale_;
+  VectorXd scale_;
   Draw any_rows_;
   std::optional<Begun> begun_;
 };

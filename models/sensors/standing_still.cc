@@ -8,10 +8,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // A pause counts as so many rows: nothing is known of what happened in it.
 constexpr double kPause = 3.0;
 

@@ -2,10 +2,9 @@
 
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "data/measurements/dataset.h"
 #include "models/map_experience.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -27,6 +26,6 @@ namespace errmap::models {
 /// 0.05 or five steps at once. On 20 simulated machines, no sensor was flagged
 /// in 288,000 healthy steps, including nights.
 StandingStill LearnStandingStill(const data::Dataset& training,
-                                 const std::vector<Eigen::Index>& columns);
+                                 const std::vector<Index>& columns);
 
 }  // namespace errmap::models

@@ -15,9 +15,6 @@
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 // How sure is sure enough (tests/benchmarks/mornings.py).
 constexpr double kSureOff = 0.9;
 constexpr double kSureHolds = 0.06;
@@ -39,7 +36,7 @@ double ShareAbove(const std::vector<double>& values, double limit) {
 }
 
 // The RMSE of each draw at these sites.
-std::vector<double> RmseOfDraws(const Eigen::MatrixXd& errors,
+std::vector<double> RmseOfDraws(const MatrixXd& errors,
                                 const std::vector<Index>& sites) {
   std::vector<double> rmse;
   for (Index draw = 0; draw < errors.rows(); ++draw) {

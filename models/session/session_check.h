@@ -4,12 +4,11 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "models/history/history.h"
 #include "models/map_experience.h"
 #include "models/sensors/sensor_check.h"
 #include "models/session/session_forecast.h"
+#include "stats/eigen.h"
 
 namespace errmap::models {
 
@@ -59,7 +58,7 @@ struct SessionCheck {
   std::optional<SensorFaultFound> sensor;
   SessionStatus status = SessionStatus::kUnknown;
   Remedy remedy = Remedy::kNone;
-  Eigen::Index probes = 0;
+  Index probes = 0;
   double promised = 0.0;       // RMSE on unseen units, target's unit
   double probe_rms = 0.0;      // likewise
   double probe_mean = 0.0;     // likewise

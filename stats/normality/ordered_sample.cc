@@ -42,7 +42,6 @@ std::string OrderedSample::WhyNotWith(Index least) const {
 }
 
 std::optional<double> FindStep(const Eigen::Ref<const VectorXd>& ascending) {
-  using Eigen::Index;
   const double least =
       kFinestStep / std::sqrt(static_cast<double>(ascending.size()));
   // Standardising leaves 1e-10 if the mean is a million standard deviations.
