@@ -74,10 +74,10 @@ double RegressionObjective::Evaluate(const VectorXd& b,
                                      VectorXd* gradient) const {
   VectorXd residuals;
   if (gradient == nullptr) {
-    function_.Evaluate(b, &residuals, nullptr);
+    Evaluate(b, &residuals, nullptr);
   } else {
     MatrixXd jacobian;
-    function_.Evaluate(b, &residuals, &jacobian);
+    Evaluate(b, &residuals, &jacobian);
     *gradient = jacobian.transpose() * residuals;
   }
   return 0.5 * residuals.squaredNorm();

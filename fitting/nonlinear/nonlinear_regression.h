@@ -107,24 +107,26 @@ class FormulaRegression final : public RegressionFunction {
 
 /// f(b) = 1/2 |r(b)|^2 as an Objective for optimizers. `function` must outlive
 /// it.
-class RegressionObjective final : public Objective, private ResidualFunction {
+class RegressionObjective : public Objective, protected ResidualFunction {
  public:
   explicit RegressionObjective(const RegressionFunction& function)
       : function_(function) {}
 
   Index num_parameters() const override { return function_.num_parameters(); }
-  double Evaluate(const VectorXd& b, VectorXd* gradient) const override;
-  const ResidualFunction* residuals() const override { return this; }
+  double Evaluate(const VectorXd& b, VectorXd* gradient) const final;
+  const ResidualFunction* residuals() const final { return this; }
 
- private:
-  Index num_residuals() const override { return function_.num_observations(); }
-  double ridge() const override { return 0.0; }
+ protected:
+  const RegressionFunction& function() const { return function_; }
+  Index num_residuals() const final { return function_.num_observations(); }
+  double ridge() const final { return 0.0; }
   void Evaluate(const VectorXd& b,
                 VectorXd* residuals,
                 MatrixXd* jacobian) const override {
     function_.Evaluate(b, residuals, jacobian);
   }
 
+ private:
   const RegressionFunction& function_;
 };
 

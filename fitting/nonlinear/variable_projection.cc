@@ -9,7 +9,7 @@
 namespace errmap::fitting {
 
 ProjectedObjective::ProjectedObjective(const RegressionFunction& function)
-    : function_(function), linear_(function.linear_parameters()) {
+    : RegressionObjective(function), linear_(function.linear_parameters()) {
   for (Index j = 0; j < function.num_parameters(); ++j) {
     if (std::find(linear_.begin(), linear_.end(), j) == linear_.end()) {
       others_.push_back(j);
@@ -23,18 +23,12 @@ ProjectedObjective::ProjectedObjective(const RegressionFunction& function)
   }
 }
 
-Index ProjectedObjective::num_parameters() const { return std::ssize(others_); }
-
-VectorXd ProjectedObjective::Reduce(const VectorXd& b) const {
-  return b(others_);
-}
-
 VectorXd ProjectedObjective::Complete(const VectorXd& a) const {
-  VectorXd b = VectorXd::Zero(function_.num_parameters());
+  VectorXd b = VectorXd::Zero(function().num_parameters());
   b(others_) = a;
   VectorXd residuals;
   MatrixXd jacobian;
-  function_.Evaluate(b, &residuals, &jacobian);
+  function().Evaluate(b, &residuals, &jacobian);
   const MatrixXd columns = jacobian(Eigen::all, linear_);
   if (!columns.allFinite() || !residuals.allFinite()) {
     b.setConstant(stats::kNaN);
@@ -49,26 +43,13 @@ void ProjectedObjective::Evaluate(const VectorXd& a,
                                   VectorXd* residuals,
                                   MatrixXd* jacobian) const {
   MatrixXd full;
-  function_.Evaluate(Complete(a), residuals, &full);
+  function().Evaluate(Complete(a), residuals, &full);
   if (jacobian == nullptr) return;
   *jacobian = full(Eigen::all, others_);
   const MatrixXd columns = full(Eigen::all, linear_);
   if (!jacobian->allFinite() || !columns.allFinite()) return;
   const MatrixXd basis = OrthonormalColumns(columns);
   *jacobian -= basis * (basis.transpose() * *jacobian);
-}
-
-double ProjectedObjective::Evaluate(const VectorXd& a,
-                                    VectorXd* gradient) const {
-  VectorXd residuals;
-  if (gradient == nullptr) {
-    Evaluate(a, &residuals, nullptr);
-  } else {
-    MatrixXd jacobian;
-    Evaluate(a, &residuals, &jacobian);
-    *gradient = jacobian.transpose() * residuals;
-  }
-  return 0.5 * residuals.squaredNorm();
 }
 
 }  // namespace errmap::fitting

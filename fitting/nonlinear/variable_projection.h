@@ -16,28 +16,24 @@ namespace errmap::fitting {
 /// (BIT 15, 1975): that of r in a, projected onto the complement of the columns
 /// of c. Its J'r is the exact gradient. The initial guess of c does not matter.
 /// `function` must outlive it.
-class ProjectedObjective final : public Objective, private ResidualFunction {
+class ProjectedObjective final : public RegressionObjective {
  public:
   /// Throws std::invalid_argument unless `function` has linear and other
   /// parameters.
   explicit ProjectedObjective(const RegressionFunction& function);
 
-  Index num_parameters() const override;
-  double Evaluate(const VectorXd& a, VectorXd* gradient) const override;
-  const ResidualFunction* residuals() const override { return this; }
+  using RegressionObjective::Evaluate;
+  Index num_parameters() const override { return std::ssize(others_); }
 
   /// Reduce returns the parameters a of b (p); Complete adds the best c to a.
-  VectorXd Reduce(const VectorXd& b) const;
+  VectorXd Reduce(const VectorXd& b) const { return b(others_); }
   VectorXd Complete(const VectorXd& a) const;
 
  private:
-  Index num_residuals() const override { return function_.num_observations(); }
-  double ridge() const override { return 0.0; }
   void Evaluate(const VectorXd& a,
                 VectorXd* residuals,
                 MatrixXd* jacobian) const override;
 
-  const RegressionFunction& function_;
   std::vector<Index> linear_;
   std::vector<Index> others_;
 };
