@@ -275,6 +275,12 @@ Option<Options> Within(const Option<Part>& part, At at) {
   return option;
 }
 
+template <typename Options, typename Part>
+Option<Options> Within(const Option<Part>& part, Part Options::*member) {
+  return Within<Options>(
+      part, [member](auto& options) { return &(options.*member); });
+}
+
 template <typename Options, typename Part, typename At>
 void AddWithin(const OptionList<Part>& parts, At at, OptionList<Options>* all) {
   for (const Option<Part>& part : parts) {

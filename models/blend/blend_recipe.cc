@@ -347,14 +347,13 @@ class BlendRecipe final : public ModelRecipe {
 };
 
 OptionList<BlendOptions> List() {
-  OptionList<BlendOptions> list;
-  list.push_back(OptionFor("net",
-                           "net:scg:view=auto among the members",
-                           &BlendOptions::net,
-                           OneOf<bool>{{{"no", false}, {"yes", true}}})
-                     .Always());
-  AddWithin(
-      BasisOptionList(), [](auto& options) { return &options.bases; }, &list);
+  OptionList<BlendOptions> list = {
+      OptionFor("net",
+                "net:scg:view=auto among the members",
+                &BlendOptions::net,
+                OneOf<bool>{{{"no", false}, {"yes", true}}})
+          .Always()};
+  AddWithin(BasisOptionList(), &BlendOptions::bases, &list);
   return list;
 }
 

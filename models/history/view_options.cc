@@ -52,30 +52,30 @@ struct TimeConstants {
 };
 
 OptionList<ViewOptions> List() {
-  OptionList<ViewOptions> list;
-  list.push_back(OptionFor("view",
-                           "the form in which it sees its inputs",
-                           &ViewOptions::view,
-                           AutoOrEnum<View>(ViewWords()))
-                     .Always());
-  list.push_back(OptionFor("history",
-                           "filters of its inputs, in the unit of time",
-                           &ViewOptions::time_constants,
-                           TimeConstants()));
-  list.push_back(OptionFor("zero",
-                           "minus the values at the start of a session",
-                           &ViewOptions::zero,
-                           OneOf<bool>{{{"session", true}, {"none", false}}}));
-  list.push_back(OptionFor("intercept",
-                           "an error where a session begins",
-                           &ViewOptions::intercept,
-                           OneOf<bool>{{{"yes", true}, {"no", false}}}));
-  list.push_back(OptionFor(
-      "angles",
-      "sine and cosine in place of angles",
-      &ViewOptions::sine_and_cosine,
-      OneOf<std::optional<bool>>{
-          {{"auto", std::nullopt}, {"sincos", true}, {"none", false}}}));
+  OptionList<ViewOptions> list = {
+      OptionFor("view",
+                "the form in which it sees its inputs",
+                &ViewOptions::view,
+                AutoOrEnum<View>(ViewWords()))
+          .Always(),
+      OptionFor("history",
+                "filters of its inputs, in the unit of time",
+                &ViewOptions::time_constants,
+                TimeConstants()),
+      OptionFor("zero",
+                "minus the values at the start of a session",
+                &ViewOptions::zero,
+                OneOf<bool>{{{"session", true}, {"none", false}}}),
+      OptionFor("intercept",
+                "an error where a session begins",
+                &ViewOptions::intercept,
+                OneOf<bool>{{{"yes", true}, {"no", false}}}),
+      OptionFor(
+          "angles",
+          "sine and cosine in place of angles",
+          &ViewOptions::sine_and_cosine,
+          OneOf<std::optional<bool>>{
+              {{"auto", std::nullopt}, {"sincos", true}, {"none", false}}})};
   return list;
 }
 

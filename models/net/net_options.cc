@@ -74,108 +74,102 @@ OptionList<NetOptions> CommonList() {
   const auto several = [](const Options& options) {
     return *options.starts > 1;
   };
-  OptionList<Options> list;
-  list.push_back(
+  OptionList<Options> list = {
       OptionFor("hidden",
                 "hidden nodes",
                 &Options::hidden,
                 WordOr<GivenOrByCv<std::int64_t>, IntegerRange>{
                     "cv", kByCrossValidation, IntegerRange{1, kMostNodes}})
-          .Always());
-  list.push_back(OptionFor("wfactor",
-                           "weight decay",
-                           &Options::wfactor,
-                           WordOr<GivenOrByCv<double>, Number>{
-                               "cv", kByCrossValidation, kWfactors})
-                     .Always());
-  list.push_back(OptionFor("decay",
-                           "what it shrinks to 0: biases too, or not",
-                           &Options::decay,
-                           EnumWords<Decay>({"all", "weights"}))
-                     .When([](const Options& options) {
-                       return options.decay == Decay::kWeights;
-                     }));
-  list.push_back(OptionFor("discrepancy",
-                           "the RMS residual that finds the wfactor",
-                           &Options::discrepancy,
-                           kDeltas));
-  list.push_back(
+          .Always(),
+      OptionFor("wfactor",
+                "weight decay",
+                &Options::wfactor,
+                WordOr<GivenOrByCv<double>, Number>{
+                    "cv", kByCrossValidation, kWfactors})
+          .Always(),
+      OptionFor("decay",
+                "what it shrinks to 0: biases too, or not",
+                &Options::decay,
+                EnumWords<Decay>({"all", "weights"}))
+          .When([](const Options& options) {
+            return options.decay == Decay::kWeights;
+          }),
+      OptionFor("discrepancy",
+                "the RMS residual that finds the wfactor",
+                &Options::discrepancy,
+                kDeltas),
       OptionFor("path",
                 "down to its wfactor from strong ones",
                 &Options::path,
                 OneOf<std::optional<bool>>{
                     {{"auto", std::nullopt}, {"yes", true}, {"no", false}}})
-          .When([](const Options& options) { return *options.path; }));
-  list.push_back(OptionFor("iterations",
-                           "the most steps",
-                           &Options::iterations,
-                           IntegerRange{1, kMostSteps})
-                     .Always());
-  list.push_back(OptionFor("egoal",
-                           "ends at a root-mean-square error below it",
-                           &Options::egoal,
-                           kGoals)
-                     .Always());
-  list.push_back(
+          .When([](const Options& options) { return *options.path; }),
+      OptionFor("iterations",
+                "the most steps",
+                &Options::iterations,
+                IntegerRange{1, kMostSteps})
+          .Always(),
+      OptionFor("egoal",
+                "ends at a root-mean-square error below it",
+                &Options::egoal,
+                kGoals)
+          .Always(),
       OptionFor("gwgoal",
                 "ends at a gradient below it, relative to the weights",
                 &Options::gwgoal,
                 kGoals)
-          .Always());
-  list.push_back(
+          .Always(),
       OptionFor("scale",
                 "of the inputs",
                 &Options::scale,
                 EnumWords<InputScaling>({"standard", "range", "none"}))
-          .Always());
-  list.push_back(OptionFor("output",
-                           "of the net: bounded, or not",
-                           &Options::output,
-                           EnumWords<OutputFunction>({"sigmoid", "linear"}))
-                     .Always());
-  list.push_back(
-      OptionFor("slope", "of the sigmoid", &Options::slope, kSlopes).Always());
-  list.push_back(OptionFor("evaluations",
-                           "the most evaluations",
-                           &Options::evaluations,
-                           IntegerRange{1, kNoLimit}));
-  list.push_back(OptionFor("errdel",
-                           "ends where the error stays above this share of it",
-                           &Options::errdel,
-                           kRatios));
-  list.push_back(OptionFor("nfreq",
-                           "steps between looks at errdel",
-                           &Options::nfreq,
-                           IntegerRange{1, kMostSteps})
-                     .When([](const Options& options) {
-                       return options.errdel.has_value();
-                     }));
-  list.push_back(OptionFor(
-      "seconds", "the most time of a fit", &Options::seconds, kSeconds));
-  list.push_back(OptionFor("starts",
-                           "starts of which one is taken",
-                           &Options::starts,
-                           IntegerRange{1, kMostStarts})
-                     .When(several));
-  list.push_back(OptionFor("choose",
-                           "which start: of lowest cost, by inner hold-outs",
-                           &Options::choose,
-                           EnumWords<StartRule>({"cost", "cv"}))
-                     .When(several));
-  list.push_back(
+          .Always(),
+      OptionFor("output",
+                "of the net: bounded, or not",
+                &Options::output,
+                EnumWords<OutputFunction>({"sigmoid", "linear"}))
+          .Always(),
+      OptionFor("slope", "of the sigmoid", &Options::slope, kSlopes).Always(),
+      OptionFor("evaluations",
+                "the most evaluations",
+                &Options::evaluations,
+                IntegerRange{1, kNoLimit}),
+      OptionFor("errdel",
+                "ends where the error stays above this share of it",
+                &Options::errdel,
+                kRatios),
+      OptionFor("nfreq",
+                "steps between looks at errdel",
+                &Options::nfreq,
+                IntegerRange{1, kMostSteps})
+          .When([](const Options& options) {
+            return options.errdel.has_value();
+          }),
+      OptionFor(
+          "seconds", "the most time of a fit", &Options::seconds, kSeconds),
+      OptionFor("starts",
+                "starts of which one is taken",
+                &Options::starts,
+                IntegerRange{1, kMostStarts})
+          .When(several),
+      OptionFor("choose",
+                "which start: of lowest cost, by inner hold-outs",
+                &Options::choose,
+                EnumWords<StartRule>({"cost", "cv"}))
+          .When(several),
       OptionFor("members",
                 "starts that are averaged",
                 &Options::members,
                 IntegerRange{1, kMostMembers})
-          .When([](const Options& options) { return *options.members > 1; }));
-  list.push_back(OptionFor(
-      "rows",
-      "the most rows to train on",
-      &Options::rows,
-      WordOr<std::int64_t, IntegerRange>{
-          "all", NetOptions::kAllRows, IntegerRange{kFewestRows, kNoLimit}}));
-  const auto view = [](auto& options) { return &options.view; };
-  AddWithin(ViewOptionList(), view, &list);
+          .When([](const Options& options) { return *options.members > 1; }),
+      OptionFor("rows",
+                "the most rows to train on",
+                &Options::rows,
+                WordOr<std::int64_t, IntegerRange>{
+                    "all",
+                    NetOptions::kAllRows,
+                    IntegerRange{kFewestRows, kNoLimit}})};
+  AddWithin(ViewOptionList(), &Options::view, &list);
   list.push_back(ClipOption<Options>());
   return list;
 }

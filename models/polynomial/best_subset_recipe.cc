@@ -136,33 +136,32 @@ class BestSubsetRecipe final : public PolynomialRecipe {
 OptionList<BestSubsetOptions> BestSubsetList() {
   using Options = BestSubsetOptions;
   constexpr std::int64_t kMostRepetitions = 1'000'000;
-  OptionList<Options> list;
-  list.push_back(OptionFor("criterion",
-                           "what the best subset is judged by",
-                           &Options::criterion,
-                           OneOf<Criterion>{{{"aic", Criterion::kAic},
-                                             {"aicc", Criterion::kAicc},
-                                             {"bic", Criterion::kBic},
-                                             {"adjr2", Criterion::kAdjustedR2},
-                                             {"cp", Criterion::kCp}}})
-                     .Always());
-  list.push_back(OptionFor("max_terms",
-                           "the most terms",
-                           &Options::max_terms,
-                           IntegerRange{0, kMostSubsetTerms}));
-  list.push_back(OptionFor("sigma2",
-                           "variance of the error, for cp",
-                           &Options::sigma2,
-                           Number{std::numeric_limits<double>::min(),
-                                  std::numeric_limits<double>::max()})
-                     .Never());
-  list.push_back(OptionFor("bootstrap",
-                           "repetitions that show how stable each term is",
-                           &Options::bootstrap,
-                           IntegerRange{0, kMostRepetitions})
-                     .Never());
-  AddWithin(
-      TermOptionList(), [](auto& options) { return &options.terms; }, &list);
+  OptionList<Options> list = {
+      OptionFor("criterion",
+                "what the best subset is judged by",
+                &Options::criterion,
+                OneOf<Criterion>{{{"aic", Criterion::kAic},
+                                  {"aicc", Criterion::kAicc},
+                                  {"bic", Criterion::kBic},
+                                  {"adjr2", Criterion::kAdjustedR2},
+                                  {"cp", Criterion::kCp}}})
+          .Always(),
+      OptionFor("max_terms",
+                "the most terms",
+                &Options::max_terms,
+                IntegerRange{0, kMostSubsetTerms}),
+      OptionFor("sigma2",
+                "variance of the error, for cp",
+                &Options::sigma2,
+                Number{std::numeric_limits<double>::min(),
+                       std::numeric_limits<double>::max()})
+          .Never(),
+      OptionFor("bootstrap",
+                "repetitions that show how stable each term is",
+                &Options::bootstrap,
+                IntegerRange{0, kMostRepetitions})
+          .Never()};
+  AddWithin(TermOptionList(), &Options::terms, &list);
   list.push_back(ClipOption<Options>());
   return list;
 }

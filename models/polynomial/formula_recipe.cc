@@ -92,23 +92,22 @@ std::string FormulaContradiction(const FormulaOptions& options) {
 }
 
 OptionList<FormulaOptions> FormulaList() {
-  OptionList<FormulaOptions> list;
-  list.push_back(OptionFor("formula",
-                           "its terms, such as x+x^2+x*t",
-                           &FormulaOptions::formula,
-                           Words()));
-  list.push_back(OptionFor("centred",
-                           "inputs moved where that leaves the maps the same",
-                           &FormulaOptions::centring,
-                           OneOf<Centring>{{{"harmless", Centring::kHarmless},
-                                            {"no", Centring::kNone}}})
-                     .Never());
-  list.push_back(OptionFor("intercept",
-                           "a constant besides the terms",
-                           &FormulaOptions::intercept,
-                           OneOf<bool>{{{"yes", true}, {"no", false}}}));
-  AddWithin(
-      ViewOptionList(), [](auto& options) { return &options.view; }, &list);
+  OptionList<FormulaOptions> list = {
+      OptionFor("formula",
+                "its terms, such as x+x^2+x*t",
+                &FormulaOptions::formula,
+                Words()),
+      OptionFor("centred",
+                "inputs moved where that leaves the maps the same",
+                &FormulaOptions::centring,
+                OneOf<Centring>{{{"harmless", Centring::kHarmless},
+                                 {"no", Centring::kNone}}})
+          .Never(),
+      OptionFor("intercept",
+                "a constant besides the terms",
+                &FormulaOptions::intercept,
+                OneOf<bool>{{{"yes", true}, {"no", false}}})};
+  AddWithin(ViewOptionList(), &FormulaOptions::view, &list);
   std::erase_if(list, [seen = false](const auto& option) mutable {
     return option.name == "intercept" && std::exchange(seen, true);
   });

@@ -176,33 +176,29 @@ class BasisJudge {
 
 OptionList<BasisOptions> BasisOptionList() {
   OptionList<BasisOptions> list;
-  const auto view = [](auto& options) { return &options.view; };
-  AddWithin(ViewOptionList(), view, &list);
-  list.push_back(OptionFor("terms",
-                           "the products that it has",
-                           &BasisOptions::terms,
-                           AutoOrEnum<TermSet>(TermSetWords()))
-                     .When([](const BasisOptions& options) {
-                       return options.terms || options.view;
-                     }));
-  list.push_back(Within<BasisOptions>(
-      DegreeOption(), [](auto& options) { return &options.degree; }));
-  list.push_back(
-      OptionFor("centred",
-                "products of standardised, centred or raw inputs",
-                &BasisOptions::centring,
-                OneOf<Centring>{{{"standard", Centring::kStandardised},
-                                 {"yes", Centring::kAll},
-                                 {"no", Centring::kNone}}}));
-  list.push_back(
-      Within<BasisOptions>(TermsOption("exclude", "terms that are never in"),
-                           [](auto& options) { return &options.exclude; }));
-  list.push_back(ClipOption<BasisOptions>());
-  list.push_back(OptionFor<BasisOptions>(
-      "between",
-      "weight of what differs between sessions",
-      [](auto& options) { return &options.between; },
-      Number{0.0001, 1.0}));
+  AddWithin(ViewOptionList(), &BasisOptions::view, &list);
+  list.insert(list.end(),
+              {OptionFor("terms",
+                         "the products that it has",
+                         &BasisOptions::terms,
+                         AutoOrEnum<TermSet>(TermSetWords()))
+                   .When([](const BasisOptions& options) {
+                     return options.terms || options.view;
+                   }),
+               Within(DegreeOption(), &BasisOptions::degree),
+               OptionFor("centred",
+                         "products of standardised, centred or raw inputs",
+                         &BasisOptions::centring,
+                         OneOf<Centring>{{{"standard", Centring::kStandardised},
+                                          {"yes", Centring::kAll},
+                                          {"no", Centring::kNone}}}),
+               Within(TermsOption("exclude", "terms that are never in"),
+                      &BasisOptions::exclude),
+               ClipOption<BasisOptions>(),
+               OptionFor("between",
+                         "weight of what differs between sessions",
+                         &BasisOptions::between,
+                         Number{0.0001, 1.0})});
   return list;
 }
 

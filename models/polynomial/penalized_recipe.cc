@@ -160,13 +160,12 @@ std::string PenalizedContradiction(const PenalizedOptions& options) {
 
 OptionList<PenalizedOptions> PenalizedList() {
   using Options = PenalizedOptions;
-  OptionList<Options> list;
-  list.push_back(OptionFor<Options>(
-      "penalty",
-      "its strength; without it by inner hold-outs",
-      [](auto& options) { return &options.penalty.strength; },
-      Number{0.0, std::numeric_limits<double>::max()}));
-  list.push_back(
+  OptionList<Options> list = {
+      OptionFor<Options>(
+          "penalty",
+          "its strength; without it by inner hold-outs",
+          [](auto& options) { return &options.penalty.strength; },
+          Number{0.0, std::numeric_limits<double>::max()}),
       OptionFor<Options>(
           "rule",
           "the penalty of lowest error, or the strongest near it",
@@ -174,9 +173,8 @@ OptionList<PenalizedOptions> PenalizedList() {
           OneOf<bool>{{{"min", false}, {"1se", true}}})
           .When([](const Options& options) {
             return !options.penalty.strength;
-          }));
-  AddWithin(
-      BasisOptionList(), [](auto& options) { return &options.basis; }, &list);
+          })};
+  AddWithin(BasisOptionList(), &Options::basis, &list);
   return list;
 }
 

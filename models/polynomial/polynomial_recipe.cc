@@ -257,12 +257,11 @@ template <>
 const std::vector<ListedModel<FullOptions>>& ListedModels() {
   constexpr std::int64_t kMostDegree = 12;
   const auto list = [] {
-    OptionList<FullOptions> options;
-    options.push_back(OptionFor("degree",
-                                "the highest power of a term",
-                                &FullOptions::degree,
-                                IntegerRange{1, kMostDegree})
-                          .Always());
+    OptionList<FullOptions> options = {OptionFor("degree",
+                                                 "the highest power of a term",
+                                                 &FullOptions::degree,
+                                                 IntegerRange{1, kMostDegree})
+                                           .Always()};
     options.front().always_in_spec = true;
     options.push_back(ClipOption<FullOptions>());
     return options;

@@ -381,47 +381,47 @@ OptionList<StepwiseOptions> StepwiseList() {
   constexpr std::int64_t kMost = 1'000'000;
   const std::vector<std::string>& all = fitting::CriterionWords();
   const auto criteria = EnumWords<Criterion>({all.begin(), all.end() - 1});
-  OptionList<Options> list;
-  list.push_back(
+  OptionList<Options> list = {
       OptionFor("criterion",
                 "what select, stop and choose go by",
                 &Options::criterion,
                 criteria)
-          .When([](const Options& options) { return !options.select; }));
-  list.push_back(OptionFor(
-      "select", "what the next term is judged by", &Options::select, criteria));
-  list.push_back(OptionFor("stop",
-                           "what ends the moves",
-                           &Options::stop,
-                           EnumWords<Criterion>(all)));
-  list.push_back(OptionFor("choose",
-                           "what chooses among the models passed through",
-                           &Options::choose,
-                           criteria));
-  list.push_back(OptionFor("direction",
-                           "how terms come and go",
-                           &Options::direction,
-                           EnumWords<fitting::Direction>(Directions()))
-                     .Always());
-  list.push_back(OptionFor("heredity",
-                           "products need their parts: one, or all",
-                           &Options::heredity,
-                           EnumWords<fitting::Heredity>(Heredities())));
-  list.push_back(OptionFor("enter",
-                           "the largest p of a term that enters",
-                           &Options::enter,
-                           Number{0.0, 1.0}));
-  list.push_back(OptionFor("remove",
-                           "the largest p of a term that stays",
-                           &Options::remove,
-                           Number{0.0, 1.0}));
-  list.push_back(
+          .When([](const Options& options) { return !options.select; }),
+      OptionFor("select",
+                "what the next term is judged by",
+                &Options::select,
+                criteria),
+      OptionFor("stop",
+                "what ends the moves",
+                &Options::stop,
+                EnumWords<Criterion>(all)),
+      OptionFor("choose",
+                "what chooses among the models passed through",
+                &Options::choose,
+                criteria),
+      OptionFor("direction",
+                "how terms come and go",
+                &Options::direction,
+                EnumWords<fitting::Direction>(Directions()))
+          .Always(),
+      OptionFor("heredity",
+                "products need their parts: one, or all",
+                &Options::heredity,
+                EnumWords<fitting::Heredity>(Heredities())),
+      OptionFor("enter",
+                "the largest p of a term that enters",
+                &Options::enter,
+                Number{0.0, 1.0}),
+      OptionFor("remove",
+                "the largest p of a term that stays",
+                &Options::remove,
+                Number{0.0, 1.0}),
       OptionFor("max_terms",
                 "the most terms",
                 &Options::max_terms,
                 WordOr<std::int64_t, IntegerRange>{
                     "none", Options::kNoLimit, IntegerRange{0, kMost}})
-          .Always());
+          .Always()};
   list.back().write = [write = list.back().write](const Options& options) {
     return options.max_terms ? write(options)
                              : OptionText(std::string("rows/5"));
@@ -435,10 +435,8 @@ OptionList<StepwiseOptions> StepwiseList() {
                            &Options::bootstrap,
                            IntegerRange{0, kMost})
                      .Never());
-  AddWithin(
-      TermOptionList(), [](auto& options) { return &options.terms; }, &list);
-  const auto view = [](auto& options) { return &options.view; };
-  AddWithin(ViewOptionList(), view, &list);
+  AddWithin(TermOptionList(), &Options::terms, &list);
+  AddWithin(ViewOptionList(), &Options::view, &list);
   list.push_back(ClipOption<Options>());
   return list;
 }

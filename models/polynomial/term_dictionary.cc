@@ -113,25 +113,20 @@ Option<std::vector<NamedTerm>> TermsOption(const std::string& name,
 }
 
 OptionList<TermOptions> TermOptionList() {
-  OptionList<TermOptions> list;
-  list.push_back(OptionFor("terms",
-                           "the products to choose from",
-                           &TermOptions::set,
-                           EnumWords<TermSet>(TermSetWords())));
-  list.push_back(Within<TermOptions>(
-      DegreeOption(), [](auto& options) { return &options.degree; }));
-  list.push_back(OptionFor(
-      "centred",
-      "products of inputs about the middle of their range",
-      &TermOptions::centring,
-      OneOf<Centring>{{{"yes", Centring::kAll}, {"no", Centring::kNone}}}));
-  list.push_back(
-      Within<TermOptions>(TermsOption("include", "terms that are always in"),
-                          [](auto& options) { return &options.include; }));
-  list.push_back(
-      Within<TermOptions>(TermsOption("exclude", "terms that are never in"),
-                          [](auto& options) { return &options.exclude; }));
-  return list;
+  return {OptionFor("terms",
+                    "the products to choose from",
+                    &TermOptions::set,
+                    EnumWords<TermSet>(TermSetWords())),
+          Within(DegreeOption(), &TermOptions::degree),
+          OptionFor("centred",
+                    "products of inputs about the middle of their range",
+                    &TermOptions::centring,
+                    OneOf<Centring>{
+                        {{"yes", Centring::kAll}, {"no", Centring::kNone}}}),
+          Within(TermsOption("include", "terms that are always in"),
+                 &TermOptions::include),
+          Within(TermsOption("exclude", "terms that are never in"),
+                 &TermOptions::exclude)};
 }
 
 TermDictionary::TermDictionary(const Dataset& training,
