@@ -1,5 +1,9 @@
 #include "models/export/text_block.h"
 
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "models/export/program/safe_names.h"
@@ -12,14 +16,8 @@ using Type = TextVariable::Type;
 using Kind = TextSection::Kind;
 
 std::string_view TypeName(Type type, Precision precision) {
-  switch (type) {
-    case Type::kBool:
-      return "BOOL";
-    case Type::kInt:
-      return "INT";
-    case Type::kReal:
-      break;
-  }
+  if (type == Type::kBool) return "BOOL";
+  if (type == Type::kInt) return "INT";
   return precision == Precision::kSingle ? "REAL" : "LREAL";
 }
 
@@ -77,25 +75,14 @@ class TextWriter {
   }
 
   std::string Section(const TextSection& section) const {
-    std::string text = Keyword(section.kind);
+    static constexpr const char* kKeywords[] = {
+        "VAR_INPUT", "VAR_OUTPUT", "VAR", "VAR RETAIN"};
+    std::string text = kKeywords[static_cast<std::size_t>(section.kind)];
+    text += '\n';
     for (const TextVariable& variable : section.variables) {
       text += Variable(variable);
     }
     return text + "END_VAR\n";
-  }
-
-  static const char* Keyword(Kind kind) {
-    switch (kind) {
-      case Kind::kInput:
-        return "VAR_INPUT\n";
-      case Kind::kOutput:
-        return "VAR_OUTPUT\n";
-      case Kind::kLocal:
-        return "VAR\n";
-      case Kind::kRetained:
-        break;
-    }
-    return "VAR RETAIN\n";
   }
 
   std::string Variable(const TextVariable& variable) const {
@@ -122,24 +109,14 @@ class TextWriter {
 
 // Of an attribute or an element.
 std::string XmlText(std::string_view text) {
+  static constexpr std::pair<char, const char*> kEntities[] = {
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
   std::string escaped;
   for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
+    const auto* entity =
+        std::ranges::find(kEntities, c, &std::pair<char, const char*>::first);
+    escaped +=
+        entity == std::end(kEntities) ? std::string(1, c) : entity->second;
   }
   return escaped;
 }
@@ -252,15 +229,11 @@ class XmlWriter {
 ExportedFile TextFile(const TextBlock& block,
                       const std::string& name,
                       TextForm form) {
-  switch (form) {
-    case TextForm::kPlcOpen:
-      return {name + ".xml", XmlWriter(block).Write()};
-    case TextForm::kScl:
-      return {name + ".scl", TextWriter(block, form).Write()};
-    case TextForm::kStandard:
-      break;
+  if (form == TextForm::kPlcOpen) {
+    return {name + ".xml", XmlWriter(block).Write()};
   }
-  return {name + ".st", TextWriter(block, form).Write()};
+  return {name + (form == TextForm::kScl ? ".scl" : ".st"),
+          TextWriter(block, form).Write()};
 }
 
 }  // namespace errmap::models
