@@ -23,19 +23,14 @@ constexpr Index kPracticalTerms = 40;
 constexpr Index kMostSubsetTerms = 48;
 
 // The best of all subsets.
-class BestSubsetRecipe final : public PolynomialRecipe {
+class BestSubsetRecipe final : public PolynomialRecipeWith<BestSubsetOptions> {
  public:
   BestSubsetRecipe(const BestSubsetOptions& options, std::string name)
-      : PolynomialRecipe(CheckedName(options, std::move(name)), options.clip),
-        options_(options),
+      : PolynomialRecipeWith(options, std::move(name), options.clip),
         terms_(options.terms) {
     rules_.criterion = options.criterion;
     if (options.max_terms) rules_.max_terms = *options.max_terms;
     if (options.sigma2) rules_.sigma2 = *options.sigma2;
-  }
-
-  std::vector<EffectiveOption> options() const override {
-    return InEffect(options_);
   }
 
   FittedModel Fit(const Dataset& training,
@@ -128,7 +123,6 @@ class BestSubsetRecipe final : public PolynomialRecipe {
         report);
   }
 
-  BestSubsetOptions options_;
   TermOptions terms_;
   fitting::BestSubsetOptions rules_;
 };

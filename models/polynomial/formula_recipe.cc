@@ -16,11 +16,10 @@ namespace {
 using data::Dataset;
 // The terms as written: products of the inputs as they are, centred only if
 // that leaves the set of maps the same.
-class FormulaRecipe final : public PolynomialRecipe {
+class FormulaRecipe final : public PolynomialRecipeWith<FormulaOptions> {
  public:
   FormulaRecipe(const FormulaOptions& options, std::string name)
-      : PolynomialRecipe(CheckedName(options, std::move(name)), options.clip),
-        options_(options),
+      : PolynomialRecipeWith(options, std::move(name), options.clip),
         terms_(ParseTerms(options.formula, "formula")),
         form_{.centring = options.centring, .intercept = options.intercept} {
     // Moving an input needs the intercept to take up what it leaves.
@@ -28,10 +27,6 @@ class FormulaRecipe final : public PolynomialRecipe {
     if (!form_.intercept && !options_.view) {
       options_.view = ViewOptions{.view = View::kRaw};
     }
-  }
-
-  std::vector<EffectiveOption> options() const override {
-    return InEffect(options_);
   }
 
   std::optional<std::string> WhatIsMissing(
@@ -73,7 +68,6 @@ class FormulaRecipe final : public PolynomialRecipe {
     return FitTerms(training, used.inputs, used.terms, context, form_);
   }
 
-  FormulaOptions options_;
   std::vector<NamedTerm> terms_;
   FormOptions form_;
 };

@@ -29,16 +29,10 @@ GroupDeal DealFor(const BasisOptions& basis) {
 }
 
 // All terms of a basis, their coefficients shrunk.
-class PenalizedRecipe final : public PolynomialRecipe {
+class PenalizedRecipe final : public PolynomialRecipeWith<PenalizedOptions> {
  public:
   PenalizedRecipe(const PenalizedOptions& options, std::string name)
-      : PolynomialRecipe(CheckedName(options, std::move(name)),
-                         options.basis.clip),
-        options_(options) {}
-
-  std::vector<EffectiveOption> options() const override {
-    return InEffect(options_);
-  }
+      : PolynomialRecipeWith(options, std::move(name), options.basis.clip) {}
 
   std::optional<std::string> WhatIsMissing(
       const Dataset& dataset) const override {
@@ -143,8 +137,6 @@ class PenalizedRecipe final : public PolynomialRecipe {
     });
     fitted->regression = std::move(report);
   }
-
-  PenalizedOptions options_;
 };
 
 std::string PenalizedContradiction(const PenalizedOptions& options) {

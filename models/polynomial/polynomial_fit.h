@@ -5,6 +5,7 @@
 
 #include "fitting/least_squares/regression_diagnostics.h"
 #include "models/error_model.h"
+#include "models/option_list.h"
 #include "models/polynomial/polynomial_design.h"
 #include "models/regression_record.h"
 
@@ -45,6 +46,21 @@ class PolynomialRecipe : public ModelRecipe {
  private:
   std::string name_;
   bool guarded_;
+};
+
+/// Base of those with options.
+template <typename Options>
+class PolynomialRecipeWith : public PolynomialRecipe {
+ public:
+  PolynomialRecipeWith(const Options& options, std::string name, bool guarded)
+      : PolynomialRecipe(CheckedName(options, std::move(name)), guarded),
+        options_(options) {}
+  std::vector<EffectiveOption> options() const final {
+    return InEffect(options_);
+  }
+
+ protected:
+  Options options_;  // those in effect
 };
 
 /// Returns the `chosen` terms of a design, over only the inputs that they

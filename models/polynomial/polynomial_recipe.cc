@@ -84,17 +84,13 @@ const TermsOfForm& FormOf(PositionTemperatureForm form) {
   return Forms()[static_cast<std::size_t>(form)];
 }
 
-class PositionTemperatureRecipe final : public PolynomialRecipe {
+class PositionTemperatureRecipe final
+    : public PolynomialRecipeWith<PositionTemperatureOptions> {
  public:
   PositionTemperatureRecipe(const PositionTemperatureOptions& options,
                             std::string name)
-      : PolynomialRecipe(CheckedName(options, std::move(name)), options.clip),
-        options_(options),
+      : PolynomialRecipeWith(options, std::move(name), options.clip),
         form_(FormOf(options.form)) {}
-
-  std::vector<EffectiveOption> options() const override {
-    return InEffect(options_);
-  }
 
   std::optional<std::string> WhatIsMissing(
       const Dataset& dataset) const override {
@@ -164,20 +160,14 @@ class PositionTemperatureRecipe final : public PolynomialRecipe {
     return candidates;
   }
 
-  PositionTemperatureOptions options_;
   const TermsOfForm& form_;
 };
 
 // All terms up to a degree.
-class FullRecipe final : public PolynomialRecipe {
+class FullRecipe final : public PolynomialRecipeWith<FullOptions> {
  public:
   FullRecipe(const FullOptions& options, std::string name)
-      : PolynomialRecipe(CheckedName(options, std::move(name)), options.clip),
-        options_(options) {}
-
-  std::vector<EffectiveOption> options() const override {
-    return InEffect(options_);
-  }
+      : PolynomialRecipeWith(options, std::move(name), options.clip) {}
 
   std::optional<Index> NumCoefficients(const Dataset& dataset) const override {
     const auto terms = CountTerms(dataset.num_inputs(), options_.degree);
@@ -201,9 +191,6 @@ class FullRecipe final : public PolynomialRecipe {
                     AllTerms(training.num_inputs(), options_.degree),
                     context);
   }
-
- private:
-  FullOptions options_;
 };
 
 }  // namespace

@@ -81,17 +81,13 @@ StepwiseOptions Resolved(StepwiseOptions options) {
 }
 
 // Terms chosen one by one.
-class StepwiseRecipe final : public PolynomialRecipe {
+class StepwiseRecipe final : public PolynomialRecipeWith<StepwiseOptions> {
  public:
   StepwiseRecipe(const StepwiseOptions& options, std::string name)
-      : PolynomialRecipe(CheckedName(options, std::move(name)), options.clip),
-        options_(Resolved(options)),
+      : PolynomialRecipeWith(options, std::move(name), options.clip),
         rules_(RulesOf(options)) {
+    options_ = Resolved(options);
     rules_.Validate();
-  }
-
-  std::vector<EffectiveOption> options() const override {
-    return InEffect(options_);
   }
 
   FittedModel Fit(const Dataset& training,
@@ -344,7 +340,6 @@ class StepwiseRecipe final : public PolynomialRecipe {
                             : "a larger one lets it continue"));
   }
 
-  StepwiseOptions options_;  // those in effect
   fitting::StepwiseOptions rules_;
 };
 
