@@ -72,18 +72,14 @@ void AddCertifyCommand(CLI::App* app, Run* run) {
       run,
       "certify",
       "Test solvers and statistics on problems with known answers");
-  AddOption(command,
-            "PART",
-            command->part,
-            "nist: NIST's reference data sets; gradients: derivatives "
-            "against extrapolated differences; agreement: every solver "
-            "on one net")
+  AddOption(command, "PART", command->part)
+      .About(
+          "nist: NIST's reference data sets; gradients: derivatives against "
+          "extrapolated differences; agreement: every solver on one net")
       .OneOf({"nist", "gradients", "agreement", "all"})
       .ShowDefault();
-  AddFlag(command,
-          "--details",
-          command->details,
-          "Print every run of every solver, with its message");
+  AddFlag(command, "--details", command->details)
+      .About("Print every run of every solver, with its message");
   AddFormatOption(command, &command->format);
   SetFooter(command,
             "Exit status: 0 all are accurate enough, 4 one is not.\n"

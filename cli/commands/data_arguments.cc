@@ -57,49 +57,47 @@ std::string FlagOf(std::string_view key) {
 void FlagAdder::operator()(const study_setup::StudyOption& option,
                            std::string& text) const {
   if (option.check == nullptr) {
-    AddOption(command_, FlagOf(option.key), text, option.help);
+    AddOption(command_, FlagOf(option.key), text).About(option.help);
   } else {
-    AddOption(
-        command_,
-        FlagOf(option.key),
-        [&text, flag = FlagOf(option.key), check = option.check](
-            const std::string& given) {
-          data::ThrowingAs<UsageError>(flag + " ", [&] { check(given); });
-          text = given;
-        },
-        option.help);
+    AddOption(command_,
+              FlagOf(option.key),
+              [&text, flag = FlagOf(option.key), check = option.check](
+                  const std::string& given) {
+                data::ThrowingAs<UsageError>(flag + " ", [&] { check(given); });
+                text = given;
+              })
+        .About(option.help);
   }
   Finish(option);
 }
 
 void FlagAdder::operator()(const study_setup::StudyOption& option,
                            std::vector<std::string>& names) const {
-  AddOption(
-      command_,
-      FlagOf(option.key),
-      [&names, flag = FlagOf(option.key)](const std::string& list) {
-        names = SplitNames(flag, list);
-      },
-      option.help);
+  AddOption(command_,
+            FlagOf(option.key),
+            [&names, flag = FlagOf(option.key)](const std::string& list) {
+              names = SplitNames(flag, list);
+            })
+      .About(option.help);
   Finish(option);
 }
 
 void FlagAdder::operator()(const study_setup::StudyOption& option,
                            bool& flag) const {
-  AddFlag(command_, FlagOf(option.key), flag, option.help);
+  AddFlag(command_, FlagOf(option.key), flag).About(option.help);
   Finish(option);
 }
 
 void FlagAdder::operator()(const study_setup::StudyOption& option,
                            study_setup::GivenError& error) const {
-  AddOption(
-      command_,
-      FlagOf(option.key),
-      [&error, flag = FlagOf(option.key), may_be_zero = option.may_be_zero](
-          const std::string& text) {
-        error = ErrorOfFlag(flag.c_str(), text, may_be_zero);
-      },
-      option.help);
+  AddOption(command_,
+            FlagOf(option.key),
+            [&error,
+             flag = FlagOf(option.key),
+             may_be_zero = option.may_be_zero](const std::string& text) {
+              error = ErrorOfFlag(flag.c_str(), text, may_be_zero);
+            })
+      .About(option.help);
   Finish(option);
 }
 
@@ -111,29 +109,26 @@ void FlagAdder::Finish(const study_setup::StudyOption& option) const {
 }
 
 void AddDataArguments(CLI::App* command, DataArguments* arguments) {
-  AddOption(command,
-            "DATA FILE.csv",
-            arguments->files,
-            "CSV file, one row per reading; several files, or a folder, are "
-            "days of one component")
+  AddOption(command, "DATA FILE.csv", arguments->files)
+      .About(
+          "CSV file, one row per reading; several files, or a folder, are days "
+          "of one component")
       .Required();
   // Before the others, which overrule it.
-  AddOption(
-      command,
-      "--reading READING.json",
-      [arguments](const std::string& path) {
-        TakeReading(path, &arguments->selection);
-      },
-      "Read the columns as `errmap read --format json` wrote them, unless "
-      "another option differs")
+  AddOption(command,
+            "--reading READING.json",
+            [arguments](const std::string& path) {
+              TakeReading(path, &arguments->selection);
+            })
+      .About(
+          "Read the columns as `errmap read --format json` wrote them, unless "
+          "another option differs")
       .Under(kDataOptions)
       .Seldom();
   study_setup::ForSelectionOptions(arguments->selection,
                                    FlagAdder(command, kDataOptions));
-  AddFlag(command,
-          "--quiet",
-          arguments->quiet,
-          "No remarks and no progress on stderr")
+  AddFlag(command, "--quiet", arguments->quiet)
+      .About("No remarks and no progress on stderr")
       .Under(kOutputOptions);
 }
 
@@ -163,49 +158,38 @@ void AddRowOptions(CLI::App* command,
 
 void AddMapDataArguments(CLI::App* command,
                          models::MapDataArguments* arguments) {
-  AddOption(command,
-            "--after EARLIER.csv",
-            arguments->after,
-            "Earlier readings, for the filters of a map with a memory");
-  AddOption(
-      command,
-      "--time COL",
-      arguments->time,
-      "Column of times or dates (default: that of the map,\nelse the only "
-      "time* or zeit*)");
-  AddOption(command,
-            "--session COL",
-            arguments->session,
-            "Column of sessions (default: that of the map)\nA session is an "
-            "uninterrupted run");
+  AddOption(command, "--after EARLIER.csv", arguments->after)
+      .About("Earlier readings, for the filters of a map with a memory");
+  AddOption(command, "--time COL", arguments->time)
+      .About(
+          "Column of times or dates (default: that of the map,\nelse the only "
+          "time* or zeit*)");
+  AddOption(command, "--session COL", arguments->session)
+      .About(
+          "Column of sessions (default: that of the map)\nA session is an "
+          "uninterrupted run");
 }
 
 void AddJoinedLogArguments(CLI::App* command,
                            models::MapDataArguments* arguments) {
-  AddOption(command,
-            "--with LOG.csv",
-            arguments->with,
-            "Log of more columns, joined by time");
-  AddOption(command,
-            "--clock-offset D",
-            arguments->clock_offset,
-            "How far that log's clock is ahead: 3s, -2min");
+  AddOption(command, "--with LOG.csv", arguments->with)
+      .About("Log of more columns, joined by time");
+  AddOption(command, "--clock-offset D", arguments->clock_offset)
+      .About("How far that log's clock is ahead: 3s, -2min");
 }
 
 void AddTargetOfMap(CLI::App* command, models::MapDataArguments* arguments) {
-  AddOption(command,
-            "--target COL",
-            arguments->target,
-            "Column of the measured errors (default: that of the map)\n"
-            "--target=-COL for corrections");
+  AddOption(command, "--target COL", arguments->target)
+      .About(
+          "Column of the measured errors (default: that of the "
+          "map)\n--target=-COL for corrections");
 }
 
 void AddFromRest(CLI::App* command, models::MapDataArguments* arguments) {
-  AddFlag(command,
-          "--from-rest",
-          arguments->from_rest,
-          "The machine was at rest before the first row of each session, "
-          "even if its thermometers or clock suggest otherwise");
+  AddFlag(command, "--from-rest", arguments->from_rest)
+      .About(
+          "The machine was at rest before the first row of each session, even "
+          "if its thermometers or clock suggest otherwise");
 }
 
 data::PreparedDataset ReadData(const DataArguments& arguments) {
@@ -268,36 +252,32 @@ std::function<void(const std::string&)> Sayer(bool quiet) {
 }
 
 void AddKeepPathsFlag(CLI::App* command) {
-  AddFlag(
-      command,
-      "--keep-paths",
-      [] { data::KeepPaths(); },
-      "Write absolute paths, not just file names, into reports, maps and "
-      "journals")
+  AddFlag(command, "--keep-paths", [] { data::KeepPaths(); })
+      .About(
+          "Write absolute paths, not just file names, into reports, maps and "
+          "journals")
       .Under(kOutputOptions)
       .Seldom();
 }
 
 void AddCacheFlag(CLI::App* command, std::string* cache) {
   *cache = models::DefaultCacheFolder();
-  AddFlag(
-      command,
-      "--no-cache",
-      [cache] { cache->clear(); },
-      "Repeat every fit\nOtherwise fits of earlier runs on the same data come "
-      "from ~/.cache/errmap, which may be removed at any time")
+  AddFlag(command, "--no-cache", [cache] { cache->clear(); })
+      .About(
+          "Repeat every fit\nOtherwise fits of earlier runs on the same data "
+          "come from ~/.cache/errmap, which may be removed at any time")
       .Seldom();
 }
 
 void AddQuietFlag(CLI::App* command, bool* quiet) {
-  AddFlag(command, "--quiet", *quiet, "No remarks on stderr")
+  AddFlag(command, "--quiet", *quiet)
+      .About("No remarks on stderr")
       .Under(kOutputOptions);
 }
 
 void AddForceFlag(CLI::App* command, bool* force) {
-  AddFlag(command,
-          "--force",
-          *force,
+  AddFlag(command, "--force", *force)
+      .About(
           "Also replace files in the folder that errmap did not write, or that "
           "were changed since; never an input")
       .Under(kOutputOptions)
@@ -308,7 +288,8 @@ void AddSeedOption(CLI::App* command,
                    std::uint64_t* seed,
                    const std::string& what) {
   // CLI11 would take -1 and 2^64 for the largest number there is.
-  AddOption(command, "--seed N", *seed, what)
+  AddOption(command, "--seed N", *seed)
+      .About(what)
       .ShowDefault()
       .Check([](const std::string& text) {
         std::uint64_t number = 0;

@@ -11,7 +11,8 @@ void AddFormats(CLI::App* command,
                 const std::string& words,
                 const std::vector<std::string>& formats,
                 std::string* format) {
-  AddOption(command, "--format", *format, words)
+  AddOption(command, "--format", *format)
+      .About(words)
       .OneOf(formats)
       .ShowDefault()
       .Under(kOutputOptions);

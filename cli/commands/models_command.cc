@@ -63,10 +63,8 @@ int RunModels(const ModelsArguments& arguments) {
 void AddModelsCommand(CLI::App* app, Run* run) {
   const Command<ModelsArguments> command(
       app, run, "models", "List the models, or a model's options");
-  AddOption(command,
-            "MODEL",
-            command->model,
-            "Show the options of this model with their ranges")
+  AddOption(command, "MODEL", command->model)
+      .About("Show the options of this model with their ranges")
       .Value("");
   SetFooter(command, "Example: errmap models net:scg");
   command.Runs(RunModels);

@@ -298,26 +298,21 @@ int RunResiduals(const ResidualsArguments& arguments,
 }
 
 void AddColumnOptions(CLI::App* command, ResidualsArguments* arguments) {
-  AddOption(command, "--column COL", arguments->column, "The column")
+  AddOption(command, "--column COL", arguments->column)
+      .About("The column")
       .Required();
-  AddOption(command,
-            "--order COL",
-            arguments->order,
-            "Column with the order of measurement (default: the order of the "
-            "rows)");
-  AddOption(command,
-            "--group COL",
-            arguments->group,
-            "Warm-up cycles, days or segments (default: cycle)");
-  AddOption(command,
-            "--position COL",
-            arguments->position,
-            "Look for bias along this column (default: the first position*)");
-  AddOption(command,
-            "--fitted COL",
-            arguments->fitted,
-            "Test whether the spread changes with this column (default: the "
-            "first predicted*)");
+  AddOption(command, "--order COL", arguments->order)
+      .About(
+          "Column with the order of measurement (default: the order of the "
+          "rows)");
+  AddOption(command, "--group COL", arguments->group)
+      .About("Warm-up cycles, days or segments (default: cycle)");
+  AddOption(command, "--position COL", arguments->position)
+      .About("Look for bias along this column (default: the first position*)");
+  AddOption(command, "--fitted COL", arguments->fitted)
+      .About(
+          "Test whether the spread changes with this column (default: the "
+          "first predicted*)");
 }
 
 }  // namespace
@@ -328,19 +323,17 @@ void AddResidualsCommand(CLI::App* app, Run* run) {
       run,
       "residuals",
       "Statistics of a column of residuals, or of any numbers");
-  AddOption(command, "FILE FILE.csv", command->file, "CSV file").Required();
+  AddOption(command, "FILE FILE.csv", command->file)
+      .About("CSV file")
+      .Required();
   AddColumnOptions(command, &*command);
-  AddOption(command,
-            "--monte-carlo N",
-            command->monte_carlo,
-            "Simulate p with this many normal samples; 0 for none")
+  AddOption(command, "--monte-carlo N", command->monte_carlo)
+      .About("Simulate p with this many normal samples; 0 for none")
       .Range(0LL, 10'000'000LL)
       .ShowDefault();
   AddSeedOption(command, &command->seed, "Seed of the simulation");
-  AddOption(command,
-            "--bins N",
-            command->bins,
-            "Bins of the histogram (0: by Freedman and Diaconis)")
+  AddOption(command, "--bins N", command->bins)
+      .About("Bins of the histogram (0: by Freedman and Diaconis)")
       .Range(0LL, 10'000LL)
       .ShowDefault();
   AddChoice(
@@ -349,15 +342,11 @@ void AddResidualsCommand(CLI::App* app, Run* run) {
       "What to do about empty, NA and NaN cells: error or drop-rows",
       std::vector{data::MissingPolicy::kError, data::MissingPolicy::kDropRows},
       &command->missing);
-  AddFlag(command,
-          "--details",
-          command->details,
-          "Also print bias per group and position, histogram, PPCC curve")
+  AddFlag(command, "--details", command->details)
+      .About("Also print bias per group and position, histogram, PPCC curve")
       .Under(kOutputOptions);
-  AddFlag(command,
-          "--as-printed-1995",
-          command->as_printed_1995,
-          "Also the statistics that the program of NISTIR 5367 prints")
+  AddFlag(command, "--as-printed-1995", command->as_printed_1995)
+      .About("Also the statistics that the program of NISTIR 5367 prints")
       .Under(kOutputOptions);
   AddFormatOption(command, &command->format);
   SetFooter(command,

@@ -26,6 +26,11 @@ Option WithValue(CLI::Option* option, const std::string& usage) {
 
 }  // namespace
 
+const Option& Option::About(const std::string& text) const {
+  option_->description(text);
+  return *this;
+}
+
 const Option& Option::Required(bool required) const {
   option_->required(required);
   return *this;
@@ -93,11 +98,6 @@ const Option& Option::Under(std::string_view heading) const {
   return *this;
 }
 
-const Option& Option::About(const std::string& text) const {
-  option_->description(text);
-  return *this;
-}
-
 CLI::App* AddSubcommand(CLI::App* app,
                         const std::string& name,
                         const std::string& about) {
@@ -109,16 +109,12 @@ void OnRun(CLI::App* command, std::function<void()> act) {
 }
 
 template <typename T>
-Option AddOption(CLI::App* command,
-                 const std::string& usage,
-                 T& value,
-                 const std::string& about) {
-  return WithValue(command->add_option(NamesOf(usage), value, about), usage);
+Option AddOption(CLI::App* command, const std::string& usage, T& value) {
+  return WithValue(command->add_option(NamesOf(usage), value), usage);
 }
 
-#define ERRMAP_OPTION(...)   \
-  template Option AddOption( \
-      CLI::App*, const std::string&, __VA_ARGS__&, const std::string&)
+#define ERRMAP_OPTION(...) \
+  template Option AddOption(CLI::App*, const std::string&, __VA_ARGS__&)
 ERRMAP_OPTION(int);
 ERRMAP_OPTION(long);
 ERRMAP_OPTION(long long);
@@ -134,33 +130,25 @@ ERRMAP_OPTION(std::vector<std::string>);
 
 Option AddOption(CLI::App* command,
                  const std::string& usage,
-                 const std::function<void(const std::string&)>& take,
-                 const std::string& about) {
-  return WithValue(command->add_option_function(NamesOf(usage), take, about),
-                   usage);
+                 const std::function<void(const std::string&)>& take) {
+  return WithValue(command->add_option_function(NamesOf(usage), take), usage);
 }
 
 Option AddOption(
     CLI::App* command,
     const std::string& usage,
-    const std::function<void(const std::vector<std::string>&)>& take,
-    const std::string& about) {
-  return WithValue(command->add_option_function(NamesOf(usage), take, about),
-                   usage);
+    const std::function<void(const std::vector<std::string>&)>& take) {
+  return WithValue(command->add_option_function(NamesOf(usage), take), usage);
+}
+
+Option AddFlag(CLI::App* command, const std::string& name, bool& value) {
+  return Option(command->add_flag(name, value));
 }
 
 Option AddFlag(CLI::App* command,
                const std::string& name,
-               bool& value,
-               const std::string& about) {
-  return Option(command->add_flag(name, value, about));
-}
-
-Option AddFlag(CLI::App* command,
-               const std::string& name,
-               std::function<void()> act,
-               const std::string& about) {
-  return Option(command->add_flag_callback(name, std::move(act), about));
+               std::function<void()> act) {
+  return Option(command->add_flag_callback(name, std::move(act)));
 }
 
 Option FindOption(CLI::App* command, const std::string& name) {

@@ -70,6 +70,8 @@ class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
 
+  /// Explains it in help: a sentence, and further lines for help --all.
+  const Option& About(const std::string& text) const;
   const Option& Required(bool required = true) const;
   /// Sets the placeholder of its value in help: "FILE.csv".
   const Option& Value(const std::string& name) const;
@@ -94,7 +96,6 @@ class Option {
   const Option& Seldom() const;
   /// Shows it under this heading.
   const Option& Under(std::string_view heading) const;
-  const Option& About(const std::string& text) const;
 
  private:
   CLI::Option* option_;
@@ -105,19 +106,14 @@ class Option {
 /// double, std::string, an optional of these two, or a vector of int, long or
 /// std::string. The value must outlive the parse.
 template <typename T>
+Option AddOption(CLI::App* command, const std::string& usage, T& value);
 Option AddOption(CLI::App* command,
                  const std::string& usage,
-                 T& value,
-                 const std::string& about);
-Option AddOption(CLI::App* command,
-                 const std::string& usage,
-                 const std::function<void(const std::string&)>& take,
-                 const std::string& about);
+                 const std::function<void(const std::string&)>& take);
 Option AddOption(
     CLI::App* command,
     const std::string& usage,
-    const std::function<void(const std::vector<std::string>&)>& take,
-    const std::string& about);
+    const std::function<void(const std::vector<std::string>&)>& take);
 
 /// Adds an option with one word for each value, as ToString names it.
 template <typename Value>
@@ -132,19 +128,16 @@ void AddChoice(CLI::App* command,
       [words, values, chosen](const std::string& word) {
         *chosen = values[std::ranges::find(words, word) - words.begin()];
       };
-  AddOption(command, name, take, about)
+  AddOption(command, name, take)
+      .About(about)
       .OneOf(words)
       .Default(std::string(ToString(*chosen)));
 }
 
+Option AddFlag(CLI::App* command, const std::string& name, bool& value);
 Option AddFlag(CLI::App* command,
                const std::string& name,
-               bool& value,
-               const std::string& about);
-Option AddFlag(CLI::App* command,
-               const std::string& name,
-               std::function<void()> act,
-               const std::string& about);
+               std::function<void()> act);
 
 /// Returns an existing option.
 Option FindOption(CLI::App* command, const std::string& name);

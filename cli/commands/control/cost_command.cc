@@ -131,10 +131,8 @@ void AddCostCommand(CLI::App* app, Run* run) {
       "cost",
       "Report a map's operations, memory and time on a controller");
   AddModelArgument(command, &command->model);
-  AddFlag(command,
-          "--float",
-          command->single,
-          "Use single precision except for the state");
+  AddFlag(command, "--float", command->single)
+      .About("Use single precision except for the state");
   AddEveryOption(command, &command->every);
   AddFormatOption(command, &command->format);
   SetFooter(

@@ -301,55 +301,38 @@ int RunExport(const ExportArguments& arguments) {
 }
 
 void AddTableOptions(CLI::App* command, TableArguments* tables) {
-  AddOption(command,
-            "--increasing FILE.json",
-            tables->increasing,
-            "Map of motion towards increasing positions, in place of "
-            "MODEL\n(on some slides that is the reverse)");
-  AddOption(command,
-            "--decreasing FILE.json",
-            tables->decreasing,
-            "Map of motion towards decreasing positions; one exported "
-            "file has both");
-  AddOption(command,
-            "--at NAME=VALUE,...",
-            tables->at,
-            "Tables: thermal state (default: the trained means)");
-  AddOption(command,
-            "--log FILE.csv",
-            tables->log,
-            "Tables: thermal state at the end of this session");
-  AddOption(command,
-            "--row",
-            tables->row,
-            "Row of --log to use, from 0 (default: the last)")
+  AddOption(command, "--increasing FILE.json", tables->increasing)
+      .About(
+          "Map of motion towards increasing positions, in place of MODEL\n(on "
+          "some slides that is the reverse)");
+  AddOption(command, "--decreasing FILE.json", tables->decreasing)
+      .About(
+          "Map of motion towards decreasing positions; one exported file has "
+          "both");
+  AddOption(command, "--at NAME=VALUE,...", tables->at)
+      .About("Tables: thermal state (default: the trained means)");
+  AddOption(command, "--log FILE.csv", tables->log)
+      .About("Tables: thermal state at the end of this session");
+  AddOption(command, "--row", tables->row)
+      .About("Row of --log to use, from 0 (default: the last)")
       .NotNegative();
-  AddOption(command,
-            "--resolution",
-            tables->resolution,
-            "--linuxcnc: round errors to this (machine unit)")
+  AddOption(command, "--resolution", tables->resolution)
+      .About("--linuxcnc: round errors to this (machine unit)")
       .Positive();
-  AddOption(command,
-            "--units",
-            tables->units,
-            "--hal, --linuxcnc: the machine's unit of length")
+  AddOption(command, "--units", tables->units)
+      .About("--hal, --linuxcnc: the machine's unit of length")
       .OneOf({"mm", "in"})
       .ShowDefault();
-  AddOption(command,
-            "--points",
-            tables->points,
-            "--linuxcnc: largest number of points")
+  AddOption(command, "--points", tables->points)
+      .About("--linuxcnc: largest number of points")
       .Range(2, models::kMostCompPoints)
       .ShowDefault();
-  AddOption(command,
-            "--over NAME",
-            tables->over,
-            "--table: the input across the columns (default: the only "
-            "one beside the position)");
-  AddOption(command,
-            "--grid ROWSxCOLUMNS",
-            tables->grid,
-            "--table: positions and columns")
+  AddOption(command, "--over NAME", tables->over)
+      .About(
+          "--table: the input across the columns (default: the only one beside "
+          "the position)");
+  AddOption(command, "--grid ROWSxCOLUMNS", tables->grid)
+      .About("--table: positions and columns")
       .ShowDefault();
 }
 
@@ -358,16 +341,15 @@ void AddTableOptions(CLI::App* command, TableArguments* tables) {
 void AddExportCommand(CLI::App* app, Run* run) {
   const Command<ExportArguments> command(
       app, run, "export", "Write a map as a program that a controller runs");
-  AddOption(command, "MODEL FILE.json", command->model, "Model file");
-  AddFlag(command, "--c", command->c, "NAME.h and NAME.c in C99");
-  AddFlag(command, "--python", command->python, "NAME.py in plain Python 3");
+  AddOption(command, "MODEL FILE.json", command->model).About("Model file");
+  AddFlag(command, "--c", command->c).About("NAME.h and NAME.c in C99");
+  AddFlag(command, "--python", command->python)
+      .About("NAME.py in plain Python 3");
   const auto add_text =
       [&](const char* flag, models::TextForm form, const char* what) {
-        AddFlag(
-            command,
-            flag,
-            [command, form] { command->text.push_back(form); },
-            what);
+        AddFlag(command, flag, [command, form] {
+          command->text.push_back(form);
+        }).About(what);
       };
   add_text("--st",
            models::TextForm::kStandard,
@@ -378,42 +360,32 @@ void AddExportCommand(CLI::App* app, Run* run) {
   add_text("--plcopen",
            models::TextForm::kPlcOpen,
            "NAME.xml, the same as PLCopen XML");
-  AddFlag(command,
-          "--float",
-          command->single,
-          "Use single precision: in C except for the state, in structured "
-          "text throughout (REAL)");
-  AddOption(command, "-o,--output DIR", command->out, "Folder to write into")
+  AddFlag(command, "--float", command->single)
+      .About(
+          "Use single precision: in C except for the state, in structured text "
+          "throughout (REAL)");
+  AddOption(command, "-o,--output DIR", command->out)
+      .About("Folder to write into")
       .Required()
       .Under(kOutputOptions);
-  AddOption(command,
-            "--name NAME",
-            command->name,
-            "Prefix of all symbols (default: the file's name)");
-  AddFlag(command,
-          "--hal",
-          command->hal,
-          "A LinuxCNC component (.comp) and its wiring (.hal)");
-  AddOption(command, "--joint", command->joint, "--hal: joint to compensate")
+  AddOption(command, "--name NAME", command->name)
+      .About("Prefix of all symbols (default: the file's name)");
+  AddFlag(command, "--hal", command->hal)
+      .About("A LinuxCNC component (.comp) and its wiring (.hal)");
+  AddOption(command, "--joint", command->joint)
+      .About("--hal: joint to compensate")
       .Range(0, 8)
       .ShowDefault();
-  AddFlag(command,
-          "--table",
-          command->table,
-          "NAME.csv, a table over position and one input");
-  AddFlag(command,
-          "--linuxcnc",
-          command->linuxcnc,
-          "A COMP_FILE of type 0 for a joint of LinuxCNC");
-  AddOption(command,
-            "--max-offset X",
-            command->max_offset,
-            "Largest compensation: 20um (default: 1.3 times the errors' span)");
-  AddOption(
-      command,
-      "--max-rate X",
-      command->max_rate,
-      "Largest change per second: 1um (default: 10um)\n10 urad for angles");
+  AddFlag(command, "--table", command->table)
+      .About("NAME.csv, a table over position and one input");
+  AddFlag(command, "--linuxcnc", command->linuxcnc)
+      .About("A COMP_FILE of type 0 for a joint of LinuxCNC");
+  AddOption(command, "--max-offset X", command->max_offset)
+      .About(
+          "Largest compensation: 20um (default: 1.3 times the errors' span)");
+  AddOption(command, "--max-rate X", command->max_rate)
+      .About(
+          "Largest change per second: 1um (default: 10um)\n10 urad for angles");
   AddEveryOption(command, &command->every);
   AddTableOptions(command, &command->tables);
   AddForceFlag(command, &command->force);

@@ -14,10 +14,9 @@
 namespace errmap::cli {
 
 void AddEveryOption(CLI::App* command, std::string* every) {
-  AddOption(command,
-            "--every TIME",
-            *every,
-            "Time between rows, for a map whose memory counts rows: 30s, 2min");
+  AddOption(command, "--every TIME", *every)
+      .About(
+          "Time between rows, for a map whose memory counts rows: 30s, 2min");
 }
 
 models::FittedModel LoadForControl(const std::string& file,

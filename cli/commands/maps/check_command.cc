@@ -334,17 +334,15 @@ void AddCheckCommand(CLI::App* app, Run* run) {
       "check",
       "Check with a few probes whether a map holds in this session");
   AddModelArgument(command, &command->model);
-  AddOption(command,
-            "PROBES PROBES.csv",
-            command->files,
-            "CSV file of a few readings, inputs and target; the last session "
-            "is judged")
+  AddOption(command, "PROBES PROBES.csv", command->files)
+      .About(
+          "CSV file of a few readings, inputs and target; the last session is "
+          "judged")
       .Required();
-  AddOption(command,
-            "--goal X",
-            command->goal,
-            "Also say how often to probe to keep 90 % of the errors within "
-            "this: 2um\nerrmap when has more");
+  AddOption(command, "--goal X", command->goal)
+      .About(
+          "Also say how often to probe to keep 90 % of the errors within this: "
+          "2um\nerrmap when has more");
   AddRowOptions(command, &command->rows.missing, &command->rows.faults);
   AddFormatOption(command, &command->format);
   AddMapDataArguments(command, &command->rows.log);

@@ -227,11 +227,9 @@ void AddEvaluateCommand(CLI::App* app, Run* run) {
   const Command<EvaluateArguments> command(
       app, run, "evaluate", "Judge a fitted map on other measurements");
   AddModelArgument(command, &command->model);
-  AddOption(command,
-            "DATA FILE.csv",
-            command->files,
-            "CSV file with inputs and target, or several: days of one "
-            "component")
+  AddOption(command, "DATA FILE.csv", command->files)
+      .About(
+          "CSV file with inputs and target, or several: days of one component")
       .Required();
   AddRowOptions(command, &command->rows.missing, &command->rows.faults);
   AddFormatOption(command, &command->format);

@@ -326,52 +326,40 @@ void AddLearnCommand(CLI::App* app, Run* run) {
       "learn",
       "Show what more days, cycles or fewer sensors do to the error");
   AddDataArguments(command, &command->data);
-  AddOption(
-      command,
-      "--by",
-      command->by,
-      "What to add step by step: sessions, cycles (the groups) or sensors")
+  AddOption(command, "--by", command->by)
+      .About(
+          "What to add step by step: sessions, cycles (the groups) or sensors")
       .OneOf(std::vector<std::string>(models::kLearntBy.begin(),
                                       models::kLearntBy.end()));
-  AddOption(command,
-            "--models LIST",
-            command->model_list,
-            "Models, separated by commas, whose curves are drawn (default: "
-            "baselines, a plane, ridge and blend)");
-  AddOption(command,
-            "--next CANDIDATES.csv",
-            command->candidates,
-            "Inputs of states that could be measured next, one per row; the "
-            "most useful are named");
-  AddOption(command,
-            "--repeats",
-            command->repeats,
-            "Random draws of training units, per size and fold")
+  AddOption(command, "--models LIST", command->model_list)
+      .About(
+          "Models, separated by commas, whose curves are drawn (default: "
+          "baselines, a plane, ridge and blend)");
+  AddOption(command, "--next CANDIDATES.csv", command->candidates)
+      .About(
+          "Inputs of states that could be measured next, one per row; the most "
+          "useful are named");
+  AddOption(command, "--repeats", command->repeats)
+      .About("Random draws of training units, per size and fold")
       .Range(1, 100)
       .ShowDefault();
-  AddOption(command, "--sensors", command->sensors, "Most sensors to choose")
+  AddOption(command, "--sensors", command->sensors)
+      .About("Most sensors to choose")
       .Range(1, 100)
       .ShowDefault();
-  AddOption(command,
-            "--goal X",
-            command->goal,
-            "RMSE wanted: 2um (default: no goal)");
+  AddOption(command, "--goal X", command->goal)
+      .About("RMSE wanted: 2um (default: no goal)");
   AddSeedOption(command, &command->seed);
-  AddOption(command,
-            "--jobs N",
-            command->jobs,
-            "Fits at the same time (default: one per core)")
+  AddOption(command, "--jobs N", command->jobs)
+      .About("Fits at the same time (default: one per core)")
       .Positive();
-  AddOption(command,
-            "--out DIR",
-            command->out,
-            "Folder for learn-*.json, learn-*.svg and the journal of fits\nIn "
-            "a study's folder, errmap report puts the curves on its page")
+  AddOption(command, "--out DIR", command->out)
+      .About(
+          "Folder for learn-*.json, learn-*.svg and the journal of fits\nIn a "
+          "study's folder, errmap report puts the curves on its page")
       .Under(kOutputOptions);
-  AddFlag(command,
-          "--resume",
-          command->resume,
-          "Continue the interrupted run in --out");
+  AddFlag(command, "--resume", command->resume)
+      .About("Continue the interrupted run in --out");
   AddForceFlag(command, &command->force);
   AddFormatOption(command, &command->format);
   AddCacheFlag(command, &command->cache);

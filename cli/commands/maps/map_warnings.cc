@@ -22,7 +22,7 @@
 namespace errmap::cli {
 
 void AddModelArgument(CLI::App* command, std::string* model) {
-  AddOption(command, "MODEL FILE.json", *model, "Model file").Required();
+  AddOption(command, "MODEL FILE.json", *model).About("Model file").Required();
 }
 
 Json MapAnswerJson(const char* schema,

@@ -431,22 +431,17 @@ void AddPredictCommand(CLI::App* app, Run* run) {
   const Command<PredictArguments> command(
       app, run, "predict", "Predict the error of every row with a fitted map");
   AddModelArgument(command, &command->model);
-  AddOption(command,
-            "DATA FILE.csv",
-            command->files,
-            "CSV file with its inputs, or several: days of one component")
+  AddOption(command, "DATA FILE.csv", command->files)
+      .About("CSV file with its inputs, or several: days of one component")
       .Required();
-  AddOption(command,
-            "-o,--output FILE.csv",
-            command->out,
-            "File to write (default: stdout)")
+  AddOption(command, "-o,--output FILE.csv", command->out)
+      .About("File to write (default: stdout)")
       .Under(kOutputOptions);
-  AddOption(command,
-            "--probes PROBES.csv",
-            command->probes,
-            "Readings of the same session: the map is shifted by the offset "
-            "found before each row. The interval narrows, or widens if they "
-            "contradict one offset");
+  AddOption(command, "--probes PROBES.csv", command->probes)
+      .About(
+          "Readings of the same session: the map is shifted by the offset "
+          "found before each row. The interval narrows, or widens if they "
+          "contradict one offset");
   AddMapDataArguments(command, &command->log);
   AddTargetOfMap(command, &command->log);
   AddJoinedLogArguments(command, &command->log);

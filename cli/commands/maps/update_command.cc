@@ -291,30 +291,22 @@ void AddUpdateCommand(CLI::App* app, Run* run) {
       "update",
       "Fit a map again with new sessions, if that makes it better");
   AddModelArgument(command, &command->model);
-  AddOption(command,
-            "NEW NEW.csv",
-            command->file,
-            "CSV file of at least two new sessions: inputs and target")
+  AddOption(command, "NEW NEW.csv", command->file)
+      .About("CSV file of at least two new sessions: inputs and target")
       .Required();
-  AddOption(
-      command, "-o,--output FILE.json", command->out, "Model file to write")
+  AddOption(command, "-o,--output FILE.json", command->out)
+      .About("Model file to write")
       .Required()
       .Under(kOutputOptions);
-  AddOption(
-      command,
-      "--known DATA.csv",
-      command->known,
-      "Rows that the map was fitted to (may be repeated; default: the "
-      "unchanged files that it names, here, beside NEW or beside the map)")
+  AddOption(command, "--known DATA.csv", command->known)
+      .About(
+          "Rows that the map was fitted to (may be repeated; default: the "
+          "unchanged files that it names, here, beside NEW or beside the map)")
       .OneAtATime();
-  AddOption(command,
-            "--time COL",
-            command->columns.time,
-            "Column of times (default: the only time* or zeit*)");
-  AddOption(command,
-            "--session COL",
-            command->columns.session,
-            "Column of sessions (default: session, day, run or tag)");
+  AddOption(command, "--time COL", command->columns.time)
+      .About("Column of times (default: the only time* or zeit*)");
+  AddOption(command, "--session COL", command->columns.session)
+      .About("Column of sessions (default: session, day, run or tag)");
   AddTargetOfMap(command, &command->columns);
   AddRowOptions(command, &command->missing, &command->faults);
   AddSeedOption(command, &command->seed);

@@ -178,11 +178,10 @@ void AddWhenCommand(CLI::App* app, Run* run) {
   const Command<WhenArguments> command(
       app, run, "when", "Say when a map needs its next probe");
   AddModelArgument(command, &command->model);
-  AddOption(command,
-            "--goal X",
-            command->goal,
-            "Limit for 90 % of the errors: 2um (default: no goal, only the "
-            "table)");
+  AddOption(command, "--goal X", command->goal)
+      .About(
+          "Limit for 90 % of the errors: 2um (default: no goal, only the "
+          "table)");
   AddMapDataArguments(command, &command->log);
   FindOption(command, "--after").About("Readings from the last probe to now");
   AddFormatOption(command, &command->format);

@@ -23,25 +23,22 @@ study_setup::PredictionsFile ParsePredictions(const std::string& pair) {
 }
 
 void AddJudgingOptions(CLI::App* command, CompareArguments* arguments) {
+  AddOption(command, "--split FILE.csv", arguments->split)
+      .About(
+          "Hold-outs from a file with row,holdout,fold,role, in place of the "
+          "default ones");
+  AddOption(command, "--save-split FILE.csv", arguments->save_split)
+      .About("Write the hold-outs to such a file, for other programs");
   AddOption(command,
-            "--split FILE.csv",
-            arguments->split,
-            "Hold-outs from a file with row,holdout,fold,role, in place "
-            "of the default ones");
-  AddOption(command,
-            "--save-split FILE.csv",
-            arguments->save_split,
-            "Write the hold-outs to such a file, for other programs");
-  AddOption(
-      command,
-      "--predictions NAME=FILE",
-      [arguments](const std::vector<std::string>& pairs) {
-        for (const std::string& pair : pairs) {
-          arguments->predictions.push_back(ParsePredictions(pair));
-        }
-      },
-      "Add predictions of another program to the table as NAME, may be "
-      "repeated: row,predicted or row,holdout,fold,predicted")
+            "--predictions NAME=FILE",
+            [arguments](const std::vector<std::string>& pairs) {
+              for (const std::string& pair : pairs) {
+                arguments->predictions.push_back(ParsePredictions(pair));
+              }
+            })
+      .About(
+          "Add predictions of another program to the table as NAME, may be "
+          "repeated: row,predicted or row,holdout,fold,predicted")
       .OneAtATime();
 }
 
@@ -56,75 +53,57 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
   };
   AddDataArguments(command, &arguments->data);
   FindOption(command, "DATA").Required(false);
-  AddOption(
-      command,
-      "--config study.toml",
-      arguments->config,
-      "Study file in place of DATA: errmap init writes it\nIt has components, "
-      "models and hold-outs. A path such as \"{machine}/{component}.csv\" "
-      "stands for all files that match. Each is studied separately, and --out "
-      "is their store. Run the same command again after an interruption");
-  AddOption(command,
-            "--set KEY=VALUE",
-            arguments->changes,
-            "Change a key of the study file (may be repeated): seed=2, "
-            "component.0.target=error_mm")
+  AddOption(command, "--config study.toml", arguments->config)
+      .About(
+          "Study file in place of DATA: errmap init writes it\nIt has "
+          "components, models and hold-outs. A path such as "
+          "\"{machine}/{component}.csv\" stands for all files that match. Each "
+          "is studied separately, and --out is their store. Run the same "
+          "command again after an interruption");
+  AddOption(command, "--set KEY=VALUE", arguments->changes)
+      .About(
+          "Change a key of the study file (may be repeated): seed=2, "
+          "component.0.target=error_mm")
       .OneAtATime();
-  AddFlag(command,
-          "--dry-run",
-          arguments->dry_run,
+  AddFlag(command, "--dry-run", arguments->dry_run)
+      .About(
           "Print what would be fitted and how long it takes\nNothing is fitted "
           "or written");
-  AddOption(
-      command,
-      "--holdout SPEC",
-      arguments->holdouts,
-      "Rows to hold out (may be repeated): every:K, groups:K, sessions:K, "
-      "forward:K\nAll forms: " +
+  AddOption(command, "--holdout SPEC", arguments->holdouts)
+      .About(
+          "Rows to hold out (may be repeated): every:K, groups:K, sessions:K, "
+          "forward:K\nAll forms: " +
           stats::HoldoutFormsText() +
           ". Default: every:3; groups:5 with groups, else blocks:5; "
           "sessions:5 with sessions; forward:3 from four sessions on")
       .OneAtATime();
-  AddOption(
-      command,
-      "--models LIST",
-      arguments->model_list,
-      "Models, separated by commas (default: all suitable ones)\nThey are  " +
+  AddOption(command, "--models LIST", arguments->model_list)
+      .About(
+          "Models, separated by commas (default: all suitable ones)\n"
+          "They are  " +
           data::JoinWords(models::ModelTypes(), ", "));
-  AddOption(command,
-            "--model SPEC",
-            arguments->models,
-            "One model (may be repeated): net:scg:hidden=60:wfactor=1e-3")
+  AddOption(command, "--model SPEC", arguments->models)
+      .About("One model (may be repeated): net:scg:hidden=60:wfactor=1e-3")
       .OneAtATime();
   study_setup::ForStudyOptions(arguments->study, FlagAdder(command));
   AddSeedOption(command, &arguments->study.seed);
-  AddOption(command,
-            "--jobs N",
-            arguments->jobs,
-            "Fits at the same time (default: one per core)\nResults do not "
-            "depend on it")
+  AddOption(command, "--jobs N", arguments->jobs)
+      .About(
+          "Fits at the same time (default: one per core)\nResults do not "
+          "depend on it")
       .Range(1, 1024);
-  AddOption(command,
-            "--out DIR",
-            arguments->out,
-            "Folder for report.html, results.json, residuals.csv and "
-            "models/")
+  AddOption(command, "--out DIR", arguments->out)
+      .About("Folder for report.html, results.json, residuals.csv and models/")
       .Under(kOutputOptions);
   add_of_modes_after("--out");
-  AddOption(command,
-            "-o,--output PAGE.html",
-            arguments->page,
-            "Write only the page, to this file")
+  AddOption(command, "-o,--output PAGE.html", arguments->page)
+      .About("Write only the page, to this file")
       .Under(kOutputOptions);
-  AddFlag(command,
-          "--all",
-          arguments->all,
-          "Show every model in the table, not the best twelve")
+  AddFlag(command, "--all", arguments->all)
+      .About("Show every model in the table, not the best twelve")
       .Under(kOutputOptions);
-  AddFlag(command,
-          "--details",
-          arguments->details,
-          "Also print p values, gaps, times and all remarks")
+  AddFlag(command, "--details", arguments->details)
+      .About("Also print p values, gaps, times and all remarks")
       .Under(kOutputOptions);
   AddTableFormatOption(command,
                        "What to print; csv and md have a row per component, "
@@ -132,11 +111,10 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
                        &arguments->format);
   AddJudgingOptions(command, arguments);
   add_of_modes_after("--predictions");
-  AddFlag(command,
-          "--resume",
-          arguments->resume,
-          "Continue the interrupted run in --out DIR\nFits finished there "
-          "are not repeated");
+  AddFlag(command, "--resume", arguments->resume)
+      .About(
+          "Continue the interrupted run in --out DIR\nFits finished there are "
+          "not repeated");
   AddCacheFlag(command, &arguments->cache);
   AddKeepPathsFlag(command);
   AddForceFlag(command, &arguments->force);

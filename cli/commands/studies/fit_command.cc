@@ -317,34 +317,26 @@ void AddFitCommand(CLI::App* app, Run* run) {
   const Command<FitArguments> command(
       app, run, "fit", "Fit one map to all rows and write it");
   AddDataArguments(command, &command->data);
-  AddOption(command, "--model SPEC", command->model, "The model, e.g. poly:eq8")
+  AddOption(command, "--model SPEC", command->model)
+      .About("The model, e.g. poly:eq8")
       .Required();
-  AddOption(command,
-            "-o,--output FILE.json",
-            command->out,
-            "Model file to write, or a folder: a map per direction of motion")
+  AddOption(command, "-o,--output FILE.json", command->out)
+      .About("Model file to write, or a folder: a map per direction of motion")
       .Required()
       .Under(kOutputOptions);
   AddSeedOption(command, &command->seed);
-  AddOption(command,
-            "--jobs N",
-            command->jobs,
-            "Threads (default: one per core)\nResults do not depend on it")
+  AddOption(command, "--jobs N", command->jobs)
+      .About("Threads (default: one per core)\nResults do not depend on it")
       .Range(1, 1024);
-  AddFlag(command,
-          "--correlations",
-          command->correlations,
-          "Also print the correlations of inputs and target")
+  AddFlag(command, "--correlations", command->correlations)
+      .About("Also print the correlations of inputs and target")
       .Under(kOutputOptions);
-  AddFlag(command,
-          "--no-interval",
-          command->no_interval,
+  AddFlag(command, "--no-interval", command->no_interval)
+      .About(
           "Skip the fits that measure the error on held-out days, cycles or "
           "blocks");
-  AddFlag(command,
-          "--details",
-          command->details,
-          "Print the equation and tables in full, even if large")
+  AddFlag(command, "--details", command->details)
+      .About("Print the equation and tables in full, even if large")
       .Under(kOutputOptions);
   AddKeepPathsFlag(command);
   AddFormatOption(command, &command->format);

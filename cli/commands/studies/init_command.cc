@@ -81,20 +81,17 @@ void AddInitCommand(CLI::App* app, Run* run) {
       run,
       "init",
       "Write a commented study file for a data file or a folder");
-  AddOption(command,
-            "DATA FILE.csv|DIR",
-            command->data,
-            "CSV file, one row per reading; or a folder of such files, for "
-            "many machines and components")
+  AddOption(command, "DATA FILE.csv|DIR", command->data)
+      .About(
+          "CSV file, one row per reading; or a folder of such files, for many "
+          "machines and components")
       .Required();
-  AddOption(command,
-            "--target COL",
-            command->target,
-            "Column of the error to map (default: the only one named error*)");
-  AddOption(
-      command, "-o,--output study.toml", command->out, "Study file to write")
+  AddOption(command, "--target COL", command->target)
+      .About("Column of the error to map (default: the only one named error*)");
+  AddOption(command, "-o,--output study.toml", command->out)
+      .About("Study file to write")
       .ShowDefault();
-  AddFlag(command, "--force", command->force, "Replace an existing file");
+  AddFlag(command, "--force", command->force).About("Replace an existing file");
   SetFooter(
       command,
       R"(A column of few values, such as direction, becomes one component per value.

@@ -235,10 +235,8 @@ void AddReadCommand(CLI::App* app, Run* run) {
       "read",
       "Show how a file is understood, and the options that change it");
   AddDataArguments(command, &command->data);
-  AddOption(command,
-            "-o,--output clean.csv",
-            command->out,
-            "Write the table as understood")
+  AddOption(command, "-o,--output clean.csv", command->out)
+      .About("Write the table as understood")
       .Under(kOutputOptions);
   AddFormatOption(command, &command->format);
   SetFooter(command,

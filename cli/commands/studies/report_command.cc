@@ -138,26 +138,19 @@ int RunReport(const ReportArguments& arguments) {
 void AddReportCommand(CLI::App* app, Run* run) {
   const Command<ReportArguments> command(
       app, run, "report", "Redraw the report of a comparison, without fitting");
-  AddOption(command,
-            "DIR",
-            command->folder,
-            "Folder that errmap compare --out wrote, or a store; report.html "
-            "and report.md are redrawn from its results.json")
+  AddOption(command, "DIR", command->folder)
+      .About(
+          "Folder that errmap compare --out wrote, or a store; report.html and "
+          "report.md are redrawn from its results.json")
       .Required()
       .Value("");
-  AddOption(command,
-            "--figures DIR2",
-            command->figures,
-            "Also write every figure here as NAME.svg");
-  AddOption(command,
-            "--format",
-            command->format,
-            "Print html or md instead of writing into DIR")
+  AddOption(command, "--figures DIR2", command->figures)
+      .About("Also write every figure here as NAME.svg");
+  AddOption(command, "--format", command->format)
+      .About("Print html or md instead of writing into DIR")
       .OneOf({"html", "md"});
-  AddOption(command,
-            "--component NAME",
-            command->component,
-            "Draw the full page of this component, not the page of all");
+  AddOption(command, "--component NAME", command->component)
+      .About("Draw the full page of this component, not the page of all");
   AddForceFlag(command, &command->force);
   SetFooter(
       command,

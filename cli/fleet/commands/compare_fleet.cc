@@ -102,12 +102,11 @@ class FleetMode : public CompareMode {
  public:
   void AddOptions(std::string_view flag, CLI::App* command) override {
     if (flag != "--out") return;
-    AddOption(command,
-              "--shard I/N|env",
-              shard_,
-              "Run only share I (0 to N-1) of a study of many components\nenv: "
-              "the share that mpirun or Slurm gave this task. errmap merge "
-              "STORE joins the shares");
+    AddOption(command, "--shard I/N|env", shard_)
+        .About(
+            "Run only share I (0 to N-1) of a study of many components\nenv: "
+            "the share that mpirun or Slurm gave this task. errmap merge STORE "
+            "joins the shares");
     MarkSeldom(command, {"--shard"});
   }
 

@@ -256,19 +256,15 @@ int RunDeploy(const DeployArguments& arguments) {
 void AddDeployCommand(CLI::App* app, Run* run) {
   const Command<DeployArguments> command(
       app, run, "deploy", "Record which map a machine uses from now on");
-  AddOption(
-      command, "STORE DIR", command->store, "Folder with an errmap.sqlite")
+  AddOption(command, "STORE DIR", command->store)
+      .About("Folder with an errmap.sqlite")
       .Required();
-  AddOption(
-      command, "COMPONENT NAME", command->components, "Names of components");
-  AddFlag(command,
-          "--all",
-          command->all,
-          "Every component that has a recommended map");
-  AddOption(command,
-            "--model FILE.json",
-            command->model,
-            "Map to deploy in place of the recommended one");
+  AddOption(command, "COMPONENT NAME", command->components)
+      .About("Names of components");
+  AddFlag(command, "--all", command->all)
+      .About("Every component that has a recommended map");
+  AddOption(command, "--model FILE.json", command->model)
+      .About("Map to deploy in place of the recommended one");
   SetFooter(
       command,
       R"(The map goes into the store's maps/ with its promise, and errmap watch

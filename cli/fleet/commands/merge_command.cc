@@ -38,10 +38,8 @@ int RunMerge(const MergeArguments& arguments) {
 void AddMergeCommand(CLI::App* app, Run* run) {
   const Command<MergeArguments> command(
       app, run, "merge", "Join the shares of a fleet study in one database");
-  AddOption(command,
-            "STORE DIR",
-            command->store,
-            "Folder that errmap compare --shard wrote into")
+  AddOption(command, "STORE DIR", command->store)
+      .About("Folder that errmap compare --shard wrote into")
       .Required();
   AddTableFormatOption(command,
                        "What to print; csv and md have a row per component",

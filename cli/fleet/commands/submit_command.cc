@@ -182,20 +182,26 @@ int RunSubmit(const SubmitArguments& arguments,
 void AddSubmitCommand(CLI::App* app, Run* run) {
   const Command<SubmitArguments> command(
       app, run, "submit", "Write scripts that run a fleet study on a cluster");
-  AddOption(command, "SCHEDULER", command->scheduler, "slurm: a job array")
+  AddOption(command, "SCHEDULER", command->scheduler)
+      .About("slurm: a job array")
       .Required()
       .OneOf({"slurm"})
       .Value("NAME");
-  AddOption(command, "--config FILE.toml", command->config, "Study file")
+  AddOption(command, "--config FILE.toml", command->config)
+      .About("Study file")
       .Required();
-  AddOption(command, "--out DIR", command->store, "Store to fill").Required();
-  AddOption(command, "--tasks N", command->tasks, "Tasks of the array")
+  AddOption(command, "--out DIR", command->store)
+      .About("Store to fill")
+      .Required();
+  AddOption(command, "--tasks N", command->tasks)
+      .About("Tasks of the array")
       .Required()
       .Range(1, 100000);
-  AddOption(command, "--cpus N", command->cpus, "Processors of each task")
+  AddOption(command, "--cpus N", command->cpus)
+      .About("Processors of each task")
       .Range(1, 1024)
       .ShowDefault();
-  AddFlag(command, "--now", command->now, "Also submit them");
+  AddFlag(command, "--now", command->now).About("Also submit them");
   AddForceFlag(command, &command->force);
   SetFooter(
       command,

@@ -185,14 +185,13 @@ int RunWatch(const WatchArguments& arguments) {
 void AddWatchCommand(CLI::App* app, Run* run) {
   const Command<WatchArguments> command(
       app, run, "watch", "Check deployed maps against new measurements");
-  AddOption(
-      command, "STORE DIR", command->store, "Folder with an errmap.sqlite")
+  AddOption(command, "STORE DIR", command->store)
+      .About("Folder with an errmap.sqlite")
       .Required();
-  AddOption(command,
-            "DATA FILE|DIR",
-            command->data,
-            "New measurements: CSV files named like those of the study, "
-            "folders of them, or COMPONENT=FILE")
+  AddOption(command, "DATA FILE|DIR", command->data)
+      .About(
+          "New measurements: CSV files named like those of the study, folders "
+          "of them, or COMPONENT=FILE")
       .Required();
   AddTableFormatOption(command,
                        "What to print; csv, json and md have every component",

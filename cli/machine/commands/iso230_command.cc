@@ -436,32 +436,27 @@ void AddIso230Command(CLI::App* app, Run* run) {
       run,
       "iso230",
       "Figures of a positioning test (ISO 230-2), with a map or without");
-  AddOption(command,
-            "DATA FILE.csv",
-            command->files,
-            "CSV files with the error at each approach to a position: "
-            "one file for both directions, or one for each")
+  AddOption(command, "DATA FILE.csv", command->files)
+      .About(
+          "CSV files with the error at each approach to a position: one file "
+          "for both directions, or one for each")
       .Required();
-  AddOption(command,
-            "--map MODEL.json",
-            command->maps,
-            "Map to compensate by: one for all files, or one per file in order")
+  AddOption(command, "--map MODEL.json", command->maps)
+      .About(
+          "Map to compensate by: one for all files, or one per file in order")
       .OneAtATime();
-  AddOption(command,
-            "--target COL",
-            command->target,
-            "Column of the error (default: the only one named error*)");
-  AddOption(command,
-            "--position COL",
-            command->position,
-            "Column of the target positions (default: the first named "
-            "position*)");
-  AddOption(command,
-            "--direction COL",
-            command->direction,
-            "Column of the direction of approach: up or down, + or - "
-            "(default: direction, else the order of the positions)");
-  AddOption(command, "--figure FILE.svg", command->figure, "Draw the test");
+  AddOption(command, "--target COL", command->target)
+      .About("Column of the error (default: the only one named error*)");
+  AddOption(command, "--position COL", command->position)
+      .About(
+          "Column of the target positions (default: the first named "
+          "position*)");
+  AddOption(command, "--direction COL", command->direction)
+      .About(
+          "Column of the direction of approach: up or down, + or - (default: "
+          "direction, else the order of the positions)");
+  AddOption(command, "--figure FILE.svg", command->figure)
+      .About("Draw the test");
   AddTableFormatOption(command, "What to print", &command->format);
   AddQuietFlag(command, &command->quiet);
   SetFooter(

@@ -23,17 +23,15 @@ class CompareMachine : public CompareMode {
  public:
   void AddOptions(std::string_view flag, CLI::App* command) override {
     if (flag != "--predictions") return;
-    AddOption(
-        command,
-        "--machine machine.toml",
-        machine_,
-        "Compare the maps STEM.json of this machine on STEM.csv in the folder "
-        "DATA, and judge them together at the poses of its tool_tip.csv");
-    AddOption(command,
-              "--later N",
-              later_,
-              "With --machine: number of last sessions kept from all fits, to "
-              "judge them")
+    AddOption(command, "--machine machine.toml", machine_)
+        .About(
+            "Compare the maps STEM.json of this machine on STEM.csv in the "
+            "folder DATA, and judge them together at the poses of its "
+            "tool_tip.csv");
+    AddOption(command, "--later N", later_)
+        .About(
+            "With --machine: number of last sessions kept from all fits, to "
+            "judge them")
         .Range(1, 1000)
         .ShowDefault();
     MarkSeldom(command, {"--machine", "--later"});

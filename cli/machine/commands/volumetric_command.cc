@@ -315,28 +315,20 @@ void AddVolumetricCommand(CLI::App* app, Run* run) {
       run,
       "volumetric",
       "Compute the error at the tool from the maps of all components");
-  AddOption(command,
-            "MACHINE FILE.toml",
-            command->machine,
-            "Machine file: its kinematic chain, with a map for each error")
+  AddOption(command, "MACHINE FILE.toml", command->machine)
+      .About("Machine file: its kinematic chain, with a map for each error")
       .Required();
-  AddOption(command,
-            "--at POINTS.csv",
-            command->points,
-            "Points: coordinates, directions, temperatures")
+  AddOption(command, "--at POINTS.csv", command->points)
+      .About("Points: coordinates, directions, temperatures")
       .Required();
-  AddOption(command,
-            "-o,--output OUT.csv",
-            command->out,
-            "File to write (default: stdout)")
+  AddOption(command, "-o,--output OUT.csv", command->out)
+      .About("File to write (default: stdout)")
       .Under(kOutputOptions);
   AddMapDataArguments(command, &command->log);
   AddFromRest(command, &command->log);
-  AddOption(command,
-            "--draws",
-            command->options.draws,
-            "Monte Carlo draws per point for lower_90 and upper_90; 0 "
-            "for none")
+  AddOption(command, "--draws", command->options.draws)
+      .About(
+          "Monte Carlo draws per point for lower_90 and upper_90; 0 for none")
       .ShowDefault();
   AddSeedOption(command, &command->options.seed, "Seed of the draws");
   AddQuietFlag(command, &command->quiet);

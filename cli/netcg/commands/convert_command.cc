@@ -44,12 +44,11 @@ void AddConvertCommand(CLI::App* app, Run* run) {
       run,
       "convert",
       "Convert between the report's pattern files, tables and CSV");
-  AddOption(command, "IN FILE", command->in, "File to read").Required();
-  AddOption(command,
-            "OUT FILE",
-            command->out,
-            "File to write; its ending decides: .csv, .tab (plain table), any "
-            "other for the stacked form of the report (Table 2)")
+  AddOption(command, "IN FILE", command->in).About("File to read").Required();
+  AddOption(command, "OUT FILE", command->out)
+      .About(
+          "File to write; its ending decides: .csv, .tab (plain table), any "
+          "other for the stacked form of the report (Table 2)")
       .Required();
   AddQuietFlag(command, &command->quiet);
   SetFooter(

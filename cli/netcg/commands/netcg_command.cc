@@ -245,57 +245,48 @@ void AddNetcgCommand(CLI::App* app, Run* run) {
       "netcg",
       "Run the program of the 1995 report, with its errors or without");
   netcg::NetcgStudyOptions& options = command->options;
-  AddOption(command,
-            "RUNFILE FILE",
-            command->file,
-            "Run specification file as Appendix A reads it (netcg.in); "
-            "names in it are relative to its folder");
-  AddOption(command,
-            "--study DIR",
-            command->study,
-            "Instead, the report's nine experiments (Tables 3 and 4) on "
-            "a folder of errmap simulate turning-centre");
+  AddOption(command, "RUNFILE FILE", command->file)
+      .About(
+          "Run specification file as Appendix A reads it (netcg.in); names in "
+          "it are relative to its folder");
+  AddOption(command, "--study DIR", command->study)
+      .About(
+          "Instead, the report's nine experiments (Tables 3 and 4) on a folder "
+          "of errmap simulate turning-centre");
   AddChoice(command,
             "--precision",
             "Arithmetic: single is the program's own",
             std::vector{netcg::NetcgPrecision::kSingle,
                         netcg::NetcgPrecision::kDouble},
             &options.netcg.precision);
-  AddFlag(
-      command,
-      "--corrected",
-      [&options] {
-        options.netcg.statistics = netcg::NetcgStatistics::kCorrected;
-      },
-      "Print correct statistics, and use the training run's scaling in "
-      "testing runs");
-  AddOption(
-      command,
-      "--training FILE",
-      options.netcg.training_file,
-      "Pattern file on which the weights of testing runs were trained, if "
-      "no other file has its scaling");
+  AddFlag(command,
+          "--corrected",
+          [&options] {
+            options.netcg.statistics = netcg::NetcgStatistics::kCorrected;
+          })
+      .About(
+          "Print correct statistics, and use the training run's scaling in "
+          "testing runs");
+  AddOption(command, "--training FILE", options.netcg.training_file)
+      .About(
+          "Pattern file on which the weights of testing runs were trained, if "
+          "no other file has its scaling");
   AddFlag(
       command,
       "--full-weights",
-      [&options] { options.netcg.weight_digits = netcg::WeightDigits::kFull; },
-      "Write all digits and the scaling into weights files, not six "
-      "digits");
-  AddOption(command,
-            "--out DIR",
-            options.netcg.out,
-            "Folder to write to, in place of the run file's")
+      [&options] { options.netcg.weight_digits = netcg::WeightDigits::kFull; })
+      .About(
+          "Write all digits and the scaling into weights files, not six "
+          "digits");
+  AddOption(command, "--out DIR", options.netcg.out)
+      .About("Folder to write to, in place of the run file's")
       .Under(kOutputOptions);
-  AddOption(command,
-            "--iterations",
-            options.iterations,
-            "Iterations of each experiment of --study")
+  AddOption(command, "--iterations", options.iterations)
+      .About("Iterations of each experiment of --study")
       .Range(1, 1000000)
       .ShowDefault();
-  AddOption(command,
-            "--jobs N",
-            options.jobs,
-            "Experiments of --study at a time; 0: one per processor")
+  AddOption(command, "--jobs N", options.jobs)
+      .About("Experiments of --study at a time; 0: one per processor")
       .Range(0, 1024)
       .ShowDefault();
   AddFormatOption(command, &command->format);

@@ -62,19 +62,18 @@ void AddSimulateCommand(CLI::App* app, Run* run) {
       "simulate",
       "Simulate measurements of a machine with known errors");
   SimulationOptions& options = command->simulation;
-  AddOption(command,
-            "MACHINE",
-            command->machine,
-            "turning-centre: two slides, a spindle, 40 thermocouples")
+  AddOption(command, "MACHINE", command->machine)
+      .About("turning-centre: two slides, a spindle, 40 thermocouples")
       .Required()
       .OneOf({"turning-centre"})
       .Value("NAME");
-  AddOption(command, "-o,--output DIR", command->folder, "Folder to write")
+  AddOption(command, "-o,--output DIR", command->folder)
+      .About("Folder to write")
       .Required()
       .Under(kOutputOptions);
   AddSeedOption(command, &options.seed, "Seed of all random draws");
   const auto add = [&](const char* flag, auto& value, const char* what) {
-    AddOption(command, flag, value, what).ShowDefault();
+    AddOption(command, flag, value).About(what).ShowDefault();
   };
   add("--days",
       options.days,
@@ -100,7 +99,10 @@ void AddSimulateCommand(CLI::App* app, Run* run) {
       "Standard deviation of a thermocouple's reading, degC");
   const auto add_fault =
       [&](const char* flag, std::vector<int>* list, const char* what) {
-        AddOption(command, flag, *list, what).SeparatedBy(',').Value("N,N,...");
+        AddOption(command, flag, *list)
+            .About(what)
+            .SeparatedBy(',')
+            .Value("N,N,...");
       };
   add_fault("--dead", &options.dead, "Thermocouples (0 to 39) that read 0");
   add_fault("--stuck", &options.stuck, "... that stop on the first day");
@@ -116,10 +118,8 @@ void AddSimulateCommand(CLI::App* app, Run* run) {
   add("--points",
       options.points_per_day,
       "Random poses per day in tool_tip.csv");
-  AddFlag(command,
-          "--truth",
-          command->files.truth,
-          "Add the error without reading noise: truth_mm, truth_urad");
+  AddFlag(command, "--truth", command->files.truth)
+      .About("Add the error without reading noise: truth_mm, truth_urad");
   AddForceFlag(command, &command->force);
   AddQuietFlag(command, &command->quiet);
   MarkSeldom(command,
