@@ -105,11 +105,8 @@ class MachineJudge {
     MachineRecord record{.name = machine().name,
                          .file = data::ShownPath(study_.path),
                          .unit = machine().length.symbol,
-                         .sensitive = "",
                          .points = data::ShownPath(study_.points.file),
-                         .later = study_.later,
-                         .plane = {},
-                         .choices = {}};
+                         .later = study_.later};
     for (std::size_t d = 0; d < 3; ++d) {
       if (machine().sensitive[d]) record.sensitive += Letter(d);
     }

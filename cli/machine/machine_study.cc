@@ -123,14 +123,8 @@ MachineStudy ReadMachineStudy(const std::string& machine,
                               const std::string& folder,
                               int later,
                               const std::string& session) {
-  MachineStudy study{.path = machine,
-                     .folder = folder,
-                     .file = ReadMachineOutline(machine),
-                     .stems = {},
-                     .points = {},
-                     .diagonals = {},
-                     .session = "",
-                     .later = {}};
+  MachineStudy study{
+      .path = machine, .folder = folder, .file = ReadMachineOutline(machine)};
   study.points = data::ReadCsv(study.FileNamed(kPoints));
   for (const models::MachineError& error : study.file.machine.errors) {
     for (const models::ErrorSource& source : error.sources) {

@@ -19,12 +19,12 @@ namespace errmap::machine {
 struct MachineStudy {
   std::string path;  // of machine.toml
   std::string folder;
-  MachineFile file;                // sources name files, without maps
-  std::vector<std::string> stems;  // distinct, in the machine's order
-  data::CsvTable points;           // tool_tip.csv
-  std::optional<data::CsvTable> diagonals;
-  std::string session;             // column of its sessions
-  std::vector<std::string> later;  // its last ones: no fit sees them
+  MachineFile file;                     // sources name files, without maps
+  std::vector<std::string> stems = {};  // distinct, in the machine's order
+  data::CsvTable points = {};           // tool_tip.csv
+  std::optional<data::CsvTable> diagonals = {};
+  std::string session = {};             // column of its sessions
+  std::vector<std::string> later = {};  // its last ones: no fit sees them
 
   /// Returns the path of a file in the folder.
   std::string FileNamed(const std::string& name) const;

@@ -68,10 +68,6 @@ TruePoses MakeTruePoses(data::CsvTable table,
                         const std::string& session) {
   TruePoses poses{
       .table = std::move(table),
-      .errors = {},
-      .sessions = {},
-      .coordinates = {},
-      .places = {},
   };
   poses.errors = TrueErrors(poses.table, machine);
   poses.sessions = data::GroupByColumn(
@@ -105,8 +101,7 @@ std::optional<DiagonalRuns> ReadDiagonalRuns(const data::CsvTable& table) {
     return table.CellText(table.At(table.Find(column)), row);
   };
   DiagonalRuns runs{.diagonals = data::GroupByColumn(
-                        table, kName, data::AllRows(table.num_rows)),
-                    .upwards = {}};
+                        table, kName, data::AllRows(table.num_rows))};
   for (std::size_t row = 0; row < table.num_rows; ++row) {
     const std::string name = text(kName, row);
     if (!IsDiagonal(name)) {

@@ -15,10 +15,10 @@ namespace errmap::machine {
 /// Poses of a machine with their true errors at the tool, session by session.
 struct TruePoses {
   data::CsvTable table;
-  Eigen::MatrixX3d errors;  // (m x 3) machine's unit; error_x_mm ...
-  data::Grouping sessions;  // of the rows
-  MatrixXd coordinates;     // (m x coordinates of the chain)
-  Eigen::MatrixX3d places;  // (m x 3) KinematicChain::NominalReach
+  Eigen::MatrixX3d errors = {};  // (m x 3) machine's unit; error_x_mm ...
+  data::Grouping sessions = {};  // of the rows
+  MatrixXd coordinates = {};     // (m x coordinates of the chain)
+  Eigen::MatrixX3d places = {};  // (m x 3) KinematicChain::NominalReach
 
   /// Selects the rows of these sessions, in their order.
   std::vector<Index> RowsOf(const std::vector<std::string>& labels) const;
@@ -43,7 +43,7 @@ TruePoses MakeTruePoses(data::CsvTable table,
 /// `diagonal_direction`.
 struct DiagonalRuns {
   data::Grouping diagonals;
-  std::vector<bool> upwards;  // along the name's signs
+  std::vector<bool> upwards = {};  // along the name's signs
 };
 
 /// Returns nothing if the table has no column `diagonal`. Throws

@@ -19,10 +19,10 @@ struct NetcgWeights {
   Index inputs = 0;
   Index hidden = 0;
   Index outputs = 0;
-  VectorXd w;  // (N) in NetcgObjective's order
+  VectorXd w = {};  // (N) in NetcgObjective's order
   /// Scaling of targets in the training run, which the program's own files
   /// lack.
-  std::optional<models::TargetScaling> scaling;
+  std::optional<models::TargetScaling> scaling = {};
 };
 
 enum class WeightDigits {
@@ -87,8 +87,8 @@ struct NetcgOutputFile {
 /// A finished run.
 struct NetcgRecord {
   NetcgSpecification specification;
-  NetcgResult result;
-  std::vector<NetcgOutputFile> files;  // to be written
+  NetcgResult result = {};
+  std::vector<NetcgOutputFile> files = {};  // to be written
 };
 
 /// Called before each run with its number, from 0, and the number of runs.

@@ -374,11 +374,7 @@ NetcgStudy RunReportStudy(const std::string& folder,
                           const NetcgStudyOptions& options) {
   const Direction down = ReadDirection(folder, true);
   const Direction up = ReadDirection(folder, false);
-  NetcgStudy study{.folder = folder,
-                   .options = options,
-                   .runs = {},
-                   .notes = {},
-                   .files = {}};
+  NetcgStudy study{.folder = folder, .options = options};
   for (const ReportRun& report : kRuns) {
     const Direction& direction = report.down ? down : up;
     NetcgStudyRun& run = study.runs.emplace_back();

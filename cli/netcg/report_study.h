@@ -50,12 +50,12 @@ struct NetcgStudyRun {
 struct NetcgStudy {
   std::string folder;
   NetcgStudyOptions options;
-  std::vector<NetcgStudyRun> runs;
-  double seconds = 0.0;            // of all runs together
-  std::vector<std::string> notes;  // where it differs from the report
+  std::vector<NetcgStudyRun> runs = {};
+  double seconds = 0.0;                 // of all runs together
+  std::vector<std::string> notes = {};  // where it differs from the report
   /// If options.netcg.out is given: the files of all runs, with the run file
   /// and pattern files that reproduce them.
-  std::vector<NetcgOutputFile> files;
+  std::vector<NetcgOutputFile> files = {};
 };
 
 /// Runs the report's nine experiments on a folder of `errmap simulate

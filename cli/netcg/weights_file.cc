@@ -43,11 +43,8 @@ NetcgWeights ParseWeights(std::string_view text, const std::string& name) {
                     std::to_string(kMost) + "; found " + std::to_string(count));
     }
   }
-  NetcgWeights weights{.inputs = nodes[0],
-                       .hidden = nodes[1],
-                       .outputs = nodes[2],
-                       .w = {},
-                       .scaling = {}};
+  NetcgWeights weights{
+      .inputs = nodes[0], .hidden = nodes[1], .outputs = nodes[2]};
   // A number and a blank at least: no memory for what cannot be there.
   constexpr Index kLeastCharacters = 2;
   if (NumWeights(weights) * kLeastCharacters > std::ssize(text)) {

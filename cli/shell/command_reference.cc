@@ -24,7 +24,6 @@ OptionReference DescribeOption(const CLI::Option& option) {
   const std::string& group = option.get_group();
   const bool seldom = group.starts_with(kSeldom);
   OptionReference reference{
-      .names = {},
       .value = ValueName(option),
       .choices = Choices(option),
       .description = option.get_description(),
@@ -50,9 +49,7 @@ CommandReference DescribeCommand(const CLI::App& command,
   CommandReference reference{.name = command.get_name(),
                              .purpose = command.get_group(),
                              .description = command.get_description(),
-                             .footer = command.get_footer(),
-                             .positionals = {},
-                             .options = {}};
+                             .footer = command.get_footer()};
   if (reference.footer == inherited_footer) reference.footer.clear();
   for (const CLI::Option* option : command.get_options(nullptr)) {
     if (option == command.get_help_ptr()) continue;
@@ -67,8 +64,7 @@ CommandReference DescribeCommand(const CLI::App& command,
 
 ProgramReference DescribeProgram(const CLI::App& app) {
   ProgramReference program{.description = app.get_description(),
-                           .footer = app.get_footer(),
-                           .commands = {}};
+                           .footer = app.get_footer()};
   for (const CLI::App* command : app.get_subcommands(nullptr)) {
     if (command->get_group().empty()) continue;
     program.commands.push_back(DescribeCommand(*command, program.footer));

@@ -20,7 +20,8 @@ inline constexpr std::string_view kOutputOptions = "Output";
 
 /// An option or a positional argument of a command, as in its help.
 struct OptionReference {
-  std::vector<std::string> names;    // "-o", "--output"; or a positional's word
+  std::vector<std::string> names =
+      {};                            // "-o", "--output"; or a positional's word
   std::string value;                 // "FILE.csv", "table|json"; "" for a flag
   std::vector<std::string> choices;  // the only values allowed, if any
   std::string description;  // text after a line feed is shown with --all
@@ -36,8 +37,8 @@ struct CommandReference {
   std::string purpose{};  // its purpose: the heading above it in help
   std::string description;
   std::string footer;  // "" if it has none of its own
-  std::vector<OptionReference> positionals;
-  std::vector<OptionReference> options;  // without --help
+  std::vector<OptionReference> positionals = {};
+  std::vector<OptionReference> options = {};  // without --help
 };
 
 /// The whole command line. The reference page and completions are made from it,
@@ -45,7 +46,7 @@ struct CommandReference {
 struct ProgramReference {
   std::string description;
   std::string footer;
-  std::vector<CommandReference> commands;
+  std::vector<CommandReference> commands = {};
 };
 
 /// Reads the commands of `app`.

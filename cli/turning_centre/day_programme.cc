@@ -45,8 +45,7 @@ DayProgramme ReportDay(const Workload& workload, int num_cycles) {
       {26, 600, 2250.0, 0.30},
   });
   DayProgramme day{.climate = {.mean = 22.8, .daily_amplitude = 0.2},
-                   .start_s = 8 * kSecondsPerHour,
-                   .cycles = {}};
+                   .start_s = 8 * kSecondsPerHour};
   for (int cycle = 1; cycle <= num_cycles; ++cycle) {
     const Block* block = kBlocks.data();
     for (const Block& candidate : kBlocks) {

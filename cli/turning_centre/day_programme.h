@@ -42,7 +42,7 @@ struct Climate {
 struct DayProgramme {
   Climate climate;
   int start_s = 0;  // seconds from midnight, a multiple of kStepSeconds
-  std::vector<CyclePlan> cycles;
+  std::vector<CyclePlan> cycles = {};
 };
 
 /// All bodies are at air temperature when the rest begins.

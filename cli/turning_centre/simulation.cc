@@ -244,11 +244,7 @@ Simulation Simulate(const SimulationOptions& options) {
   Thermocouples thermocouples(
       options.seed, options.sensor_noise, FaultsOf(options), options.cycles);
   if (options.from_day > 1) thermocouples.PostponeFaults();
-  Simulation simulation{.options = options,
-                        .programmes = {},
-                        .stops = {},
-                        .points = {},
-                        .log = {}};
+  Simulation simulation{.options = options};
   // Days keep references to their programmes.
   simulation.programmes.reserve(static_cast<std::size_t>(options.days));
   double hours_before = 0.0;

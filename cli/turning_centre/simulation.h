@@ -87,10 +87,10 @@ struct ToolTipPoint {
 
 struct Simulation {
   SimulationOptions options;
-  std::vector<DayProgramme> programmes;  // (days)
-  std::vector<Stop> stops;               // in order of time
-  std::vector<ToolTipPoint> points;      // by day, then by time
-  std::vector<LogEntry> log;             // by day, then by time
+  std::vector<DayProgramme> programmes = {};  // (days)
+  std::vector<Stop> stops = {};               // in order of time
+  std::vector<ToolTipPoint> points = {};      // by day, then by time
+  std::vector<LogEntry> log = {};             // by day, then by time
 };
 
 /// Runs the machine. Throws std::invalid_argument if options.Validate()

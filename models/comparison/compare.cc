@@ -68,10 +68,7 @@ ComponentStudy CompareMaps(const std::string& file,
   const data::CsvTable table = data::ReadCsv(file, &sha256);
   return Compare({.name = std::filesystem::path(file).stem().string(),
                   .files = {{.file = file, .sha256 = sha256}},
-                  .data = data::MakeDataset(table, selection),
-                  .holdouts = {},
-                  .study = {},
-                  .judgement = {}},
+                  .data = data::MakeDataset(table, selection)},
                  selection,
                  options,
                  {});
@@ -80,16 +77,15 @@ ComponentStudy CompareMaps(const std::string& file,
 ComponentStudy CompareMaps(const data::Dataset& dataset,
                            const ComparisonOptions& options,
                            OwnRecipes own) {
-  return Compare(
-      {.name = dataset.source(),
-       .files = {{.file = dataset.source(), .sha256 = {}}},
-       .data = {.dataset = dataset, .dropped = {}, .remarks = {}, .faults = {}},
-       .holdouts = {},
-       .study = {},
-       .judgement = {}},
-      {},
-      options,
-      std::move(own));
+  return Compare({.name = dataset.source(),
+                  .files = {{.file = dataset.source(), .sha256 = {}}},
+                  .data = {.dataset = dataset,
+                           .dropped = {},
+                           .remarks = {},
+                           .faults = {}}},
+                 {},
+                 options,
+                 std::move(own));
 }
 
 }  // namespace errmap::models

@@ -133,8 +133,7 @@ models::MapRows RowsForMap(const models::FittedModel& fitted,
 RowsJudged JudgeMapRows(const models::FittedModel& fitted,
                         const models::MapRows& rows,
                         bool quiet) {
-  RowsJudged judged{.form_inputs = fitted.FormInputs(rows.dataset),
-                    .flags = {}};
+  RowsJudged judged{.form_inputs = fitted.FormInputs(rows.dataset)};
   const MatrixXd& inputs = rows.dataset.input_values();
   judged.flags = models::FlagRows(fitted, inputs, judged.form_inputs);
   SayOutside(fitted.inputs, inputs, judged.flags, rows.dataset.rows(), quiet);

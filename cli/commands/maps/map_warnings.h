@@ -70,7 +70,7 @@ std::string LearntText(const RowsLearnt& learnt);
 
 struct RowsJudged {
   MatrixXd form_inputs;  // (rows x inputs of the form)
-  std::vector<models::RowFlag> flags;
+  std::vector<models::RowFlag> flags = {};
 };
 
 /// Returns flags of rows that are unlike training and, unless quiet, prints

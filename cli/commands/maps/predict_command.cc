@@ -49,19 +49,18 @@ struct PredictArguments {
 
 // Rows of a table with all readings, and what is read in all of them.
 struct WholeRows {
-  MatrixXd readings;        // (rows of the table x inputs) NaN: missing
-  std::vector<Index> rows;  // without missing ones
+  MatrixXd readings;             // (rows of the table x inputs) NaN: missing
+  std::vector<Index> rows = {};  // without missing ones
 
   MatrixXd inputs() const { return readings(rows, Eigen::all); }
 };
 
 WholeRows FindWholeRows(const models::FittedModel& fitted,
                         const data::CsvTable& table) {
-  WholeRows whole{
-      .readings = MatrixXd::Constant(static_cast<Index>(table.num_rows),
-                                     std::ssize(fitted.inputs),
-                                     stats::kNaN),
-      .rows = {}};
+  WholeRows whole{.readings =
+                      MatrixXd::Constant(static_cast<Index>(table.num_rows),
+                                         std::ssize(fitted.inputs),
+                                         stats::kNaN)};
   Index column = 0;
   for (const models::TrainedInput& input : fitted.inputs) {
     std::vector<Index> rows;
@@ -146,7 +145,7 @@ struct Predicted {
   // Of each row of the table; NaN where a reading is missing.
   VectorXd errors;
   std::vector<bool> is_whole;  // false there
-  std::optional<models::ProbeCorrection> probes;
+  std::optional<models::ProbeCorrection> probes = {};
   std::vector<models::RowFlag> flags;  // the column that is missing
   std::vector<bool> made_for;          // as models::RowsMadeFor
   std::vector<bool> clipped;           // as models::Prediction
@@ -340,7 +339,6 @@ Predicted PredictRows(const models::FittedModel& fitted,
       .map = map,
       .errors = VectorXd::Constant(static_cast<Index>(num_rows), stats::kNaN),
       .is_whole = std::vector<bool>(num_rows),
-      .probes = {},
       .flags = std::vector<models::RowFlag>(num_rows),
       .made_for = models::RowsMadeFor(fitted, read.table),
       .clipped = std::vector<bool>(num_rows)};

@@ -248,8 +248,7 @@ std::string FillIn(std::string_view text, const PathFields& fields) {
 
 FleetStudy WithPatterns(study_setup::StudyFile study) {
   FleetStudy fleet{.config = std::move(study.config),
-                   .file = std::move(study.file),
-                   .sources = {}};
+                   .file = std::move(study.file)};
   for (std::size_t i = 0; i < study.components.size(); ++i) {
     const study_setup::ComponentInFile& in_file = study.components[i];
     ComponentConfig& component = fleet.config.components[i];

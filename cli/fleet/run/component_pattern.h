@@ -27,7 +27,7 @@ struct ComponentSource {
 struct FleetStudy {
   study_setup::StudyConfig config;
   study_setup::InputFile file;
-  std::vector<ComponentSource> sources;  // one per component
+  std::vector<ComponentSource> sources = {};  // one per component
 
   bool has_patterns() const {
     return std::ranges::any_of(sources, &ComponentSource::is_pattern);

@@ -94,11 +94,11 @@ struct MachineRecord {
   std::string name;
   std::string file;
   std::string unit;
-  std::string sensitive;             // "XZ"
-  std::string points;                // file of poses with their true errors
-  std::vector<std::string> later;    // sessions that no fit saw
-  std::optional<PlaneRecord> plane;  // empty: one direction is sensitive
-  std::vector<MachineChoiceRecord> choices;  // uncompensated first
+  std::string sensitive = {};      // "XZ"
+  std::string points;              // file of poses with their true errors
+  std::vector<std::string> later;  // sessions that no fit saw
+  std::optional<PlaneRecord> plane = {};  // empty: one direction is sensitive
+  std::vector<MachineChoiceRecord> choices = {};  // uncompensated first
 };
 
 inline constexpr const char* kMachineKey = "machine";

@@ -111,9 +111,7 @@ class ComponentPlanner {
         models::PlanModels({.name = component_.name,
                             .files = FilesRead(),
                             .data = std::move(prepared),
-                            .holdouts = std::move(holdouts),
-                            .study = {},
-                            .judgement = {}},
+                            .holdouts = std::move(holdouts)},
                            study_.models,
                            &left_out,
                            own_ ? own_() : models::OwnRecipes{});

@@ -18,7 +18,6 @@ StudyRun RunPlan(StudyPlan plan,
                .command_line = command_line,
                .config = std::move(plan.config),
                .inputs = std::move(plan.inputs),
-               .components = {},
                .interrupted = false};
   const auto kept = models::KeptFits::OpenCache(options.cache);
   int before = 0;  // fits of the components that are finished

@@ -27,7 +27,7 @@ struct StudyRun {
   StudyConfig config;             // as it was carried out
   std::vector<InputFile> inputs;  // every file read, in the order of reading
   /// The components of the plan that were started.
-  std::vector<models::ComponentStudy> components;
+  std::vector<models::ComponentStudy> components = {};
   bool interrupted = false;
 
   /// True if file names and headings must distinguish components.

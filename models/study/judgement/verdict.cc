@@ -97,9 +97,7 @@ std::optional<InterpolationGap> MeasureGap(
   }
   if (!neighbours) return std::nullopt;
   InterpolationGap gap{.neighbours = holdouts[*neighbours].name,
-                       .unseen = holdouts[*unseen].name,
-                       .warning = {},
-                       .models = {}};
+                       .unseen = holdouts[*unseen].name};
   for (const std::size_t model : comparisons[*neighbours].models) {
     if (!comparisons[*unseen].PlaceOf(model)) continue;
     InterpolationGap::Row& row = gap.models.emplace_back();

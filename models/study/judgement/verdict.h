@@ -41,8 +41,8 @@ struct InterpolationGap {
 
   std::string neighbours;  // the hold-outs
   std::string unseen;
-  std::string warning;      // left to the caller
-  std::vector<Row> models;  // judged in both
+  std::string warning = {};      // left to the caller
+  std::vector<Row> models = {};  // judged in both
 };
 
 /// Judges one hold-out in which at least one model has results.

@@ -25,13 +25,13 @@ struct ComponentStudy {
   Choose choose = Choose::kAuto;
   Prefer prefer = Prefer::kLeastError;
   data::PreparedDataset data;
-  std::vector<Holdout> holdouts;
-  StudyResult study;
+  std::vector<Holdout> holdouts = {};
+  StudyResult study = {};
   /// Index of the first of `num_added` baselines that were added to the
   /// requested models.
   std::size_t first_added = 0;
   std::size_t num_added = 0;
-  Judgement judgement;
+  Judgement judgement = {};
   std::optional<RezeroWorth> rezero_worth = {};
   // For the recommended map:
   std::optional<SessionWorth> session_worth = {};

@@ -33,9 +33,9 @@ struct DataRecord {
   std::string unit;  // "": none
   std::vector<std::string> inputs;
   std::int64_t sensors = 0;  // how many of these are read by a sensor
-  std::optional<std::string> group;
+  std::optional<std::string> group = {};
   std::int64_t groups = 0;
-  std::optional<std::string> session;
+  std::optional<std::string> session = {};
   std::optional<std::string> time;
   std::string time_unit;
   std::int64_t sessions = 0;
@@ -65,9 +65,9 @@ struct HoldoutRecord {
   LeftOut<std::int64_t> rows_of_training = {};  // in the test file
   std::int64_t repeats = 1;
   /// For each fold: how its training rows are held out for choices in a fit.
-  std::vector<std::string> inner;
-  RowsOfFolds train_rows;
-  RowsOfFolds test_rows;
+  std::vector<std::string> inner = {};
+  RowsOfFolds train_rows = {};
+  RowsOfFolds test_rows = {};
   std::string unit_of_analysis;
   std::int64_t units = 0;
   std::vector<std::string> unit_labels;

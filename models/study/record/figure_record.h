@@ -34,10 +34,10 @@ struct FigureTableRecord {
 struct FigureHoldoutRecord {
   std::string name;
   std::int64_t table = 0;
-  ByName<std::vector<double>> predictions;  // NaN: not held out
+  ByName<std::vector<double>> predictions = {};  // NaN: not held out
   /// Table entries at which an input of the recommended map was outside the
   /// range of its fold's training rows.
-  LeftOut<std::vector<std::int64_t>> outside;
+  LeftOut<std::vector<std::int64_t>> outside = {};
 };
 
 struct CorrelationRecord {

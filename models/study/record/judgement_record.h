@@ -80,13 +80,13 @@ struct VerdictRecord {
   std::string holdout;
   Choice choice = Choice::kBaseline;
   std::string model;
-  std::optional<std::string> rival;
-  std::optional<Confidence> against_rival;  // if the model is better
-  std::optional<std::string> best_baseline;
-  std::optional<Obstacle> obstacle;
+  std::optional<std::string> rival = {};
+  std::optional<Confidence> against_rival = {};  // if the model is better
+  std::optional<std::string> best_baseline = {};
+  std::optional<Obstacle> obstacle = {};
   bool established = false;
   Confidence confidence = Confidence::kNotShown;
-  std::string why;
+  std::string why = {};
 };
 
 // The effect of re-zeroing on the error with a map and without one.
@@ -107,7 +107,7 @@ struct RezeroRecord {
   std::int64_t probes = 0;
   std::int64_t scored_rows = 0;
   double no_map = kNotKnown;
-  std::vector<RezeroedModelRecord> models;
+  std::vector<RezeroedModelRecord> models = {};
 };
 
 }  // namespace errmap::models

@@ -116,7 +116,7 @@ struct BiasRecord {
   Inline<FTestRecord> test;
   std::string column;
   double explained = kNotKnown;  // share of the sum of squares
-  std::vector<LevelRecord> levels;
+  std::vector<LevelRecord> levels = {};
 };
 
 struct SpreadRecord {
@@ -165,15 +165,16 @@ struct SummaryRecord {
   double mean_iteration_seconds = kNotKnown;
   double sd_iteration_seconds = kNotKnown;
   /// Iteration, sqrt(2 E), gradient norm.
-  LeftOut<std::vector<std::tuple<std::int64_t, double, double>>> trace;
+  LeftOut<std::vector<std::tuple<std::int64_t, double, double>>> trace = {};
 };
 
 struct FitRecord {
   double fit_seconds = kNotKnown;
   Inline<SummaryRecord> summary;
   std::vector<std::string> remarks;
-  LeftOut<ByName<OptionValue>> choices;  // made by the fit, such as wfactor=cv
-  LeftOut<StartsRecord> starts;          // if there were several
+  LeftOut<ByName<OptionValue>> choices =
+      {};                             // made by the fit, such as wfactor=cv
+  LeftOut<StartsRecord> starts = {};  // if there were several
 };
 
 struct FoldRecord {
@@ -189,7 +190,7 @@ struct ShuffledTargetRecord {
   double effective_parameters = kNotKnown;
   NoiseLearning learning = NoiseLearning::kUnknown;
   std::optional<std::string> why_not;
-  std::string sentence;
+  std::string sentence = {};
 };
 
 /// A model under one hold-out.

@@ -59,7 +59,7 @@ struct InputFileRecord {
 struct ProvenanceRecord {
   std::string version;
   std::string command_line;
-  ConfigurationRecord configuration;
+  ConfigurationRecord configuration = {};
   std::vector<InputFileRecord> inputs;
   std::string compiler;
   ByName<std::string> libraries;

@@ -35,10 +35,10 @@ struct PromiseRecord {
   std::string holdout;
   std::string unit;
   std::int64_t units = 0;
-  std::vector<PromiseLevelRecord> levels;
+  std::vector<PromiseLevelRecord> levels = {};
   // Set if mean errors of neighbouring units correlate: PredictionInterval.
-  LeftOut<double> lag1;
-  LeftOut<std::int64_t> good_for;
+  LeftOut<double> lag1 = {};
+  LeftOut<std::int64_t> good_for = {};
 };
 PromiseRecord MakeRecord(const PredictionInterval& interval);
 

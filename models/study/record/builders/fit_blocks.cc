@@ -45,8 +45,7 @@ SummaryRecord MakeRecord(const fitting::FitSummary& summary) {
                        .initial_gradient_norm = summary.initial_gradient_norm,
                        .final_gradient_norm = summary.final_gradient_norm,
                        .mean_iteration_seconds = summary.mean_iteration_seconds,
-                       .sd_iteration_seconds = summary.sd_iteration_seconds,
-                       .trace = {}};
+                       .sd_iteration_seconds = summary.sd_iteration_seconds};
   if (summary.trace.empty()) return record;
   auto& trace = record.trace.emplace();
   for (const fitting::TracePoint& point : summary.trace) {
@@ -74,9 +73,7 @@ FitRecord MakeFitRecord(double fit_seconds,
                         const std::vector<StartResult>& starts) {
   FitRecord record{.fit_seconds = fit_seconds,
                    .summary = {MakeRecord(summary)},
-                   .remarks = remarks,
-                   .choices = {},
-                   .starts = {}};
+                   .remarks = remarks};
   if (!choices.empty()) record.choices = MakeRecord(choices);
   if (!starts.empty()) record.starts = MakeRecord(starts);
   return record;

@@ -91,9 +91,7 @@ FigureHoldoutRecord MakeFigureHoldout(const ComponentStudy& study,
                                       const std::vector<Index>& rows,
                                       Index num_rows) {
   FigureHoldoutRecord record{.name = study.holdouts[index].name,
-                             .table = static_cast<std::int64_t>(table),
-                             .predictions = {},
-                             .outside = {}};
+                             .table = static_cast<std::int64_t>(table)};
   for (const ModelResult& model : study.study.models) {
     if (index >= model.holdouts.size()) continue;
     const HoldoutResult& result = model.holdouts[index];

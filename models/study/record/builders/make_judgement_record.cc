@@ -172,13 +172,8 @@ std::vector<VerdictRecord> JudgementRecord::Verdicts() const {
     VerdictRecord record{.holdout = verdict->holdout,
                          .choice = verdict->choice,
                          .model = Name(verdict->best),
-                         .rival = {},
-                         .against_rival = {},
-                         .best_baseline = {},
-                         .obstacle = {},
                          .established = verdict->established(),
-                         .confidence = verdict->confidence,
-                         .why = {}};
+                         .confidence = verdict->confidence};
     if (verdict->rival) {
       record.rival = Name(*verdict->rival);
       record.against_rival =
@@ -386,10 +381,7 @@ std::optional<bool> MeetsGoal(GoalStanding standing) {
 PromiseRecord MakeRecord(const PredictionInterval& interval) {
   PromiseRecord record{.holdout = interval.holdout,
                        .unit = interval.unit,
-                       .units = interval.units,
-                       .levels = {},
-                       .lag1 = {},
-                       .good_for = {}};
+                       .units = interval.units};
   if (interval.good_for > 0) {
     record.lag1 = interval.lag1;
     record.good_for = interval.good_for;
@@ -421,8 +413,7 @@ RezeroRecord MakeRezeroRecord(const ComponentStudy& study) {
       .holdout = study.holdouts[study.judgement.recommendation->holdout].name,
       .probes = worth.probes,
       .scored_rows = worth.scored_rows,
-      .no_map = worth.no_map,
-      .models = {}};
+      .no_map = worth.no_map};
   for (const RezeroWorth::Model& model : worth.models) {
     record.models.push_back(
         {study.study.models[model.model].name, model.rmse, model.never});

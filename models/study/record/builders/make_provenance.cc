@@ -79,7 +79,6 @@ ProvenanceRecord MakeProvenance(std::string command_line,
                                 std::vector<InputFileRecord> inputs) {
   return {.version = std::string(Version()),
           .command_line = std::move(command_line),
-          .configuration = {},
           .inputs = std::move(inputs),
           .compiler = Compiler(),
           .libraries = LibraryVersions(),

@@ -46,8 +46,7 @@ SerialRecord SerialOf(const stats::SerialTests& tests,
 BiasRecord BiasOf(const NamedBias& named) {
   BiasRecord record{.test = {MakeTest<FTestRecord>(named.bias.anova)},
                     .column = named.column,
-                    .explained = named.bias.explained,
-                    .levels = {}};
+                    .explained = named.bias.explained};
   for (std::size_t i = 0; i < named.bias.levels.size(); ++i) {
     const stats::LevelBias& level = named.bias.levels[i];
     if (level.n == 0) continue;

@@ -41,9 +41,6 @@ DataRecord MakeData(const ComponentStudy& study) {
       .unit = dataset.target().unit.symbol,
       .inputs = dataset.InputNames(),
       .sensors = std::ranges::count_if(dataset.inputs(), data::IsReadBySensor),
-      .group = {},
-      .groups = 0,
-      .session = {},
       .time = TextOrNothing(study.data.time_column),
       .time_unit = "rows",
       .sessions = dataset.num_sessions(),
@@ -85,11 +82,7 @@ HoldoutRecord MakeHoldout(const ComponentStudy& study, std::size_t h) {
                        .whole_sessions = holdout.whole_sessions,
                        .among_neighbours = holdout.among_neighbours,
                        .another_file = holdout.test_data != nullptr,
-                       .rows_of_training = {},
                        .repeats = holdout.repeats,
-                       .inner = {},
-                       .train_rows = {},
-                       .test_rows = {},
                        .unit_of_analysis = tests.units.name,
                        .units = tests.tests.num_units,
                        .unit_labels = tests.units.labels};
@@ -143,8 +136,7 @@ ShuffledTargetRecord MakeShuffledTargetRecord(const ShuffledTargetFit& found) {
           .weights_per_row = found.weights_per_row,
           .effective_parameters = found.effective_parameters,
           .learning = found.learning(),
-          .why_not = TextOrNothing(found.why_not),
-          .sentence = {}};
+          .why_not = TextOrNothing(found.why_not)};
 }
 
 // Nothing for a map that no controller could run.
