@@ -1,4 +1,3 @@
-#include "cli/application.h"
 
 #include <algorithm>
 #include <csignal>
@@ -32,7 +31,7 @@
 #include "data/input_error.h"
 #include "data/measurements/reading/reading.h"
 #include "data/text.h"
-#include "models/study/record/builders/make_provenance.h"
+#include "models/study/record/provenance_record.h"
 #include "models/version.h"
 
 namespace errmap::cli {

@@ -1,4 +1,4 @@
-#include "cli/application.h"
+#include "cli/command.h"
 
 #ifdef __GLIBC__
 #include <malloc.h>

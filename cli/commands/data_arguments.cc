@@ -5,9 +5,12 @@
 #include <system_error>
 #include <thread>
 #include <type_traits>
+#include <vector>
 
 #include "cli/command.h"
+#include "cli/report/table.h"
 #include "cli/report/text/commands/fault_text.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/command_reference.h"
 #include "cli/shell/standard_streams.h"
 #include "data/files/shown_path.h"
@@ -20,7 +23,6 @@
 #include "models/study/journal/kept_fits.h"
 
 namespace errmap::cli {
-
 namespace {
 
 // Splits "A,B" at commas outside double quotes and takes the quotes off.
@@ -38,6 +40,17 @@ std::vector<std::string> SplitNames(const std::string& flag,
     }
   }
   return names;
+}
+
+void AddFormats(CLI::App* command,
+                const std::string& words,
+                const std::vector<std::string>& formats,
+                std::string* format) {
+  AddOption(command, "--format", *format)
+      .About(words)
+      .OneOf(formats)
+      .ShowDefault()
+      .Under(kOutputOptions);
 }
 
 }  // namespace
@@ -299,6 +312,20 @@ void AddSeedOption(CLI::App* command,
                    ? ""
                    : "give a whole number from 0 to 18446744073709551615";
       });
+}
+
+void AddFormatOption(CLI::App* command, std::string* format) {
+  AddFormats(command, "table or json", {"table", "json"}, format);
+}
+
+void AddTableFormatOption(CLI::App* command,
+                          const std::string& words,
+                          std::string* format) {
+  std::vector<std::string> formats{"table", "json"};
+  for (const report::TableFormat& known : report::TableFormats()) {
+    formats.emplace_back(known.name);
+  }
+  AddFormats(command, words, formats, format);
 }
 
 }  // namespace errmap::cli

@@ -17,7 +17,6 @@
 #include "models/comparison/compare.h"
 #include "models/kinematics/iso230.h"
 #include "models/kinematics/plane_cells.h"
-#include "models/kinematics/tool_tip_spread.h"
 #include "models/kinematics/volumetric.h"
 #include "models/uncertainty/held_out_errors.h"
 #include "stats/distributions.h"

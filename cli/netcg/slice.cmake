@@ -5,9 +5,7 @@ errmap_library(netcg
 
 errmap_room(netcg netcg RUNS_ONCE
   netcg_files.cc
-  netcg_objective.cc
   netcg_run.cc
-  random_weights.cc
   report_study.cc
   run_file.cc
   run_report.cc

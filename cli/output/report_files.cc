@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/report/documents/report_html.h"
-#include "cli/report/figures/learning_figures.h"
+#include "cli/report/figures/figures.h"
 #include "cli/report/report.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_setup/plan/run_files.h"

@@ -1,5 +1,3 @@
-#include "cli/python/foreign.h"
-
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -7,7 +5,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include "cli/python/tables.h"
+#include "cli/python/module.h"
 
 namespace errmap::python {
 namespace {
@@ -69,13 +67,9 @@ class Recipe final : public models::ModelRecipe {
       const data::Dataset& training,
       const models::FitContext& /*context*/) const override {
     std::shared_ptr<py::object> predict = InPython([&] {
-      std::vector<std::string> columns;
-      for (const data::ColumnInfo& input : training.inputs()) {
-        columns.push_back(input.name);
-      }
       return Kept((*fit_)(Numbers{training.input_values(), false},
                           Numbers{training.target_values(), true},
-                          columns));
+                          training.InputNames()));
     });
     return MapOfModel(*this,
                       training,

@@ -1,12 +1,11 @@
-#include "cli/python/hosting.h"
-
 #include <chrono>
 #include <future>
 #include <utility>
 
 #include <pybind11/stl.h>
 
-#include "cli/application.h"
+#include "cli/command.h"
+#include "cli/python/module.h"
 #include "data/files_in_memory.h"
 
 namespace errmap::python {

@@ -1,13 +1,12 @@
 // errmap._core: the library as the package `errmap` calls it.
 
+#include "cli/python/module.h"
+
 #include <exception>
 
 #include <pybind11/pybind11.h>
 
 #include "cli/command.h"
-#include "cli/python/hosting.h"
-#include "cli/python/studies.h"
-#include "cli/python/tables.h"
 #include "data/input_error.h"
 
 PYBIND11_MODULE(_core, module) {

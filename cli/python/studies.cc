@@ -1,4 +1,3 @@
-#include "cli/python/studies.h"
 
 #include <mutex>
 #include <utility>
@@ -9,10 +8,7 @@
 #include "cli/commands/studies/compare_arguments.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/output/report_files.h"
-#include "cli/python/foreign.h"
-#include "cli/python/hosting.h"
-#include "cli/python/tables.h"
-#include "cli/report/documents/residuals_csv.h"
+#include "cli/python/module.h"
 #include "cli/report/documents/study_table.h"
 #include "cli/report/figures/figures.h"
 #include "cli/report/report.h"

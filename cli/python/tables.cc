@@ -1,5 +1,3 @@
-#include "cli/python/tables.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -8,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/python/module.h"
 #include "data/input_error.h"
 #include "data/text.h"
 

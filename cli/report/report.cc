@@ -6,8 +6,8 @@
 #include "cli/report/text/answers/first_answer.h"
 #include "cli/report/text/answers/verdict_text.h"
 #include "data/text.h"
-#include "models/study/record/builders/make_provenance.h"
 #include "models/study/record/make_study_record.h"
+#include "models/study/record/provenance_record.h"
 #include "models/version.h"
 
 namespace errmap::report {

@@ -54,4 +54,8 @@ std::string ReportHtml(const models::StudyRecord& record);
 /// repositories; no figures.
 std::string ReportMarkdown(const models::StudyRecord& record);
 
+/// Returns residuals.csv: one line for each hold-out, fold and test row, with
+/// group, target and each model's prediction (empty if it failed).
+std::string ResidualsCsv(const models::ComponentStudy& study);
+
 }  // namespace errmap::report

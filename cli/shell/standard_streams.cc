@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/shell/host.h"
 #include "data/text.h"
 
 namespace errmap::cli {

@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/report/screen.h"
 
@@ -71,5 +72,25 @@ std::string MessageLines(std::string_view line);
 
 /// PrintResult of running text, in lines no wider than OutputTerminal().
 void PrintFitted(std::string_view text);
+
+/// Replaces the streams and signals of the process if another program runs
+/// commands (RunHosted).
+struct Host {
+  const std::atomic<bool>* stop = nullptr;  // set: a command ends early
+  std::string printed = {};                 // to standard output
+  std::vector<std::string> messages = {};   // without "errmap: "
+};
+
+/// Returns null if the process is errmap's own.
+Host* CurrentHost();
+
+/// Makes `host` the current one for its lifetime; only one at a time.
+class HostedRun {
+ public:
+  explicit HostedRun(Host* host);
+  ~HostedRun();
+  HostedRun(const HostedRun&) = delete;
+  HostedRun& operator=(const HostedRun&) = delete;
+};
 
 }  // namespace errmap::cli

@@ -5,7 +5,6 @@
 #include <sys/ioctl.h>
 
 #include "cli/report/wrap_text.h"
-#include "cli/shell/host.h"
 #include "cli/shell/standard_streams.h"
 
 namespace errmap::cli {

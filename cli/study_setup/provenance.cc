@@ -11,7 +11,7 @@
 #include "data/files_in_memory.h"
 #include "data/measurements/measured_files.h"
 #include "data/text.h"
-#include "models/study/record/builders/make_provenance.h"
+#include "models/study/record/provenance_record.h"
 
 namespace errmap::study_setup {
 namespace {

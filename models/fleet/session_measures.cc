@@ -1,9 +1,8 @@
-#include "models/fleet/session_measures.h"
-
 #include <algorithm>
 
 #include <fmt/format.h>
 
+#include "models/fleet/watch.h"
 #include "models/sensors/applicability.h"
 #include "stats/not_a_number.h"
 

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "data/measurements/dataset.h"
+#include "models/error_model.h"
 #include "models/map_experience.h"
+#include "models/session/map_rows.h"
 #include "stats/eigen.h"
 #include "stats/not_a_number.h"
 
@@ -166,5 +168,21 @@ enum class WatchStatus {
 std::string_view ToString(WatchStatus status);
 /// Returns the status of this name; "not judged" for any other text.
 WatchStatus WatchStatusNamed(std::string_view name);
+
+/// A session and the rows of the data set that belong to it, in their order.
+struct MeasuredSession {
+  WatchedSession session;
+  std::vector<Index> rows;
+};
+
+/// Returns why new sessions cannot be compared with the map's promise; "" if
+/// they can. That needs the map's errors in at least three held-out sessions.
+std::string WhyNotWatched(const FittedModel& fitted);
+
+/// Returns the map's results in each session of `rows`. `relations` (null:
+/// unknown) describe the sensors; they are used if the table has all of them.
+std::vector<MeasuredSession> MeasureSessions(const FittedModel& fitted,
+                                             const MapRows& rows,
+                                             const SensorRelations* relations);
 
 }  // namespace errmap::models

@@ -38,7 +38,6 @@
 #include "cli/turning_centre/simulation_files.h"
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
-#include "models/fleet/session_measures.h"
 #include "models/fleet/watch.h"
 #include "models/recipe_catalog.h"
 #include "models/session/map_rows.h"

@@ -7,7 +7,7 @@
 #include <unistd.h>
 #include <vector>
 
-#include "cli/application.h"
+#include "cli/command.h"
 #include "cli/shell/standard_streams.h"
 #include "tests/fuzz/readers.h"
 #include "tests/fuzz/scratch_folder.h"

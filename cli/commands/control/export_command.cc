@@ -9,8 +9,8 @@
 
 #include "cli/command.h"
 #include "cli/commands/control/export_tables.h"
-#include "cli/commands/control/map_for_control.h"
 #include "cli/commands/data_arguments.h"
+#include "cli/commands/maps/map_warnings.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
 #include "cli/shell/command_options.h"

@@ -7,7 +7,7 @@
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/json_blocks.h"
-#include "cli/report/documents/summary_text.h"
+#include "cli/report/documents/fit_text.h"
 #include "cli/report/number_text.h"
 #include "cli/report/text/answers/data_words.h"
 #include "cli/report/text/commands/calibration_check_text.h"

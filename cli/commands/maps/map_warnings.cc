@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/report/number_text.h"
 #include "cli/report/text/commands/fault_text.h"
@@ -16,6 +18,7 @@
 #include "data/input_error.h"
 #include "data/measurements/reading/reading.h"
 #include "data/text.h"
+#include "models/history/with_history.h"
 #include "models/session/zero_schedule.h"
 #include "models/uncertainty/learnt_rows.h"
 
@@ -168,6 +171,33 @@ bool SayNotFinite(const VectorXd& predicted,
                   report::Count(predicted.size(), "prediction"),
                   rows[static_cast<std::size_t>(first)]));
   return true;
+}
+
+void AddEveryOption(CLI::App* command, std::string* every) {
+  AddOption(command, "--every TIME", *every)
+      .About(
+          "Time between rows, for a map whose memory counts rows: 30s, 2min");
+}
+
+models::FittedModel LoadForControl(const std::string& file,
+                                   const std::string& every,
+                                   bool quiet) {
+  models::FittedModel map = LoadMap(file, quiet);
+  if (every.empty()) return map;
+  const std::optional<double> seconds = data::ParseInterval(every);
+  if (!seconds) {
+    throw UsageError(
+        fmt::format("--every must be a time such as 30s or 2min; found {}",
+                    data::QuotedText(every)));
+  }
+  if (!models::CountsRows(map)) {
+    throw UsageError(fmt::format(
+        "--every is for a map whose memory counts rows; that of {} does not",
+        data::PrintablePath(file)));
+  }
+  // What is written says what it was made for.
+  map.name += " with a row every " + every;
+  return models::WithRowsEvery(std::move(map), *seconds);
 }
 
 }  // namespace errmap::cli

@@ -102,16 +102,12 @@ Json FitJson(const models::FittedModel& fitted,
 Json ConfigurationJson(const models::ModelRecipe& recipe,
                        const data::Dataset& dataset,
                        const FitArguments& arguments) {
-  Json inputs = Json::array();
-  for (const data::ColumnInfo& input : dataset.inputs()) {
-    inputs.push_back(input.name);
-  }
   const std::string& weight = arguments.data.selection.weight;
   return {
       {"model", recipe.name()},
       {"options", models::ToJson(models::MakeRecord(recipe.options()))},
       {"target", dataset.target().name},
-      {"inputs", std::move(inputs)},
+      {"inputs", dataset.InputNames()},
       {"group", dataset.has_groups() ? Json(dataset.groups().column) : Json()},
       {"weight", weight.empty() ? Json() : Json(weight)},
       {"missing", ToString(arguments.data.selection.missing)},

@@ -10,7 +10,7 @@
 #include "cli/shell/standard_streams.h"
 #include "cli/slice.h"
 #include "cli/study_setup/plan/study_plan.h"
-#include "cli/study_setup/toml/study_file_text.h"
+#include "cli/study_setup/toml/study_file.h"
 #include "data/files/atomic_file.h"
 #include "data/text.h"
 

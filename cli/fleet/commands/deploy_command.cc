@@ -22,7 +22,7 @@
 #include "data/text.h"
 #include "data/throwing_as.h"
 #include "fitting/parallel_for.h"
-#include "models/fleet/session_measures.h"
+#include "models/fleet/watch.h"
 #include "models/model_file.h"
 #include "stats/not_a_number.h"
 

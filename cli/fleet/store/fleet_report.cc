@@ -10,7 +10,7 @@
 
 #include "cli/fleet/store/merge.h"
 #include "cli/report/documents/report_html.h"
-#include "cli/report/figures/row_pictures.h"
+#include "cli/report/figures/figures.h"
 #include "cli/report/figures/svg.h"
 #include "cli/report/html.h"
 #include "cli/report/number_text.h"

@@ -11,7 +11,7 @@
 #include "data/files/atomic_file.h"
 #include "data/sha256.h"
 #include "data/text.h"
-#include "models/fleet/session_measures.h"
+#include "models/fleet/watch.h"
 #include "models/model_file.h"
 #include "models/session/map_rows.h"
 #include "models/study/study_defaults.h"

@@ -1,5 +1,3 @@
-#include "cli/machine/record/machine_figures.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/machine/record/machine_record.h"
 #include "cli/report/figures/figure_parts.h"
 #include "data/text.h"
 #include "data/units.h"

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/machine/record/machine_figures.h"
-#include "cli/machine/record/machine_tables.h"
 #include "cli/report/figures/figures.h"
 #include "data/argument_name.h"
 #include "models/record_json.h"

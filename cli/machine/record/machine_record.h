@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/report/figures/figures.h"
+#include "cli/report/table.h"
 #include "models/kinematics/plane_cells.h"
 #include "models/study/record/study_record.h"
 
@@ -105,5 +107,20 @@ inline constexpr const char* kMachineKey = "machine";
 
 /// Adds the judgement to the study's record under the key "machine".
 void AddMachine(const MachineRecord& machine, models::StudyRecord* record);
+
+/// The error at the tool over the working plane, before and after compensation
+/// by the recommended maps. Arrows show mean errors on one scale, and after
+/// compensation also on a larger one. Colours show the RMS on one scale.
+/// Returns nothing if the record has no plane.
+std::vector<report::Figure> MachineFigures(const MachineRecord& machine);
+
+/// Returns these tables, some possibly empty: the error at the tool on days
+/// that no fit used, one row per choice of maps; the same by day; the stated
+/// intervals; ISO 230-2 and, along diagonals, ISO 230-6; the contribution of
+/// each component; the maps.
+std::vector<report::Table> MachineTables(const MachineRecord& machine);
+
+/// Returns the tables that fit a terminal.
+std::vector<report::Table> ScreenTables(const MachineRecord& machine);
 
 }  // namespace errmap::machine

@@ -1,5 +1,3 @@
-#include "cli/machine/record/machine_tables.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/machine/record/machine_record.h"
 #include "data/text.h"
 #include "data/units.h"
 

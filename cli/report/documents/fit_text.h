@@ -4,6 +4,7 @@
 
 #include "cli/report/screen.h"
 #include "data/measurements/dataset.h"
+#include "data/units.h"
 #include "models/error_model.h"
 #include "models/sensors/sensitivity.h"
 #include "stats/error_metrics.h"
@@ -26,5 +27,11 @@ std::string FitText(const models::FittedModel& fitted,
                     const stats::ErrorMetrics& train,
                     const data::Dataset& dataset,
                     const FitTextOptions& options);
+
+/// Residual statistics as lines for a terminal, in the display unit.
+std::string SummaryText(const stats::ErrorMetrics& metrics,
+                        const data::Unit& unit,
+                        double ks_d,
+                        double ks_p_given);
 
 }  // namespace errmap::report

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/report/figures/row_pictures.h"
+#include "cli/report/figures/figures.h"
 #include "cli/report/html.h"
 #include "cli/report/number_text.h"
 #include "cli/report/shell_word.h"

@@ -1,10 +1,9 @@
-#include "cli/report/documents/residuals_csv.h"
-
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "cli/report/report.h"
 #include "data/csv.h"
 #include "data/formula_text.h"
 #include "models/study/judgement/extrapolated_rows.h"

@@ -6,6 +6,8 @@
 
 #include "cli/report/plot.h"
 #include "cli/report/table.h"
+#include "models/learning/learning_record.h"
+#include "models/record.h"
 #include "models/study/record/study_record.h"
 
 namespace errmap::report {
@@ -90,5 +92,30 @@ struct ReportFile {
 
 /// Returns every figure with data as NAME.svg.
 std::vector<ReportFile> FigureFiles(const FigureSet& figures);
+
+/// Error on unseen units against the number of training units or of sensors, as
+/// requested from `errmap learn`; none if the record has neither.
+std::vector<Figure> LearningFigures(const models::LearningRecord& learnt,
+                                    const std::string& prefix);
+
+/// Adds the figures to the only component with the same data file and target.
+void AddLearning(const models::StudyRecord& record,
+                 const std::vector<models::LearningRecord>& learnt,
+                 FigureSet* figures);
+
+// Pictures in table rows, as SVG.
+
+/// A dot between 0 and `without_map`, with the 95 % interval as a bar; "" if
+/// `without_map` is unknown or less than `rmse`.
+std::string IntervalPicture(double rmse,
+                            const models::IntervalRecord& ci95,
+                            double without_map);
+
+/// A map's errors over successive units, as a line from 0 to the largest error,
+/// which has a dot. If there are more units than points, each point is the
+/// largest of its neighbours. `words` describes it for blind readers. "" for
+/// fewer than two units.
+std::string Sparkline(const std::vector<double>& errors,
+                      const std::string& words);
 
 }  // namespace errmap::report

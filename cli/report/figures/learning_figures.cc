@@ -1,11 +1,10 @@
-#include "cli/report/figures/learning_figures.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "cli/report/figures/figure_parts.h"
+#include "cli/report/figures/figures.h"
 #include "cli/report/learning_words.h"
 #include "data/text.h"
 

@@ -1,5 +1,3 @@
-#include "cli/report/figures/row_pictures.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -7,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/report/figures/figure_parts.h"
+#include "cli/report/figures/figures.h"
 #include "cli/report/html.h"
 #include "cli/report/number_text.h"
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/report/documents/residuals_csv.h"
+#include "cli/report/report.h"
 #include "cli/study_setup/plan/component_names.h"
 #include "cli/study_setup/provenance.h"
 #include "models/model_file.h"

@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include "cli/report/text/commands/fault_text.h"
-#include "cli/study_setup/data_options.h"
 #include "cli/study_setup/plan/component_names.h"
+#include "cli/study_setup/study_options.h"
 #include "data/argument_name.h"
 #include "data/csv.h"
 #include "data/files/shown_path.h"

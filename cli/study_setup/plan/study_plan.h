@@ -6,7 +6,7 @@
 
 #include "cli/study_setup/provenance.h"
 #include "cli/study_setup/study_config.h"
-#include "models/comparison/component_plan.h"
+#include "models/comparison/compare.h"
 
 namespace errmap::study_setup {
 

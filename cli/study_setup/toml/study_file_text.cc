@@ -1,5 +1,3 @@
-#include "cli/study_setup/toml/study_file_text.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -12,6 +10,7 @@
 #include "cli/report/text/answers/data_words.h"
 #include "cli/report/wrap_text.h"
 #include "cli/study_setup/study_options.h"
+#include "cli/study_setup/toml/study_file.h"
 #include "cli/study_setup/toml/toml_text.h"
 #include "data/measurements/column_roles.h"
 #include "data/text.h"
@@ -116,14 +115,10 @@ std::string FoundText(const models::ComponentPlan& component) {
 std::map<std::string_view, std::string> FoundKeys(
     const data::PreparedDataset& prepared) {
   const data::Dataset& dataset = prepared.dataset;
-  std::vector<std::string> inputs;
-  for (const data::ColumnInfo& input : dataset.inputs()) {
-    inputs.push_back(input.name);
-  }
   std::map<std::string_view, std::string> lines = {
       {"inputs",
        "# All that were found; without # exactly these.\n" +
-           Commented("inputs = " + TomlList(inputs))}};
+           Commented("inputs = " + TomlList(dataset.InputNames()))}};
   const auto add = [&](const char* key, const std::string& column) {
     if (column.empty()) return;
     lines[key] = fmt::format("{} = {}", key, TomlText(column));

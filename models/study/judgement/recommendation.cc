@@ -5,8 +5,7 @@
 
 #include "models/study/judgement/blend_or_simpler.h"
 #include "models/study/judgement/extrapolated_rows.h"
-#include "models/study/judgement/telling_holdout.h"
-#include "models/study/judgement/worth_of_sensors.h"
+#include "models/study/judgement/holdout_comparison.h"
 
 namespace errmap::models {
 

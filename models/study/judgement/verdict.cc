@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "models/study/judgement/telling_holdout.h"
+#include "models/study/judgement/holdout_comparison.h"
 
 namespace errmap::models {
 

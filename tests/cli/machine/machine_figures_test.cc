@@ -1,4 +1,3 @@
-#include "cli/machine/record/machine_figures.h"
 
 #include <limits>
 #include <string>

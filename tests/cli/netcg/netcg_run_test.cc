@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include "cli/netcg/netcg_files.h"
-#include "cli/netcg/random_weights.h"
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "tests/cli/cli_runner.h"

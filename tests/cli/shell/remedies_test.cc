@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "cli/shell/host.h"
 #include "cli/shell/standard_streams.h"
 
 namespace errmap::cli {

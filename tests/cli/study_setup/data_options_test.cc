@@ -1,4 +1,3 @@
-#include "cli/study_setup/data_options.h"
 
 #include <string>
 #include <vector>

@@ -7,7 +7,6 @@
 
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
-#include "models/comparison/component_plan.h"
 #include "models/study/study_defaults.h"
 
 namespace errmap::models {

@@ -1,5 +1,3 @@
-#include "models/fleet/session_measures.h"
-
 #include <random>
 #include <string>
 #include <vector>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "data/csv.h"
+#include "models/fleet/watch.h"
 #include "models/recipe_catalog.h"
 #include "models/uncertainty/add_uncertainty.h"
 

@@ -1,5 +1,3 @@
-#include "models/kinematics/tool_tip_spread.h"
-
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -9,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "models/kinematics/volumetric.h"
 #include "stats/distributions.h"
 #include "stats/random.h"
 

@@ -1,5 +1,3 @@
-#include "models/study/record/builders/make_provenance.h"
-
 #include <algorithm>
 #include <utility>
 
@@ -13,6 +11,7 @@
 #include "fitting/minimisers/ceres_optimizer.h"
 #include "fitting/minimisers/nlopt_optimizer.h"
 #include "models/net/net_kernels.h"
+#include "models/study/record/provenance_record.h"
 #include "models/version.h"
 #include "stats/distributions.h"
 

@@ -52,8 +52,6 @@ NormalityRecord MakeRecord(const stats::Normality& normality,
 /// halves, biases by group and position, and variance against fitted.
 RandomnessRecord MakeRecord(const ResidualReport& report);
 
-// ---- held_out_residuals.cc ----
-
 /// Returns the prediction of each of the `num_rows` rows of the data set, or of
 /// the hold-out's test data. If a row is held out more than once
 /// (groups:K:repeats=R), the first counts; if never, it is NaN.

@@ -9,7 +9,7 @@
 #include "models/scaling.h"
 #include "models/study/fold_pool.h"
 #include "models/study/judgement/recommendation.h"
-#include "models/study/record/worth.h"
+#include "models/study/record/component_study.h"
 
 namespace errmap::models {
 namespace {

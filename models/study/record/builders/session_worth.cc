@@ -6,7 +6,7 @@
 
 #include "fitting/interruption.h"
 #include "fitting/parallel_for.h"
-#include "models/study/record/worth.h"
+#include "models/study/record/component_study.h"
 
 namespace errmap::models {
 namespace {

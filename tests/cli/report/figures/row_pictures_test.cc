@@ -1,7 +1,7 @@
-#include "cli/report/figures/row_pictures.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "cli/report/figures/figures.h"
 
 namespace errmap::report {
 namespace {

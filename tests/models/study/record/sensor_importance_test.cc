@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "models/study/record/worth.h"
+#include "models/study/record/component_study.h"
 #include "tests/models/history/history_data.h"
 #include "tests/models/study/study_test_tools.h"
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "data/csv.h"
-#include "models/comparison/component_plan.h"
+#include "models/comparison/compare.h"
 #include "models/map_experience.h"
 #include "tests/models/study/study_test_tools.h"
 

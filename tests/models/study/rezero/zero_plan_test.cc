@@ -1,4 +1,3 @@
-#include "models/study/rezero/zero_plan.h"
 
 #include <cmath>
 #include <stdexcept>

@@ -1,10 +1,9 @@
-#include "cli/study_setup/data_options.h"
+
+#include "cli/study_setup/study_options.h"
 
 #include <optional>
 #include <type_traits>
 #include <utility>
-
-#include "cli/study_setup/study_options.h"
 
 namespace errmap::study_setup {
 

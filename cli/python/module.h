@@ -1,11 +1,16 @@
 #pragma once
 
+#include <atomic>
+#include <functional>
+#include <map>
 #include <memory>
 #include <string>
 
 #include <pybind11/pybind11.h>
 
+#include "cli/shell/standard_streams.h"
 #include "data/csv.h"
+#include "models/error_model.h"
 #include "stats/eigen.h"
 
 namespace errmap::python {
@@ -50,5 +55,34 @@ class Table {
 };
 
 void DefineTables(py::module_* module);
+
+/// Tables and texts that commands read in place of files, by name.
+struct Inputs {
+  std::map<std::string, Table> tables;
+  std::map<std::string, std::string> texts;
+};
+
+/// Runs `work` in its own thread, without Python's lock, with `inputs` as files
+/// and `host` for streams. Meanwhile it checks Python's signals and calls
+/// `each_moment` (may be empty) with the lock held. A signal sets `host->stop`.
+/// Rethrows exceptions of `work`. Returns true if a signal came; its Python
+/// error is then set.
+bool RunHostedWork(const Inputs& inputs,
+                   cli::Host* host,
+                   std::atomic<bool>* stop,
+                   const std::function<void()>& work,
+                   const std::function<void()>& each_moment);
+
+void DefineCommands(py::module_* module);
+
+/// Adds compare, fit and folds, and the study that compare returns.
+void DefineStudies(py::module_* module);
+
+/// A recipe that fits in Python. `fit(x, y, columns)` gets the training rows as
+/// Numbers (m x p), the targets as Numbers (m) and the names of the columns,
+/// and returns `predict(x)`, which gives float64 (m). If it raises an
+/// exception, the fit has failed for that reason.
+std::unique_ptr<models::ModelRecipe> ForeignRecipe(const std::string& name,
+                                                   py::object fit);
 
 }  // namespace errmap::python
