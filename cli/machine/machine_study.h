@@ -19,7 +19,7 @@ namespace errmap::machine {
 struct MachineStudy {
   std::string path;  // of machine.toml
   std::string folder;
-  MachineFile file;                     // sources name files, without maps
+  MachineFile file;                     // names its maps; none is read
   std::vector<std::string> stems = {};  // distinct, in the machine's order
   data::CsvTable points = {};           // tool_tip.csv
   std::optional<data::CsvTable> diagonals = {};

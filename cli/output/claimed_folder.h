@@ -41,8 +41,8 @@ class ClaimedFolder {
                 const std::vector<std::string>& inputs,
                 bool force);
 
-  /// Writes one of `names`, completely or not at all; makes the folders on its
-  /// path. Throws std::system_error naming the path.
+  /// Writes the file `name`, one of `names`, completely or not at all, and
+  /// makes missing folders. Throws std::system_error that names the path.
   void Write(const std::string& name, std::string_view content);
 
   /// Writes errmap-files.json with the hashes of the written files. Entries of

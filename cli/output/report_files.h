@@ -26,9 +26,9 @@ std::string LearningStem(std::string_view by);
 report::FigureSet FiguresInFolder(const models::StudyRecord& record,
                                   const std::string& folder);
 
-/// Writes report.html and report.md; `errmap report` makes the same bytes from
-/// results.json. Each file appears completely or not at all. Throws
-/// std::system_error naming what could not be written.
+/// Writes report.html and report.md, each completely or not at all. `errmap
+/// report` writes the same bytes from results.json. Throws std::system_error
+/// that names the file.
 void WriteReport(const models::StudyRecord& record, ClaimedFolder* folder);
 
 /// Removes files that a killed run left half-written in a folder and its

@@ -303,8 +303,8 @@ ToolTipError ToolTipErrorAt(double x,
   const double slide_z = kZHomeDistance + z;
   const double tip_z = slide_z + kToolTipZ;
   ToolTipError error;
-  // Tool's branch, from the bed outwards: frames at the origin, at the Z
-  // slide's measuring point on the axis's height, and on the X slide.
+  // From the bed to the tool. Frames: at the origin, at the Z slide's measuring
+  // point (at the height of the spindle axis), and on the X slide.
   const double b0z = angle(Component::kParallelism);
   error.x += b0z * tip_z;
   error.z -= b0z * height;

@@ -40,9 +40,9 @@ class RecordReader {
   [[noreturn]] void Refuse(const std::string& why) const { Refuse(line_, why); }
 
  private:
-  // True, and at the first character of a value, where the line has one more.
+  // Moves to the next value of the line; false if there is none.
   bool SkipSeparators();
-  // At the first value of the next line that has one, or refuses.
+  // Moves to the next value of this or a later line; refuses at the file's end.
   void SkipToValue(const std::string& what);
   void SkipLine();
   std::string_view Token();

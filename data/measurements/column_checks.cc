@@ -201,7 +201,7 @@ std::string NearestColumn(std::string_view name,
   for (const std::string& column : known) {
     without_unit.push_back(ReadHeader(column).base);
   }
-  // What is typed may end in no unit that is known: t1_C.
+  // The typed name may end in an unknown unit, such as t1_C.
   const std::string typed = ReadHeader(name).base;
   std::string base = NearestName(typed, without_unit);
   if (base.empty()) {

@@ -165,8 +165,8 @@ void BendAlong(BlockSize size,
   }
 }
 
-// One output: a vector or half a one of all its columns' rows, whose sum stays
-// in a register.
+// For one output: a vector, or half a vector, of hidden nodes. It goes through
+// all columns while its sum stays in a register.
 template <typename Scalar, typename Vector>
 struct BackwardVector {
   Vec<Scalar> w;

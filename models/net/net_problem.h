@@ -65,7 +65,7 @@ struct NetProblem {
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
   NetShape shape;
-  Matrix patterns;   // ((I+1) x P) c x, last row c
+  Matrix patterns;   // ((I+1) x P) inputs and a last row of 1, times c
   Matrix targets;    // (J x P)
   Vector weights;    // (P) of mean 1, or (0)
   Scalar decay = 0;  // wfactor / N

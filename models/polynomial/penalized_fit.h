@@ -20,7 +20,7 @@
 
 namespace errmap::models {
 
-/// Rows of a design.
+/// Some rows of the design matrix, with their targets.
 struct TermRows {
   MatrixXd terms;    // (rows x k)
   VectorXd targets;  // (rows)
@@ -160,7 +160,8 @@ struct PenalizedCandidate {
   fitting::Penalty penalty = fitting::Penalty::kRidge;
   double strength = 0.0;
   double degrees_of_freedom = 0.0;
-  // From inner hold-outs, descending strengths; empty if it was given.
+  // From inner hold-outs, strongest penalty first; empty if `strength` was
+  // given.
   std::vector<double> strengths;
   std::vector<double> mean_squared_errors;  // TypicalError
   std::vector<double> standard_errors;      // of those means, across folds

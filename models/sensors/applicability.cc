@@ -33,7 +33,8 @@ constexpr Index kMostColumns = 100;
 constexpr Index kMostStates = 64;
 // The covariance of more rows is the same but for the time it takes.
 constexpr Index kMostRowsKept = 4000;
-// Of a unit held out, what may lie beyond: single readings fail.
+// The share of a held-out unit's readings that a limit must cover. It need not
+// cover all: single readings fail.
 constexpr double kReached = 0.99;
 // Further days go somewhat beyond what the few seen ones reached.
 constexpr double kMargin = 1.5;

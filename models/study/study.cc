@@ -86,8 +86,8 @@ FitOutcome FitAllRows(const ModelRecipe& recipe,
   return outcome;
 }
 
-// Nanoseconds per prediction by the shortest of several runs: what else the
-// machine does can only make one longer.
+// Nanoseconds per prediction, from the shortest of several runs: other work of
+// the computer only makes a run longer.
 double MeasurePrediction(const FittedModel& fitted, const Dataset& dataset) {
   constexpr double kEnoughSeconds = 2e-3;
   constexpr int kMostRuns = 1000;

@@ -14,7 +14,7 @@
 namespace errmap::models {
 namespace {
 
-// What adds up to a share but for rounding does.
+// A sum of weights this close to a share counts as reaching it.
 constexpr double kRounding = 1e-9;
 
 // |residual| of all rows, ascending: units weigh 1, shared by their rows.

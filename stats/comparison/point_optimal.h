@@ -7,8 +7,9 @@
 
 namespace errmap::stats {
 
-/// Tests whether the mean of a series is above 0 although its neighbours may
-/// have a memory (0 to 0.98): a first-order autoregression of that coefficient.
+/// Tests whether the mean of a series is above 0 when its values may be
+/// autocorrelated: a first-order autoregression with the coefficient `memory`
+/// (0 to 0.98).
 ///
 /// A t test with that memory gains nothing if the values show none. This test
 /// compares two likelihoods of the values: a mean of 1.5 standard deviations

@@ -19,9 +19,9 @@ struct FitTextOptions {
   Terminal terminal;
 };
 
-/// Returns the report of `errmap fit` on a map fitted to all rows of `dataset`.
-/// It has the errors there (`train`), equation, end of the fit, starts and
-/// interval. Correlations and regression are tables.
+/// Returns what `errmap fit` prints of a map fitted to all rows of `dataset`:
+/// its errors there (`train`), its equation, why the fit ended, its starts and
+/// interval; tables of correlations and of the regression.
 std::string FitText(const models::FittedModel& fitted,
                     const models::Sensitivity& sensitivity,
                     const stats::ErrorMetrics& train,

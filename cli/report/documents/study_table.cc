@@ -79,7 +79,7 @@ class ComponentScreen {
   // What to use, of which data, and the table.
   void Answer();
   void Next(const std::vector<std::string>& data);
-  // After Answer, as it tells what that had no room for.
+  // Call after Answer: it adds the remarks that did not fit there.
   void Details();
 
  private:
@@ -89,7 +89,7 @@ class ComponentScreen {
   ReportView view_;
   const StudyTableOptions& options_;
   Screen* screen_;
-  std::vector<Remark> left_out_;  // of the answer, which has no room for them
+  std::vector<Remark> left_out_;  // remarks that did not fit the answer
 
   void Leaderboard();
 

@@ -11,8 +11,9 @@ namespace errmap::models {
 /// by the SHA-256 of these bytes and `key`.
 std::string FitToBytes(std::string_view key, const FitOutcome& outcome);
 
-/// Reads the bytes of FitToBytes; the model predicts the same bits. Throws
-/// data::InputError if they are damaged or have another key or layout.
+/// Reads what FitToBytes returned; the model predicts exactly the same values.
+/// Throws data::InputError if the bytes are damaged or have another key or
+/// layout.
 FitOutcome FitFromBytes(std::string_view key, std::string_view bytes);
 
 }  // namespace errmap::models

@@ -100,7 +100,7 @@ std::vector<std::vector<Index>> AlikeOf(const MatrixXd& readings) {
   return clusters;
 }
 
-// What is taken away, one after another.
+// What is left out in turn: each sensor, each cluster of similar ones, all.
 std::vector<SensorImportance::Without> Plan(
     const Dataset& dataset, const std::vector<std::string>& sensors) {
   constexpr std::size_t kMostToCluster = 200;
