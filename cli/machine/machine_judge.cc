@@ -155,7 +155,8 @@ class MachineJudge {
         const models::ModelResult* const model =
             choose(Component(StemOf(source.file)));
         if (model == nullptr || !model->final_fit) {
-          choice.why = fmt::format("no such map of {}", StemOf(source.file));
+          choice.why =
+              fmt::format("no {} map of {}", name, StemOf(source.file));
           return choice;
         }
         source.map = std::make_shared<const FittedModel>(

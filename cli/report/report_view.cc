@@ -146,15 +146,16 @@ std::string PrettyUnit(const std::string& symbol) {
   return symbol;
 }
 
-bool IsOfLaterSessions(const models::HoldoutRecord& holdout) {
-  return holdout.whole_sessions && holdout.name.starts_with("forward:");
+bool IsOfLaterUnits(const models::HoldoutRecord& holdout) {
+  return (holdout.whole_sessions || holdout.whole_groups) &&
+         holdout.name.starts_with("forward:");
 }
 
 const models::HoldoutRecord* LaterHoldoutOf(const ComponentRecord& component,
                                             const std::string& decisive) {
   const models::HoldoutRecord* later = nullptr;
   for (const models::HoldoutRecord& holdout : component.holdouts) {
-    if (IsOfLaterSessions(holdout) && holdout.name != decisive) {
+    if (IsOfLaterUnits(holdout) && holdout.name != decisive) {
       later = &holdout;
     }
   }
@@ -165,7 +166,7 @@ std::string UnseenWords(const ReportView& view, const std::string& name) {
   const models::HoldoutRecord* holdout = HoldoutOf(view, name);
   if (holdout == nullptr) return "held-out rows";
   if (holdout->whole_groups || holdout->whole_sessions) {
-    return (IsOfLaterSessions(*holdout) ? "later " : "unseen ") +
+    return (IsOfLaterUnits(*holdout) ? "later " : "unseen ") +
            holdout->unit_of_analysis;
   }
   return holdout->another_file       ? "another file"

@@ -58,8 +58,8 @@ ErrorText ErrorTextOf(const ComponentRecord& component);
 /// Returns a unit's symbol for display: "um" -> "µm", "degC" -> "°C".
 std::string PrettyUnit(const std::string& symbol);
 
-/// True if whole sessions are held out and predicted from those before them.
-bool IsOfLaterSessions(const models::HoldoutRecord& holdout);
+/// True if whole sessions or groups are predicted from those before them.
+bool IsOfLaterUnits(const models::HoldoutRecord& holdout);
 /// Returns the last such hold-out other than `decisive`, or null.
 const models::HoldoutRecord* LaterHoldoutOf(const ComponentRecord& component,
                                             const std::string& decisive);

@@ -176,10 +176,10 @@ class BlendRecipe final : public ModelRecipe {
     return MakeRecipe(net)->Fit(training, alone);
   }
 
-  // "curves along the axis from readings and slow averages".
+  // "curves over the position from readings and slow averages".
   static std::string PlainName(View view, TermSet terms) {
     constexpr const char* kTerms[] = {
-        "lines", "curves", "curves along the axis", "curves and products"};
+        "lines", "curves", "curves over the position", "curves and products"};
     constexpr const char* kInputs[] = {"readings",
                                        "readings and slow averages",
                                        "changes since the start",

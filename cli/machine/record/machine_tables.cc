@@ -95,7 +95,7 @@ Table ToolTipTable(const MachineRecord& machine) {
           machine.later.size() < 2
               ? ""
               : " Over days: 95 % interval of the geometric mean of the days' "
-                "95th percentiles.")};
+                "95th percentiles; -: too few days.")};
   for (const MachineChoiceRecord& choice : machine.choices) {
     if (choice.why) {
       table.note += fmt::format(" {}: {}.", choice.name, *choice.why);

@@ -124,12 +124,14 @@ void ComponentScreen::Answer() {
     for (const std::string& line : data::ReadingLines(data.reading)) add(line);
   }
   // What these lines do not say.
-  if (data.reading.rows == 0 || data.align != data::Alignment::kNone) {
+  if (data.reading.rows == 0) {
     add(fmt::format("{}: {}{}; {}",
                     data.file,
                     Count(data.rows, "row"),
                     UnitsWords(data),
                     TargetWords(data)));
+  } else if (data.align != data::Alignment::kNone) {
+    add(fmt::format("Target: {}.", TargetWords(data)));
   }
   for (const std::string& line : above) screen_->Add(line + "\n");
   screen_->Add("\n");
@@ -146,8 +148,8 @@ void ComponentScreen::Answer() {
 }
 
 void ComponentScreen::Leaderboard() {
-  Add(TerminalLeaderboard(view_,
-                          options_.all ? view_.models.size() : kMostRows));
+  const std::size_t most = options_.all ? view_.models.size() : kMostRows;
+  Add(TerminalLeaderboard(view_, most));
   screen_->Add("\n");
   std::vector<std::string> legend;
   if (!view_.recommended.empty()) legend.push_back(MarkWords(view_));
@@ -176,7 +178,7 @@ void ComponentScreen::Leaderboard() {
   if (std::string drawn = DrawnRowsWords(view_); !drawn.empty()) {
     legend.push_back(std::move(drawn));
   }
-  if (std::string other = StandInWords(view_); !other.empty()) {
+  if (std::string other = StandInWords(view_, most); !other.empty()) {
     legend.push_back(std::move(other));
   }
   if (std::ranges::any_of(view_.models, [&](const ModelRecord* model) {
@@ -185,12 +187,12 @@ void ComponentScreen::Leaderboard() {
       })) {
     legend.emplace_back("95 % -: no range.");
   }
-  if (!options_.all && view_.models.size() > kMostRows) {
+  if (view_.models.size() > most) {
     legend.push_back(
-        fmt::format("{} more with --all.", view_.models.size() - kMostRows));
+        fmt::format("{} more with --all.", view_.models.size() - most));
   }
   if (!options_.details) {
-    legend.emplace_back("p values, gaps and times with --details.");
+    legend.emplace_back("p values and times with --details.");
   }
   Paragraph(data::JoinWords(legend, " "));
   for (const ModelRecord& model : record_.models) {
@@ -225,14 +227,19 @@ void ComponentScreen::Details() {
     const models::HoldoutRecord& held = *HoldoutOf(view_, holdout);
     screen_->Add("\n");
     Paragraph(fmt::format(
-        "{}: RMSE{}; p against the recommended map, by {}, with Holm's "
-        "correction; -: too few to tell",
+        "{}: RMSE{}. p: against the recommended map, by {}, with Holm's "
+        "correction, one-sided against a baseline. Proven only if "
+        "'established'; -: too few for so many pairs.",
         holdout,
         record_.display.unit.empty() ? "" : " in " + record_.display.unit,
         CountOfUnits(held.units, held)));
     Add(TerminalDetails(view_, holdout));
   }
-  Paragraph(kIntervalCoverage);
+  Paragraph(fmt::format(
+      "{}. Compare two maps by p, not by their ranges. Tier 1: as good in "
+      "practice as the lowest error. Ratio, below: RMSE on unseen rows over "
+      "that among neighbours.",
+      kIntervalCoverage));
   screen_->Add("\n");
   Add(TerminalTimes(view_));
   screen_->Add("\n");
@@ -281,7 +288,9 @@ std::string OverallWords(const models::StudyRecord& record) {
   text += ".";
   if (maps > 0) {
     text += fmt::format(
-        " {} of {} maps are proven to beat the best baseline.", proven, maps);
+        " {} of the {} maps that are no baseline are proven better than one.",
+        proven,
+        maps);
   }
   return text;
 }

@@ -51,8 +51,8 @@ Table CostTable(const ReportView& view) {
   Table table{.title = "Error and cost of each map"};
   table.error = ErrorTextOf(view);
   table.note =
-      "Operations and bytes of state of one step of the exported program "
-      "(errmap cost times it).";
+      "Arithmetic of the map alone; errmap cost includes the exported checks "
+      "and limits.";
   table.columns = {{"model", false},
                    {WithUnit(view.decisive + " RMSE", view.shown_unit)},
                    {"sensors"},

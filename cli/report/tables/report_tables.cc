@@ -141,7 +141,8 @@ Table ComparisonTable(const ReportView& view, const std::string& holdout) {
   table.note =
       "Difference of RMSE, other model minus the recommended one, with its 95 "
       "% "
-      "interval; one mean loss difference per unit of analysis. All pairs are "
+      "interval; one mean loss difference per unit of analysis. p (Holm) is "
+      "one-sided against a baseline, p is two-sided. All pairs are "
       "in results.json.";
   for (const ModelRecord* model : view.models) {
     if (model->name == view.recommended) continue;
@@ -163,9 +164,7 @@ Table ComparisonTable(const ReportView& view, const std::string& holdout) {
         {{{"other model", false}, model->name},
          {{ErrorHead(view, "difference")}, Interval{interval, difference}},
          {{"p", true, "sign-flip test"}, P{pair->p}},
-         {{"p (Holm)",
-           true,
-           "one-sided against a baseline; - if the units are too few"},
+         {{"p (Holm)", true, "- if the units are too few for so many pairs"},
           CorrectedP(*pair)},
          {{"p Wilcoxon"}, P{pair->tests.wilcoxon.p}},
          {{"p corrected t", true, "Nadeau and Bengio"},
@@ -173,7 +172,10 @@ Table ComparisonTable(const ReportView& view, const std::string& holdout) {
          {{"p Diebold-Mariano"}, p_of(pair->tests.diebold_mariano)},
          {{"units"}, pair->units},
          {{"lag-1 autocorrelation"}, Number{pair->lag1, 2}},
-         {{"established", false}, pair->established ? "yes" : "no"}});
+         {{"established", false},
+          pair->established
+              ? "yes"
+              : fmt::format("no: {}", models::ToString(pair->confidence))}});
   }
   table.SayIfEmpty("Differences between models were not tested.");
   return table;
@@ -228,7 +230,8 @@ Table NormalityTable(const ReportView& view, const std::string& holdout) {
   Table table{.title = "Are the residuals normal? " + holdout};
   table.note =
       "Statistic and p. The p of Eq. 140 assumes a given mean and sd. Here "
-      "both are estimated, so Lilliefors' p is the right one.";
+      "both are estimated; Lilliefors' p allows for that. All p assume "
+      "independent rows.";
   AddRowsOfModels(view, holdout, NormalityRow, &table);
   return table;
 }

@@ -60,8 +60,8 @@ inline constexpr std::size_t kProvenColumn = 4;
 std::string DrawnRowsWords(const ReportView& view);
 
 /// Returns a sentence on the input of poly:temperature if the data have no
-/// thermometer; else "".
-std::string StandInWords(const ReportView& view);
+/// thermometer and it is among the first `most_rows` models; else "".
+std::string StandInWords(const ReportView& view, std::size_t most_rows);
 
 /// One row for each model, with the hold-outs, the decisive one first: errors,
 /// significance, goal, cost.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include <fmt/format.h>
 
@@ -255,7 +256,7 @@ const std::vector<ResultColumn>& Columns() {
         {.key = "interchangeable",
          .cell = &Interchangeable,
          .is_number = false},
-        {.key = "gap", .cell = &Gap, .name = "gap"},
+        {.key = "gap", .cell = &Gap, .name = "ratio"},
         {.key = "goal",
          .cell = &Goal,
          .is_number = false,
@@ -411,9 +412,9 @@ std::string DrawnRowsWords(const ReportView& view) {
                      view.component->data.rows);
 }
 
-std::string StandInWords(const ReportView& view) {
+std::string StandInWords(const ReportView& view, std::size_t most_rows) {
   constexpr std::string_view kOfATemperature = "poly:temperature";
-  for (const ModelRecord* model : view.models) {
+  for (const ModelRecord* model : view.models | std::views::take(most_rows)) {
     const auto& inputs = model->inputs_used;
     if (model->name != kOfATemperature || !inputs || inputs->size() != 1 ||
         !model->sensors || !model->sensors->empty()) {
@@ -551,7 +552,8 @@ Table PageLeaderboard(const ReportView& view) {
   if (const std::string drawn = DrawnRowsWords(view); !drawn.empty()) {
     table.note += drawn + " ";
   }
-  if (const std::string other = StandInWords(view); !other.empty()) {
+  if (const std::string other = StandInWords(view, view.models.size());
+      !other.empty()) {
     table.note += other + " ";
   }
   table.note += fmt::format("{}.", kIntervalCoverage);

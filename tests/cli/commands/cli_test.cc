@@ -426,7 +426,7 @@ TEST_F(Cli, FitPromisesWhatUnseenCyclesShow) {
   const Outcome fit =
       Run({"fit", kDown, "--model", "poly:eq8", "-o", "promise.json"});
   EXPECT_THAT(fit.out, HasSubstr("90 % of the errors on an unseen cycle lie"));
-  EXPECT_THAT(fit.out, HasSubstr("(groups:5, 35 cycles)"));
+  EXPECT_THAT(fit.out, HasSubstr("Found on 35 cycles (groups:5)"));
   const Json interval = Json::parse(Read("promise.json"))["interval"];
   EXPECT_EQ(interval["holdout"], "groups:5");
   EXPECT_EQ(interval["unit"], "cycle");

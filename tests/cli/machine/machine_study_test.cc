@@ -310,7 +310,7 @@ TEST_F(MachineStudy, SaysWhyAChoiceHasNoFigures) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(OneLine(outcome.out),
               AllOf(HasSubstr("Error at the tool of turning centre, um"),
-                    HasSubstr("neural: no such map of parallelism"),
+                    HasSubstr("neural: no neural map of parallelism"),
                     HasSubstr("recommended"),
                     // Of one day there is no interval over days.
                     Not(HasSubstr("Over days"))));

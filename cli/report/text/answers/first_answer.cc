@@ -17,10 +17,16 @@ namespace {
 using models::HoldoutRecord;
 using models::RecommendationRecord;
 
-std::string Use(const RecommendationRecord& advice) {
+std::string Use(const models::ComponentRecord& record) {
+  const RecommendationRecord& advice = *record.recommendation;
   if (advice.model == "zero") return "Do not compensate: no map does better.";
   if (advice.choice == models::Choice::kBaseline) {
-    return fmt::format("Use {}: no richer map is proven better.", advice.model);
+    return fmt::format(
+        "Use {}: {}.",
+        advice.model,
+        std::ranges::all_of(record.models, &ModelRecord::baseline)
+            ? "only simple maps were compared"
+            : "no richer map is proven better");
   }
   return fmt::format(
       "Use {}{}.", advice.model, advice.single ? ", an average of maps" : "");
@@ -28,7 +34,7 @@ std::string Use(const RecommendationRecord& advice) {
 
 // "another day", "unseen cycles": where the error was measured.
 std::string WhereMeasured(const HoldoutRecord& holdout) {
-  if (IsOfLaterSessions(holdout)) return "later " + PluralOfUnit(holdout);
+  if (IsOfLaterUnits(holdout)) return "later " + PluralOfUnit(holdout);
   if (holdout.whole_sessions) return "another " + holdout.unit_of_analysis;
   if (holdout.whole_groups) return "unseen " + PluralOfUnit(holdout);
   if (holdout.among_neighbours) return "between rows";
@@ -85,7 +91,7 @@ FirstAnswer WithoutAMap(const models::ComponentRecord& record) {
       : record.data.rows < models::kFewestRowsToRecommend
           ? fmt::format(
                 "{} rows are too few to judge one. Measure {} or more, best "
-                "ten cycles on each of two days.",
+                "ten cycles on each of six days.",
                 record.data.rows,
                 models::kFewestRowsToRecommend)
           : "none could be judged.";
@@ -104,8 +110,7 @@ FirstAnswer WithoutAMap(const models::ComponentRecord& record) {
 FirstAnswer FirstAnswerOf(const models::ComponentRecord& record) {
   if (!record.recommendation) return WithoutAMap(record);
   const ComponentNumbers numbers(record);
-  FirstAnswer answer{.use = Use(*record.recommendation),
-                     .lines = {ErrorOf(numbers)}};
+  FirstAnswer answer{.use = Use(record), .lines = {ErrorOf(numbers)}};
   for (Remark& remark : RemarksOf(numbers)) {
     if (remark.place != Remark::Place::kAnswer) continue;
     answer.lines.push_back(std::move(remark));

@@ -85,12 +85,13 @@ std::string WhereToMeasure(const std::vector<models::BeyondRecord>& beyond) {
 Remarks Extrapolated(const Numbers& of) {
   const RecommendationRecord& advice = of.Advice();
   if (!advice.beyond) return {};
-  return {{"extrapolated",
-           fmt::format("{:.0f} % of the test readings were beyond all training "
-                       "data; expect more error in such states",
-                       kPercent * advice.extrapolated_share),
-           Tone::kPlain,
-           WhereToMeasure(*advice.beyond)}};
+  return {{.label = "extrapolated",
+           .text = fmt::format(
+               "{:.0f} % of the test readings were beyond all training "
+               "data; expect more error in such states",
+               kPercent * advice.extrapolated_share),
+           .measure = WhereToMeasure(*advice.beyond),
+           .must_show = advice.extrapolated_share > 0.5}};
 }
 
 // "1.645 um, 0.837 um more (95 % 0.490 to 1.184)": another one beside the map.
@@ -141,7 +142,7 @@ Remarks SmallerMap(const Numbers& of) {
   }
   if (smaller == nullptr) return {};
   return {{"a smaller map",
-           fmt::format("{}: {} operations a step, not {}; {}",
+           fmt::format("{}: {} operations for the map alone, not {}; {}",
                        smaller->name,
                        operations(*smaller),
                        full,
@@ -186,7 +187,7 @@ Remarks Averages(const Numbers& of) {
   constexpr std::size_t kMostNamed = 2;
   const ModelRecord& model = of.Model(of.Advice().model);
   if (model.choice != Choice::kBlend || !model.final) return {};
-  return {{"averages",
+  return {{"made of",
            data::ShortList(model.final->remarks, kMostNamed, "; ", "; ")}};
 }
 
@@ -301,7 +302,7 @@ Remarks ErrAlike(const Numbers& of) {
                            : fmt::format("{} established",
                                          Count(established, "difference"))),
            Tone::kPlain,
-           "other days"}};
+           of.record.data.sessions > 1 ? "more days" : "other days"}};
 }
 
 Remarks NotConverged(const Numbers& of) {

@@ -17,8 +17,8 @@ std::string IntervalText(const models::PromiseRecord& promise,
         text.empty()
             ? fmt::format(" of the errors on an unseen {} lie", promise.unit)
             : "",
-        level.at_least ? "at least " : "",
-        error.WithUnit(level.half_width));
+        error.WithUnit(level.half_width),
+        level.at_least ? " or more" : "");
   }
   if (promise.good_for) {
     text += fmt::format(
@@ -34,11 +34,11 @@ std::string IntervalText(const models::PromiseRecord& promise,
 
 std::string IntervalLine(const models::PromiseRecord& promise,
                          const ErrorText& error) {
-  return fmt::format("{} ({}, {} {})",
+  return fmt::format("{}. Found on {} {} ({})",
                      IntervalText(promise, error),
-                     promise.holdout,
                      promise.units,
-                     PluralOf(promise.unit));
+                     PluralOf(promise.unit),
+                     promise.holdout);
 }
 
 std::string HalfWidthsLine(const models::PredictionInterval& interval,

@@ -38,6 +38,11 @@ std::string WhyRecommended(const ComponentNumbers& component) {
   if (advice.choice == models::Choice::kBaseline) {
     return "a baseline: no map with sensors is proven worth them";
   }
+  if (advice.decided_by == advice.holdout &&
+      std::ranges::find(advice.first_tier, advice.model) ==
+          advice.first_tier.end()) {
+    return "the fewest operations among maps about as good (--prefer small)";
+  }
   if (advice.first_tier.size() < 2) return "";
   const std::string& lowest = advice.first_tier.front();
   return lowest == advice.model

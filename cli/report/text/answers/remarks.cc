@@ -126,10 +126,12 @@ Remarks LaterOn(const Numbers& of) {
   if (later == nullptr) return {};
   const double rmse = TestRmse(of.Model(advice.model), later->name);
   if (!(rmse > kWorthSaying * of.Rmse(advice.model, advice.holdout))) return {};
+  // The first fold learns from those before all that are held out.
+  const std::int64_t fewest = of.UnitsOfData(*later) - later->units;
   return {{"later " + PluralOfUnit(*later),
-           fmt::format("{}, fitted only to the {} before",
+           fmt::format("{}, fitted to as few as {}",
                        of.error.WithUnit(rmse),
-                       PluralOfUnit(*later)),
+                       CountOfUnits(fewest, *later)),
            Tone::kBad}};
 }
 
@@ -251,15 +253,16 @@ Remarks HeldAgainstGoal(const Numbers& of) {
     case GoalStanding::kMet: {
       const HoldoutRecord* const later =
           LaterHoldoutOf(of.record, advice.holdout);
-      if (later != nullptr &&
-          TestRmse(of.Model(advice.model), later->name) > of.record.goal) {
-        return {{"goal", wanted + ": reached, but not later on", Tone::kBad}};
-      }
-      return {{"goal",
-               wanted + (result.ci95[1] <= of.record.goal
-                             ? ": reached"
-                             : ": reached; not proven"),
-               Tone::kGood}};
+      const bool fails_later =
+          later != nullptr &&
+          TestRmse(of.Model(advice.model), later->name) > of.record.goal;
+      return {
+          {"goal",
+           fmt::format("{}: reached{}{}",
+                       wanted,
+                       result.ci95[1] <= of.record.goal ? "" : "; not proven",
+                       fails_later ? "; not on later days" : ""),
+           fails_later ? Tone::kBad : Tone::kGood}};
     }
     case GoalStanding::kMetAfterRezeroing:
       return {
@@ -353,7 +356,7 @@ Remarks HowSure(const Numbers& of) {
                             : of.ObstacleOfAdvice();
   if (!little && !obstacle) return {};
   const std::string count = of.CountOfHeldOut(holdout.units, holdout);
-  Remark remark{.label = little ? "how sure" : "which is best",
+  Remark remark{.label = "how sure",
                 .text = count + (little ? " say little about another"
                                         : " cannot prove which map is best"),
                 .tone = little ? Tone::kBad : Tone::kPlain};
@@ -412,7 +415,7 @@ std::vector<Remark> RemarksOf(const ComponentNumbers& component) {
        {std::span<const RemarkEntry>(kAnswer), FurtherRemarks()}) {
     for (const RemarkEntry& entry : entries) {
       for (Remark& remark : entry.make(component)) {
-        remark.place = entry.place;
+        remark.place = remark.must_show ? Place::kAnswer : entry.place;
         remark.is_caveat = entry.is_caveat;
         remark.must_show |= entry.is_caveat;
         all.push_back(std::move(remark));

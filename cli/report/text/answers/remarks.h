@@ -20,7 +20,7 @@ struct Remark {
   std::string measure = {};  // what measurements would settle it
   Place place = Place::kAnswer;
   bool is_caveat = false;  // bounds the map's worth, or else speaks for it
-  bool must_show = false;  // in the answer even if there is little room
+  bool must_show = false;  // always in the answer
 };
 
 /// A remark is a function of the record that returns nothing if it does not

@@ -96,12 +96,13 @@ std::string TestSentence(const ComponentNumbers& component,
   const PairRecord& pair = Require(models::FindPair(
       component.record, verdict.holdout, verdict.model, worse));
   const HoldoutRecord& held = component.Holdout(verdict.holdout);
-  const std::string text =
-      fmt::format("{} has {} less error than {}{}",
-                  verdict.model,
-                  component.error.WithUnit(std::abs(pair.difference)),
-                  worse,
-                  component.In95(IntervalOfExcess(pair, worse)));
+  const std::string text = fmt::format(
+      "{} has {} less error than {}{}{}",
+      verdict.model,
+      component.error.WithUnit(std::abs(pair.difference)),
+      worse,
+      component.Model(worse).baseline ? "" : ", the best map of another kind",
+      component.In95(IntervalOfExcess(pair, worse)));
   if (!std::isfinite(pair.p)) {
     return text + ": they are the same map apart from rounding.";
   }
@@ -206,7 +207,7 @@ std::string MemorisationSentence(const ModelRecord& model) {
   }
   const std::string figures = fmt::format(
       "{:.2g} weights per row{}; fitted to shuffled targets it still explains "
-      "{:.0f} % of them",
+      "{:.0f} % of their variance",
       found.weights_per_row,
       effective,
       kPercent * std::max(0.0, found.shuffled_r2));

@@ -76,17 +76,18 @@ TEST(CorrectedP, IsNothingWhereTheUnitsAreTooFew) {
 TEST(StandInWords, NameWhatTheLineOverATemperatureReadsWithoutOne) {
   models::StudyRecord record = Recorded(MakeReportDocument());
   models::ComponentRecord& component = record.components[0];
-  EXPECT_EQ(StandInWords(ViewOf(component)), "");
+  EXPECT_EQ(StandInWords(ViewOf(component), 99), "");
   models::ModelRecord& model = component.models[0];
   model.name = "poly:temperature";
   model.inputs_used = {"elapsed_cycles"};
   model.sensors = std::vector<std::string>{};
-  EXPECT_EQ(StandInWords(ViewOf(component)),
+  EXPECT_EQ(StandInWords(ViewOf(component), 0), "");
+  EXPECT_EQ(StandInWords(ViewOf(component), 99),
             "poly:temperature is a line over elapsed_cycles, as there is no "
             "thermometer.");
   model.inputs_used = {"t1_degC"};
   model.sensors = {"t1_degC"};
-  EXPECT_EQ(StandInWords(ViewOf(component)), "");
+  EXPECT_EQ(StandInWords(ViewOf(component), 99), "");
 }
 
 TEST(TerminalLeaderboard, AlwaysHoldsTheRecommended) {

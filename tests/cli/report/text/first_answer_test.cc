@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cli/report/report_view.h"
 #include "cli/report/text/answers/verdict_text.h"
 #include "cli/report/wrap_text.h"
 #include "tests/cli/report/report_document.h"
@@ -65,6 +66,24 @@ TEST(FirstAnswer, HasTheMapItsErrorAndItsRival) {
                     HasSubstr("; 93 % removed"),
                     HasSubstr("  best simple map  3.000 um, net:scg; ")));
   EXPECT_THAT(text, HasSubstr("  goal             none given; "));
+}
+
+TEST(FirstAnswer, DoesNotSayThatMapsWereWorseThatWereNotCompared) {
+  ComponentRecord record = Answered();
+  record.recommendation->choice = models::Choice::kBaseline;
+  EXPECT_THAT(Text(record), HasSubstr("no richer map is proven better"));
+  for (models::ModelRecord& model : record.models) model.baseline = true;
+  EXPECT_THAT(Text(record), HasSubstr("only simple maps were compared"));
+}
+
+TEST(FirstAnswer, CallsCyclesPredictedFromEarlierOnesLater) {
+  ComponentRecord record = Answered();
+  models::HoldoutRecord holdout = record.holdouts.front();
+  holdout.whole_groups = true;
+  holdout.name = "forward:9";
+  EXPECT_TRUE(IsOfLaterUnits(holdout));
+  holdout.name = "groups:5";
+  EXPECT_FALSE(IsOfLaterUnits(holdout));
 }
 
 TEST(FirstAnswer, SaysHowSureTheGapIs) {

@@ -1,5 +1,7 @@
 #include "cli/report/text/answers/verdict_text.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
@@ -125,6 +127,16 @@ TEST(Marks, SayWhyALowerErrorIsNotTaken) {
               HasSubstr("2 days do not choose between them"));
 }
 
+TEST(Marks, SayThatASmallMapIsPreferred) {
+  ComponentRecord record = BesideBaseline(8.0, 10.0);
+  models::RecommendationRecord& advice = *record.recommendation;
+  advice.model = "net:scg";
+  advice.first_tier = {"poly:eq8"};
+  advice.decided_by = advice.holdout;
+  EXPECT_THAT(MarkWords(ViewOf(record)),
+              HasSubstr("fewest operations among maps about as good"));
+}
+
 // --- What speaks for it, and against ---------------------------------------
 
 TEST(Remarks, TellTheShareOfTheErrorThatIsRemoved) {
@@ -165,6 +177,27 @@ TEST(Remarks, CallAGoalProvenOnlyWhereTheWholeRangeIsBelowIt) {
     }
     EXPECT_EQ(TextOf(record, "goal"), "0.5 um: reached; not proven");
   }
+}
+
+// Of 6 days 4 are later ones: the first fold learns from two.
+TEST(Remarks, TellFromHowFewDaysTheErrorOnLaterOnesIs) {
+  ComponentRecord record = Base();
+  models::RecommendationRecord& advice = *record.recommendation;
+  advice.goal_standing = models::GoalStanding::kMet;
+  record.data.sessions = 6;
+  models::HoldoutRecord& later = record.holdouts.emplace_back();
+  later.name = "forward:3";
+  later.whole_sessions = true;
+  later.unit_of_analysis = "day";
+  later.units = 4;
+  models::ResultRecord result = Far(&record.models[1]);
+  result.test.rmse = 4.0 * result.test.rmse;
+  result.ci95 = {models::kNotKnown, models::kNotKnown};
+  record.models[1].results.emplace_back("forward:3", result);
+  EXPECT_EQ(TextOf(record, "later days"),
+            "7.600 um, fitted to as few as 2 days");
+  EXPECT_EQ(TextOf(record, "goal"),
+            "0.5 um: reached; not proven; not on later days");
 }
 
 TEST(Remarks, CallWhatShiftsWholeCyclesNoNoise) {
@@ -297,11 +330,11 @@ TEST(Remarks, TellHowManyCyclesWouldProveADifference) {
   using Kind = models::Obstacle::Kind;
   ComponentRecord record = Base();
   record.verdict = {Hindered(Kind::kTooManyPairs, 6, 11)};
-  EXPECT_EQ(TextOf(record, "which is best"),
+  EXPECT_EQ(TextOf(record, "how sure"),
             "6 cycles cannot prove which map is best; 11 cycles may");
   EXPECT_THAT(MeasureNext(record), HasSubstr("11 cycles or more in all"));
   record.verdict = {Hindered(Kind::kTooFewSignPatterns, 6, 0)};
-  EXPECT_EQ(TextOf(record, "which is best"),
+  EXPECT_EQ(TextOf(record, "how sure"),
             "6 cycles cannot prove which map is best");
 }
 
@@ -312,12 +345,12 @@ TEST(Remarks, AdviseAnotherHoldoutWhereTheDataHaveEnough) {
   record.verdict = {Hindered(Kind::kTooFewUnits, 4, 6)};
   for (models::HoldoutRecord& holdout : record.holdouts) holdout.units = 4;
   record.data.groups = 8;
-  EXPECT_EQ(TextOf(record, "which is best"),
+  EXPECT_EQ(TextOf(record, "how sure"),
             "4 held-out cycles cannot prove which map is best; all 8 cycles "
             "held out, by --holdout groups:5, may");
   EXPECT_THAT(MeasureNext(record), Not(HasSubstr("in all")));
   record.verdict = {Hindered(Kind::kTooManyPairs, 4, 12)};
-  EXPECT_EQ(TextOf(record, "which is best"),
+  EXPECT_EQ(TextOf(record, "how sure"),
             "4 held-out cycles cannot prove which map is best; 12 cycles "
             "may");
   EXPECT_THAT(MeasureNext(record),
@@ -342,6 +375,13 @@ TEST(Remarks, TellWhatToMeasureWhereTheMapExtrapolates) {
   EXPECT_EQ(MeasureNext(record),
             "a colder start or room (t12_degC below 21.5); a longer or "
             "hotter run (t12_degC above 27)");
+  const auto place = [&] {
+    const std::vector<Remark> remarks = RemarksOf(ComponentNumbers(record));
+    return std::ranges::find(remarks, "extrapolated", &Remark::label)->place;
+  };
+  EXPECT_EQ(place(), Remark::Place::kNextSteps);
+  record.recommendation->extrapolated_share = 0.6;
+  EXPECT_EQ(place(), Remark::Place::kAnswer);
   record.recommendation->beyond = std::vector<models::BeyondRecord>{
       {"t12_degC", 21.5, models::kNotKnown},
       {"speed_rpm", models::kNotKnown, 3000.0},
@@ -380,7 +420,7 @@ TEST(Remarks, TellThatNeighboursProveLittle) {
 
 TEST(Remarks, NameTheMapsThatABlendAverages) {
   ComponentRecord record = Base();
-  EXPECT_EQ(TextOf(record, "averages"), "");
+  EXPECT_EQ(TextOf(record, "made of"), "");
   for (models::ModelRecord& model : record.models) {
     if (model.name != record.recommendation->model) continue;
     model.choice = models::Choice::kBlend;
@@ -389,7 +429,7 @@ TEST(Remarks, NameTheMapsThatABlendAverages) {
                                      "2 % net:scg",
                                      "2 % curves and products from readings"};
   }
-  EXPECT_EQ(TextOf(record, "averages"),
+  EXPECT_EQ(TextOf(record, "made of"),
             "74 % curves from readings; 22 % lines from readings; 2 more");
 }
 
