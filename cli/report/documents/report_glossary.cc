@@ -44,11 +44,8 @@ constexpr std::array kExplained = {
               "rows held out inside the training."},
     Explained{"baseline",
               "baseline",
-              "A map that needs at most one sensor: none at all, a constant, a "
-              "curve in position, a line in one temperature."},
-    Explained{"promise",
-              "promise",
-              "The error that a map's file states for another day."}};
+              "No map at all, a constant, a curve in position or a line in one "
+              "temperature."}};
 
 }  // namespace
 

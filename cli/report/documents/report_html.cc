@@ -234,8 +234,11 @@ std::string Next(const models::StudyRecord& record, std::size_t index) {
         HtmlText(step.purpose),
         step.words.empty() ? HtmlSentence(step.text) : HtmlCommand(step.words));
   }
-  return html.empty() ? html
-                      : "<h4>Next</h4>\n<dl class=\"next\">" + html + "</dl>\n";
+  return html.empty()
+             ? html
+             : fmt::format("<h4>Next{}</h4>\n<dl class=\"next\">{}</dl>\n",
+                           written ? ", in this folder" : "",
+                           html);
 }
 
 std::string Card(const ReportView& view) {

@@ -28,7 +28,7 @@ a{color:var(--blue)}
 .good{color:var(--good);font-weight:600}
 .bad{color:var(--bad)}
 ul{margin:.4rem 0;padding-left:1.3rem;font-size:.875rem}
-.scroll{overflow-x:auto;margin:.4rem 0 1rem;border:1px solid var(--line);border-radius:4px;max-width:100%;width:fit-content}
+.scroll{overflow-x:auto;margin:.4rem 0 1rem;border:1px solid var(--line);border-radius:4px;max-width:100%;width:fit-content;background:linear-gradient(90deg,#fff0,#fff 70%) 100% 0/40px 100% no-repeat local,linear-gradient(90deg,#0000,#0004) 100% 0/14px 100% no-repeat}
 .scroll:focus-visible,.equation:focus-visible,summary:focus-visible,input:focus-visible,a:focus-visible{outline:3px solid var(--blue);outline-offset:2px}
 table{border-collapse:collapse;font-size:.875rem;font-variant-numeric:tabular-nums}
 .index .scroll,.index table{width:100%}

@@ -159,7 +159,8 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
   }
   // The others are in the table; what no map does stays.
   constexpr std::size_t kMostModels = 12;
-  if (models.size() > kMostModels) {
+  const bool leaves_out = models.size() > kMostModels;
+  if (leaves_out) {
     std::stable_partition(
         models.begin() + kMostModels - 2, models.end(), [&](const auto* model) {
           return model->name == view.recommended || model->name == "zero";
@@ -204,6 +205,8 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
             "good, since the map knew neighbouring rows."
           : "Further left is better.";
   if (has_bars) figure.note += " Bars: 95 % intervals.";
+  if (holdouts.size() > 2) figure.note += " Other marks: other hold-outs.";
+  if (leaves_out) figure.note += " The table has all maps.";
   figure.description = GapWords(view, holdouts);
   return figure;
 }

@@ -66,7 +66,6 @@ Figure HistogramFigure(const ResidualContext& context) {
                static_cast<double>(sorted.size()) * histogram.width / sd /
                    kRootTwoPi * std::exp(-0.5 * z * z)});
   }
-  figure.note = "Figure 11 of the report of 1995.";
   figure.plot.x = ResidualAxis(context.view);
   figure.plot.y = {.quantity = "count", .unit = "rows"};
   figure.plot.y.low = 0.0;

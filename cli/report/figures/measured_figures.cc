@@ -184,11 +184,11 @@ std::vector<Figure> TemperatureFigures(const ReportView& view,
   }
   figure.plot.series.push_back(course.Starts(low, high));
   if (sensors.size() > kNamed) {
-    figure.note = fmt::format(
-        "Grey: the other {}.",
+    figure.note =
         sensors.size() - kNamed == 1
-            ? "thermometer"
-            : fmt::format("{} thermometers", sensors.size() - kNamed));
+            ? fmt::format("Grey: {}.", figures.inputs[sensors[kNamed]].name)
+            : fmt::format("Grey: the other {} thermometers.",
+                          sensors.size() - kNamed);
   }
   figure.description = fmt::format("Temperatures as measured: {}.",
                                    data::JoinWords(words, "; "));

@@ -129,7 +129,8 @@ Figure MapFigure(const ResidualContext& context, std::size_t position) {
   if (!(largest > 0.0)) largest = 1.0;
   figure.note =
       "Blue: measured less than predicted; orange: more. A row of one colour "
-      "is a group that drifts, a column a position that the map misses.";
+      "is a group shifted as a whole, a column a position that the map "
+      "misses.";
   figure.plot.x = InputAxis(context.view, position, kLongLabel);
   figure.plot.y.quantity =
       Shortened(context.view.component->figures.group.value_or(""), 30);
