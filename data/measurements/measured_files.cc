@@ -200,7 +200,8 @@ MeasuredFiles FindFiles(const std::vector<std::string>& given) {
         throw InputError(PrintablePath(path) +
                          ": is not a table; errmap compare takes a study file "
                          "with " +
-                         ArgumentName("config"));
+                         ArgumentName("config") + ", a machine with " +
+                         ArgumentName("machine"));
       }
       if (IsOfComparison(path)) {
         throw InputError(

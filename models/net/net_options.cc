@@ -88,18 +88,18 @@ OptionList<NetOptions> CommonList() {
                     "cv", kByCrossValidation, kWfactors})
           .Always(),
       OptionFor("decay",
-                "what it shrinks to 0: biases too, or not",
+                "what wfactor shrinks: all, or not biases",
                 &Options::decay,
                 EnumWords<Decay>({"all", "weights"}))
           .When([](const Options& options) {
             return options.decay == Decay::kWeights;
           }),
       OptionFor("discrepancy",
-                "the RMS residual that finds the wfactor",
+                "RMS residual that the wfactor is set to reach",
                 &Options::discrepancy,
                 kDeltas),
       OptionFor("path",
-                "down to its wfactor from strong ones",
+                "fits from a strong wfactor down to its own",
                 &Options::path,
                 OneOf<std::optional<bool>>{
                     {{"auto", std::nullopt}, {"yes", true}, {"no", false}}})

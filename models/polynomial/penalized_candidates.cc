@@ -192,7 +192,7 @@ OptionList<BasisOptions> BasisOptionList() {
                          OneOf<Centring>{{{"standard", Centring::kStandardised},
                                           {"yes", Centring::kAll},
                                           {"no", Centring::kNone}}}),
-               Within(TermsOption("exclude", "terms that are never in"),
+               Within(TermsOption("exclude", "terms that are always left out"),
                       &BasisOptions::exclude),
                ClipOption<BasisOptions>(),
                OptionFor("between",

@@ -125,7 +125,7 @@ OptionList<TermOptions> TermOptionList() {
                         {{"yes", Centring::kAll}, {"no", Centring::kNone}}}),
           Within(TermsOption("include", "terms that are always in"),
                  &TermOptions::include),
-          Within(TermsOption("exclude", "terms that are never in"),
+          Within(TermsOption("exclude", "terms that are always left out"),
                  &TermOptions::exclude)};
 }
 

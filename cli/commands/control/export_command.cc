@@ -212,11 +212,9 @@ void SayWhatFailuresDo(const models::MapProgram& program) {
       models::WorstOfFailing(program);
   for (std::size_t i = 0; i < std::min(kMost, sensors.size()); ++i) {
     Warn(
-        fmt::format("{} failing to 0 would move the error by up to {}, "
-                    "the worst failure by up to {}. Checks and limits keep "
-                    "that within {}",
+        fmt::format("unchecked, a failing {} could shift the compensation by "
+                    "{}; checks and limits keep it within {}",
                     data::NameInRemark(sensors[i].name),
-                    text.WithUnit(sensors[i].zero),
                     text.WithUnit(sensors[i].without),
                     text.WithUnit(sensors[i].with)));
   }
@@ -365,7 +363,7 @@ void AddExportCommand(CLI::App* app, Run* run) {
           "Use single precision: in C except for the state, in structured text "
           "throughout (REAL)");
   AddOption(command, "-o,--output DIR", command->out)
-      .About("Folder to write into")
+      .About("Folder to write into; of --linuxcnc the file")
       .Required()
       .Under(kOutputOptions);
   AddOption(command, "--name NAME", command->name)

@@ -366,6 +366,7 @@ Predicted PredictRows(const models::FittedModel& fitted,
 
 void SayAll(const Predicted& found, const WholeRows& whole) {
   const MatrixXd inputs = whole.inputs();
+  SaySensorFault(found.fitted, inputs);
   SayWhatIsPredicted(found);
   SayMissing(found);
   SayOutside(found.fitted.inputs,
@@ -373,7 +374,6 @@ void SayAll(const Predicted& found, const WholeRows& whole) {
              found.flags,
              data::AllRows(found.table.num_rows),
              false);
-  SaySensorFault(found.fitted, inputs);
   SayClipped(found);
   if (const Index learnt =
           models::CountLearntRows(found.fitted, inputs, nullptr);

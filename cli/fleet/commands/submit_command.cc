@@ -205,7 +205,7 @@ void AddSubmitCommand(CLI::App* app, Run* run) {
   AddForceFlag(command, &command->force);
   SetFooter(
       command,
-      "Writes three scripts into STORE/slurm. shards.sh is a job array, "
+      "Writes three scripts into DIR/slurm. shards.sh is a job array, "
       "merge.sh runs after it even if tasks failed, and submit.sh submits "
       "both. Time and memory are those of a dry run, with margins. Memory is "
       "requested only if a node reports that it has that much.\nExit status: 0 "

@@ -9,7 +9,9 @@
 #include "cli/fleet/store/watched_maps.h"
 #include "cli/report/html.h"
 #include "cli/report/plot.h"
+#include "cli/report/report_view.h"
 #include "cli/report/shell_word.h"
+#include "stats/comparison/paired_comparison.h"
 
 namespace errmap::fleet {
 namespace {
@@ -44,15 +46,17 @@ std::string Figure(const WatchedComponent& component, std::size_t number) {
     promised.Add({x, scale * component.deployment.promised});
   }
   // A line needs two ends.
-  promised.Add({static_cast<double>(component.checks.size() + 1),
-                scale * component.deployment.promised});
+  if (component.checks.size() == 1) {
+    promised.Add({2.0, scale * component.deployment.promised});
+  }
   line.columns = found.columns;
   report::Plot plot;
   plot.name = fmt::format("watched-{}", number);
   plot.x = {.quantity = "session since it was deployed",
             .names = Sessions(component)};
-  plot.y = {
-      .quantity = "RMSE", .unit = component.deployment.shown_unit, .low = 0.0};
+  plot.y = {.quantity = "RMSE",
+            .unit = report::PrettyUnit(component.deployment.shown_unit),
+            .low = 0.0};
   plot.series = {promised, line, found};
   const std::string description =
       fmt::format("RMSE of each session checked since {}; the newest: {}",
@@ -79,13 +83,20 @@ std::string WatchedComponent::Proposal(const std::string& store) const {
         report::ShellWord(store),
         report::ShellWord(deployment.component));
   };
-  const auto outside = [&] {
-    return checks.back().session.outside_share > models::kMostlyOutside;
-  };
   switch (status) {
     case WatchStatus::kWorse:
-      return measure(outside() ? "more of this state, unlike those trained on"
-                               : "more of this state");
+      // More than half of the mean square is one offset.
+      if (judgement &&
+          2.0 * judgement->offset * judgement->offset > found * found) {
+        return fmt::format(
+            "an offset of {:.3g} {}: errmap check {} {} says whether to "
+            "re-zero",
+            deployment.shown_scale * judgement->offset,
+            deployment.shown_unit,
+            map,
+            report::ShellWord(file));
+      }
+      return measure("more of this state");
     case WatchStatus::kDoubtful:
       return "measure one more session, then errmap watch again";
     case WatchStatus::kSensorChanged:
@@ -149,7 +160,9 @@ report::Table WatchTable(const std::vector<WatchedComponent>& components,
                   report::Number{component.deployment.promised, 3, scale},
                   component.deployment.shown_unit,
                   report::P{component.p_map},
-                  newest.sensor,
+                  brief && newest.p_sensor > stats::kSignificance
+                      ? report::Cell()
+                      : report::Cell(newest.sensor),
                   report::P{newest.p_sensor},
                   report::Number{newest.sensor_shift, 3},
                   std::ssize(component.checks)});
@@ -186,7 +199,7 @@ report::Table ToDo(const std::string& store,
                {{"map", false}, deployment.model},
                {{"found"}, report::Number{component.found, 3, scale}},
                {{"promised"}, report::Number{deployment.promised, 3, scale}},
-               {{"unit", false}, deployment.shown_unit},
+               {{"unit", false}, report::PrettyUnit(deployment.shown_unit)},
                {{"what to do", false}, proposal}});
   }
   table.SayIfEmpty("nothing is to be done");

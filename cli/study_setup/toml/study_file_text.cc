@@ -136,7 +136,7 @@ std::map<std::string_view, std::string> FoundKeys(
 
 std::string LengthKey(const char* key,
                       double value,
-                      double example,
+                      const std::string& example,
                       const data::Unit& unit,
                       const char* what) {
   const bool is_given = std::isfinite(value);
@@ -144,16 +144,15 @@ std::string LengthKey(const char* key,
   return fmt::format("{}{} = {}   # {}{}{}\n",
                      is_given ? "" : "# ",
                      key,
-                     is_given ? value : example,
+                     is_given ? fmt::format("{}", value) : example,
                      what,
-                     symbol.empty() ? "" : ", in ",
+                     symbol.empty() ? "" : "; a bare number is in ",
                      symbol);
 }
 
 std::string ComponentText(const models::ComponentPlan& component,
                           const ComponentConfig& config,
                           const std::string& data) {
-  constexpr double kExampleGoal = 0.5;
   const data::Dataset& dataset = component.comparison.data.dataset;
   const data::Unit& unit = dataset.target().unit;
   std::string text = "\n[[component]]\n" + FoundText(component);
@@ -173,14 +172,15 @@ std::string ComponentText(const models::ComponentPlan& component,
                                     ? fmt::format("# {}\n", option.example)
                                     : at->second + "\n";
                       });
-  text += LengthKey("goal",
-                    component.comparison.goal,
-                    kExampleGoal,
-                    unit,
-                    "RMSE wanted on held-out rows");
+  text +=
+      LengthKey("goal",
+                component.comparison.goal,
+                unit.quantity == data::Quantity::kLength ? "\"2um\"" : "0.5",
+                unit,
+                "RMSE wanted on held-out rows");
   text += LengthKey("indifference",
                     component.comparison.indifference,
-                    0.0,
+                    "0",
                     unit,
                     "a difference in RMSE that does not matter");
   return text;

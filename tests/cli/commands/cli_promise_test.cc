@@ -132,17 +132,15 @@ TEST_F(CliPromise, FitAndExportTellTheSameOfASensorThatFails) {
   ASSERT_TRUE(std::regex_search(
       said,
       found,
-      std::regex("(t[123]_degC) failing to 0 would move the error by up to "
-                 "([0-9.]+) um, the worst failure by up to ([0-9.]+) um. "
-                 "Checks and limits keep that within ([0-9.]+) um")))
+      std::regex("a failing (t[123]_degC) could shift the compensation by "
+                 "([0-9.]+) um; checks and limits keep it within ([0-9.]+) "
+                 "um")))
       << said;
   const Json& sensitivity = fitted["sensitivity"];
   EXPECT_EQ(found[1].str(), sensitivity["jump_of"]);
-  const double to_zero = std::stod(found[2]);
-  EXPECT_NEAR(
-      to_zero, sensitivity["largest_jump"].get<double>(), 0.03 * to_zero);
-  EXPECT_GE(std::stod(found[3]), to_zero);
-  EXPECT_LT(std::stod(found[4]), std::stod(found[3]));
+  const double unchecked = std::stod(found[2]);
+  EXPECT_GE(unchecked, 0.97 * sensitivity["largest_jump"].get<double>());
+  EXPECT_LT(std::stod(found[3]), unchecked);
 }
 
 // Any constant and any offset fits one row.

@@ -89,12 +89,12 @@ TEST_F(Watch, TellsHealthyWorseAndDriftingApart) {
   EXPECT_EQ(shifted["sessions"], 2);
   EXPECT_GT(shifted["found"], shifted["promised"]);
   EXPECT_THAT(shifted["proposal"].get<std::string>(),
-              AllOf(HasSubstr("errmap update store/maps/"),
-                    HasSubstr("errmap deploy store 'm1/x_displacement, down' "
-                              "--model new.json")));
+              AllOf(HasSubstr("an offset of "),
+                    HasSubstr("errmap check store/maps/"),
+                    HasSubstr("says whether to re-zero")));
   // What is to be done stands before the figures, and all in a table.
   const std::string page = Read("store/watch.html");
-  const std::size_t command = page.find("errmap deploy store");
+  const std::size_t command = page.find("errmap check store");
   EXPECT_LT(command, page.find("<svg"));
   EXPECT_LT(page.find("All components"), page.rfind("m1/x_displacement, down"));
   EXPECT_THAT(Run({"watch", "store", "later", "--format", "md"}).out,

@@ -19,7 +19,7 @@ std::string BaselineText(const models::CalibrationCheck& kept,
                          bool enough) {
   if (!kept.better_than_nothing()) {
     const bool mends = enough && kept.shape == models::ErrorShape::kOffset;
-    return fmt::format("as it is, worse than no compensation, {}{}",
+    return fmt::format("as it is, no better than no compensation, {}{}",
                        error.WithUnit(kept.uncompensated),
                        mends ? "" : ": do not use it here");
   }

@@ -56,22 +56,25 @@ std::vector<std::string> OutsideLines(
     rows += models::IsInside(inputs, values, row) ? 0 : 1;
   }
   if (rows == 0) return lines;
-  lines.push_back(fmt::format(
-      "warning: {} outside the trained range of the inputs: there the "
-      "map extrapolates",
-      Count(rows, "row")));
   const std::vector<models::InputOutside> outside =
       models::InputsOutside(inputs, values);
+  // Of one input its own line says it.
+  if (outside.size() != 1) {
+    lines.push_back(fmt::format(
+        "warning: {} outside the trained range of the inputs: there the "
+        "map extrapolates",
+        Count(rows, "row")));
+  }
   for (std::size_t i = 0; i < outside.size() && i < kMostInputs; ++i) {
     const models::InputOutside& found = outside[i];
     const models::TrainedInput& input =
         inputs[static_cast<std::size_t>(found.input)];
     const std::string& symbol = input.column.unit.symbol;
     lines.push_back(fmt::format(
-        "warning: {} is {:g} to {:g}{}, trained {:g} to {:g}: {} outside{}",
+        "warning: {} is {:g}{}{}, trained {:g} to {:g}: {} outside{}",
         data::Printable(input.column.name),
         found.min,
-        found.max,
+        found.min == found.max ? "" : fmt::format(" to {:g}", found.max),
         symbol.empty() ? "" : " " + symbol,
         input.min,
         input.max,

@@ -11,8 +11,8 @@
 namespace errmap::report {
 
 /// Returns one line for each input that leaves its trained range: in how many
-/// rows and by how much. `values` (m x p) are in the map's units. Empty if none
-/// does.
+/// rows and by how much; of several inputs, a line of all rows first. `values`
+/// (m x p) are in the map's units. Empty if none does.
 std::vector<std::string> OutsideLines(
     const std::vector<models::TrainedInput>& inputs,
     const Eigen::MatrixXd& values);

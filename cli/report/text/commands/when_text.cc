@@ -116,19 +116,23 @@ std::string NoProbeText(const ZeroSchedule& schedule,
                         const models::FittedModel& fitted,
                         const ErrorText& error,
                         double goal) {
-  std::string text = fmt::format(
-      "No probe is needed: 90 % of the errors are within {} without one.",
-      error.WithUnit(schedule.none.within_90));
-  // Few sessions promise less of another than they show of themselves.
-  if (fitted.interval && fitted.interval->levels[0].half_width > goal) {
-    text += fmt::format(
-        " But after {} {} the map promises only {} for a new one: take a few "
-        "probes in it (errmap check).",
-        fitted.interval->units,
-        PluralOf(fitted.interval->unit),
-        error.WithUnit(fitted.interval->levels[0].half_width));
+  const auto& interval = fitted.interval;
+  const std::string within = error.WithUnit(schedule.none.within_90);
+  if (!interval || !(interval->levels[0].half_width > goal)) {
+    return fmt::format(
+        "No probe is needed: 90 % of the errors are within {} without one.\n",
+        within);
   }
-  return text + "\n";
+  // Few sessions promise less of another than they show of themselves.
+  return fmt::format(
+      "Take a few probes in each new {} (errmap check): 90 % of the errors may "
+      "reach {} there. In the {} {} measured they stay within {} without a "
+      "probe.\n",
+      interval->unit,
+      error.WithUnit(interval->levels[0].half_width),
+      interval->units,
+      PluralOf(interval->unit),
+      within);
 }
 
 }  // namespace
