@@ -52,6 +52,7 @@ TEST_F(CliPromise, PredictStatesNoIntervalFarBeyondTheTraining) {
     EXPECT_EQ(row.at("upper_95"), "");
   }
   EXPECT_THAT(dead.err, HasSubstr("trained range; no interval there"));
+  EXPECT_LT(dead.err.find(" first: "), dead.err.find(" predicted as "));
 }
 
 // What held-out rows showed of rows unlike their training, predict says of such

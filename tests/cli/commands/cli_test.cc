@@ -325,7 +325,7 @@ TEST_F(Cli, PredictKeepsIdColumnsAndMarksExtrapolation) {
   EXPECT_LE(std::stod(records[0].at("lower_95")), lower);
   EXPECT_EQ(records[0].at("inside"), "1");
   EXPECT_EQ(records[1].at("inside"), "0");
-  EXPECT_THAT(outcome.err, HasSubstr("1 row outside the trained range"));
+  EXPECT_THAT(outcome.err, HasSubstr("trained -215.9 to -12.7: 1 row outside"));
   EXPECT_THAT(outcome.err, HasSubstr("the compensation is minus that"));
   EXPECT_EQ(Run({"predict", "m.json", "p.csv", "-o", "p.out"}).out, "");
   EXPECT_EQ(Read("p.out"), outcome.out);

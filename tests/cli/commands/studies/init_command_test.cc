@@ -47,6 +47,7 @@ TEST_F(InitCommand, InitNamesDroppedSensorsAndRefusesToOverwrite) {
   EXPECT_THAT(text,
               AllOf(HasSubstr("# t03_degC is left out: is dead (0 in all 1190"),
                     HasSubstr("target = \"error_mm\""),
+                    HasSubstr("# goal = \"2um\""),
                     HasSubstr("group = \"cycle\""),
                     Not(HasSubstr("\ngoal ="))));
   EXPECT_THAT(RefusalOf(Run({"init", data, "-o", "s.toml"}), kWrongCommandLine),
