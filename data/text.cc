@@ -8,8 +8,6 @@
 #include <numeric>
 #include <system_error>
 
-#include <fmt/format.h>
-
 namespace errmap::data {
 namespace {
 
@@ -278,8 +276,15 @@ std::string DidYouMean(std::string_view name,
 
 std::string Rounded(double value) {
   const double size = std::abs(value);
-  return size >= 100.0 && size < 1e6 ? fmt::format("{:.0f}", value)
-                                     : fmt::format("{:.3g}", value);
+  const bool is_whole = size >= 100.0 && size < 1e6;
+  std::array<char, 32> digits{};
+  const auto [end, error] = std::to_chars(
+      digits.begin(),
+      digits.end(),
+      value,
+      is_whole ? std::chars_format::fixed : std::chars_format::general,
+      is_whole ? 0 : 3);
+  return {digits.data(), end};
 }
 
 }  // namespace errmap::data
