@@ -98,7 +98,8 @@ constexpr auto kWords = std::to_array<std::string_view>({
     "deviazione_standard desviacion_estandar uncertainty unsicherheit "
     "messunsicherheit incertitude incertezza incertidumbre",
     // kPart
-    "machine maschine tool werkzeug pallet palette station operator",
+    "machine maschine tool werkzeug head kopf fixture pallet palette station "
+    "operator",
     // kComponent
     "side axis slide component diagonal diagonale",
     // kPlace

@@ -75,6 +75,12 @@ class AxisFinder {
     const std::size_t index =
         RequireColumn(table_, selection_.position, ArgumentName("position"));
     RequireNumbers(table_, {index, ColumnUse::kOther});
+    const Quantity quantity = UnitOfColumn(Name(index)).quantity;
+    if (quantity == Quantity::kTemperature || quantity == Quantity::kTime) {
+      throw InputError(PrintablePath(table_.file) + ": " +
+                       ArgumentName("position", Name(index)) + ": " +
+                       "is no position; name a length or an angle");
+    }
     TakeFrom(Look(index, rows_.size()));
     axis_.evidence = Evidence::kUser;
     axis_.positions.push_back(index);

@@ -111,6 +111,21 @@ class MeasuredBeside {
   double range_;  // of the target
 };
 
+// A controller's temperature: called so, and another one in few rows.
+bool IsSetPoint(const CsvColumn& column) {
+  constexpr std::size_t kSeldom = 20;
+  if (!StatesTemperature(column.name) ||
+      !(Says(column.name, Word::kNominal) ||
+        HasWordOf(column.name, "sp set tset"))) {
+    return false;
+  }
+  std::size_t changes = 0;
+  for (std::size_t i = 1; i < column.values.size(); ++i) {
+    changes += column.values[i] != column.values[i - 1] ? 1 : 0;
+  }
+  return kSeldom * changes < column.values.size();
+}
+
 bool Is(std::ptrdiff_t role, std::size_t index) {
   return role == static_cast<std::ptrdiff_t>(index);
 }
@@ -256,6 +271,9 @@ class InputChooser {
     const std::string_view timed = WhatItTimes(column);
     if (!timed.empty()) return timed;
     if (is_axis) return "";
+    if (IsSetPoint(column)) {
+      return "is a set point";
+    }
     if (IsCalled(column.name, Word::kPart) ||
         IsCalled(column.name, Word::kComponent)) {
       chosen_.words.push_back(i);
@@ -268,7 +286,7 @@ class InputChooser {
 
   void Consider(std::size_t i, const MeasuredBeside& measured) {
     const CsvColumn& column = table_.At(i);
-    if (IsUnnamed(column)) {
+    if (IsUnnamed(column) && column.name != selection_.position) {
       had_candidates_ = true;
       Drop(i, "has no name in the header");
       chosen_.remarks.push_back(

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -66,6 +67,9 @@ class DatasetBuilder {
     const std::string time_column =
         read_.found.time_column >= 0 ? Name(read_.found.time_column) : "";
     if (selection_.with_log) {
+      const std::vector<Eigen::Index> sessions = SessionOfRows();
+      read_.reading.sessions.count =
+          std::ssize(std::set(sessions.begin(), sessions.end()));
       TakeLog(table_,
               read_.log_rows,
               BlankedInLog(),
@@ -140,6 +144,20 @@ class DatasetBuilder {
   void TakeChosenInputs() {
     ChosenInputs chosen = ChooseInputsAsRead(table_, selection_, read_, &said_);
     inputs_ = std::move(chosen.inputs);
+    // Maps take the first position among their inputs for the axis.
+    const auto axis = std::ranges::find_if(inputs_, [&](std::size_t input) {
+      return std::cmp_equal(input, read_.axis.column);
+    });
+    if (axis != inputs_.end()) {
+      std::rotate(std::ranges::find_if(
+                      inputs_,
+                      [&](std::size_t input) {
+                        return std::cmp_equal(input, read_.axis.column) ||
+                               Info(input).role == Role::kPosition;
+                      }),
+                  axis,
+                  axis + 1);
+    }
     words_ = std::move(chosen.words);
     records_ = std::move(chosen.records);
   }

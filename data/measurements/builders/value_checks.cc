@@ -50,7 +50,8 @@ std::string UnitOfSession(const Unit& own_unit,
                near &&
            std::abs(Converted(own.most, unit, own_unit) - beside.most) < near;
   };
-  if (is_alike(own_unit)) return "";
+  const bool is_off = own.least == own.most || beside.least == beside.most;
+  if (is_off || is_alike(own_unit)) return "";
   const std::vector<Unit> units = UnitsOf(own_unit.quantity);
   const auto found = std::ranges::find_if(units, is_alike);
   return found == units.end() ? "" : found->symbol;
@@ -107,8 +108,12 @@ std::optional<std::string> OtherUnitInSession(
   constexpr Eigen::Index kMostSessions = 1000;
   const bool is_position =
       input.role == Role::kPosition && IsLengthOrAngle(input.unit);
+  const Unit own_unit = !is_position && input.unit.symbol.empty()
+                            ? UnitOfSymbol("degC")
+                            : input.unit;
   const auto n = std::ssize(starts);
-  if ((!is_position && input.unit.quantity != Quantity::kTemperature) ||
+  if ((!is_position && input.unit.quantity != Quantity::kTemperature &&
+       !NamesTemperature(input.name)) ||
       n < 2 || n > kMostSessions) {
     return std::nullopt;
   }
@@ -116,7 +121,7 @@ std::optional<std::string> OtherUnitInSession(
   const auto remark = [&](std::size_t session, std::size_t beside) {
     const Range own = ranges[session];
     const Range other = ranges[beside];
-    const std::string unit = UnitOfSession(input.unit, own, other);
+    const std::string unit = UnitOfSession(own_unit, own, other);
     if (unit.empty()) return unit;
     return NameInRemark(input.name) + " is " + Rounded(own.least) + " to " +
            Rounded(own.most) + " in session " + std::to_string(session + 1) +

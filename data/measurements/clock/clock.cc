@@ -130,7 +130,8 @@ class ClockFinder : private RowColumns {
       } else {
         ToSeconds(column.name, named, &values);
       }
-      clock_.hours_alone = clock_.unit == "h" && AreHoursOfDays(values);
+      clock_.hours_alone = (clock_.unit == "h" && AreHoursOfDays(values)) ||
+                           PassMidnight(values);
       if (!clock_.dated && TellsTheHour(values)) AddDates(&values, &known);
     } else {
       clock_.unit = "date";
@@ -228,6 +229,18 @@ class ClockFinder : private RowColumns {
            std::ranges::all_of(values, [](double value) {
              return value >= kFirst && value < kSecondsOfDay;
            });
+  }
+
+  // Seconds of the day that begin anew within an hour of midnight.
+  static bool PassMidnight(const std::vector<double>& values) {
+    constexpr double kHour = 3600.0;
+    bool passes = false;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (values[i] < 0.0 || values[i] >= kSecondsOfDay) return false;
+      passes = passes || (i > 0 && values[i] <= kHour &&
+                          values[i - 1] >= kSecondsOfDay - kHour);
+    }
+    return passes;
   }
 
   // The days of hours that stand in a column of their own.

@@ -162,7 +162,7 @@ class ThermometerFaultFinder {
     }
     // Who stays to the end, and never came back, needs one witness only.
     const bool to_the_end = rows.back() == sound.back();
-    if (ranges_within.size() < (to_the_end ? 1 : kFewestOthers)) return;
+    if (ranges_within.size() < (to_the_end ? 1 : 2)) return;
     const double others = MedianOf(std::move(ranges_within)) * t.degree;
     const double elsewhere = MedianOf(std::move(ranges_elsewhere)) * t.degree;
     const double expected = others * RangeOf(t, first, last, false) / elsewhere;

@@ -104,9 +104,10 @@ std::vector<std::string> ReadingLines(const Reading& reading) {
   }
   std::vector<std::string> lines = {first + "."};
   if (reading.order == "time") {
-    lines.push_back("The rows were not in order of time. They were sorted by " +
-                    NameInRemark(reading.time.column.value_or(
-                        reading.cycles.column.value_or(""))) +
+    lines.push_back("The rows were not in order of time. They were " +
+                    (reading.time.column
+                         ? "sorted by " + NameInRemark(*reading.time.column)
+                         : "turned upside down") +
                     ".");
   } else if (reading.order == "none") {
     lines.push_back(

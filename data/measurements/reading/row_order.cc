@@ -128,18 +128,32 @@ bool CyclesAreMixed(const TableInReading& in) {
                   codes.size() == cycles.size() ? codes : std::vector<Index>());
 }
 
-// Whether the cycles of all rows count down one by one to the first: the newest
-// row stands on top.
-bool CyclesCountDown(const TableInReading& in) {
+// Whether cycles, sessions or numbers of the rows count down one by one through
+// the file, whose newest row then stands on top.
+bool CountsDown(const TableInReading& in, const CsvColumn& column) {
   constexpr double kFewest = 3.0;
-  const std::vector<double> cycles = CyclesOf(in);
-  if (cycles.empty() || cycles.back() > 1.0 ||
-      cycles.front() < cycles.back() + kFewest) {
+  if (column.is_text() || !column.exceptions.empty() || !KeepsRecord(column)) {
     return false;
   }
-  return std::ranges::adjacent_find(cycles, [](double now, double next) {
+  const std::vector<double> values = ValuesOf(column, in.base_rows);
+  return !values.empty() && values.front() >= values.back() + kFewest &&
+         std::ranges::adjacent_find(values, [](double now, double next) {
            return !(next == now || next == now - 1.0);
-         }) == cycles.end();
+         }) == values.end();
+}
+
+// A clock without dates goes back at nearly every row where the newest row
+// stands on top. A single traverse downwards may have numbers that fall.
+bool IsUpsideDown(const TableInReading& in) {
+  constexpr Index kFewestRows = 12;
+  const auto n = std::ssize(in.base_rows);
+  if (n < kFewestRows || in.read.axis.motion.is_sorted) return false;
+  if (in.clock.is_found()) {
+    return !in.clock.dated && 4 * TimesBack(in.clock.time) > 3 * n;
+  }
+  return std::ranges::any_of(in.table().columns, [&](const CsvColumn& column) {
+    return CountsDown(in, column);
+  });
 }
 
 // Of each base row, by the column that is called so; "" without one.
@@ -177,12 +191,10 @@ bool SortByTime(TableInReading* in) {
   return places.has_value();
 }
 
-bool TurnUpsideDown(TableInReading* in) {
-  if (in->clock.is_found() || !CyclesCountDown(*in)) return false;
+void TurnUpsideDown(TableInReading* in) {
   std::vector<Index> places = AllRows(in->base_rows.size());
   std::ranges::reverse(places);
   TakeInOrder(in, places);
-  return true;
 }
 
 void FindClockAndAxis(TableInReading* in, bool looks_for_axis) {
@@ -226,7 +238,10 @@ void PutInOrder(TableInReading* in, RowsFor use) {
         !LieApart(in->clock.time, PartsOfRows(in->given, in->base_rows))));
   const bool tells_no_history =
       disorder || (!in->clock.is_found() && (sorted || CyclesAreMixed(*in)));
-  if ((disorder && SortByTime(in)) || TurnUpsideDown(in)) {
+  if (IsUpsideDown(*in)) {
+    TurnUpsideDown(in);
+    FindClockAndAxis(in, looks_for_axis);
+  } else if (disorder && SortByTime(in)) {
     FindClockAndAxis(in, looks_for_axis);
   } else if (tells_no_history) {
     in->ordered = false;

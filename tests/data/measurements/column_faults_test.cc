@@ -237,6 +237,11 @@ TEST(FindColumnFaults, NamesAThermometerThatIsStuckInASession) {
   EXPECT_GE(fault.rows.back(), 119);
   EXPECT_EQ(fault.value, machine.values(60, 5));
   EXPECT_GT(fault.high, 1.0);
+  // Two others are witnesses enough.
+  const std::vector<Index> kept{0, 3, 4, 5};
+  machine.values = machine.values(Eigen::all, kept).eval();
+  machine.inputs.erase(machine.inputs.begin() + 1, machine.inputs.begin() + 3);
+  EXPECT_EQ(machine.OnlyFault().kind, FaultKind::kStuck);
 }
 
 TEST(FindColumnFaults, NamesANoisyThermometer) {
@@ -407,18 +412,20 @@ TEST(FindColumnFaults, RaisesNoFalseAlarmOverSimulatedMachines) {
 }
 
 // Nor where few of its thermometers were logged: of all 780 pairs of four
-// machines none gave one, of which some are looked at here.
-TEST(FindColumnFaults, RaisesNoFalseAlarmOverPairsOfThermometers) {
+// machines none gave one, of which some are looked at here, and some triples.
+TEST(FindColumnFaults, RaisesNoFalseAlarmOverFewThermometers) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SimulatedSweep sweep({.seed = seed, .days = 5});
     const SimulatedSweep all = sweep;
     int alarms = 0;
     for (Index a = 1; a < all.values.cols(); ++a) {
-      for (const Index b : {a - 1, a / 2}) {
-        const std::vector<Index> pair{a, b};
-        sweep.values = all.values(Eigen::all, pair);
-        sweep.inputs = {all.inputs[static_cast<std::size_t>(a)],
-                        all.inputs[static_cast<std::size_t>(b)]};
+      for (const std::vector<Index>& few : std::vector<std::vector<Index>>{
+               {a, a - 1}, {a, a / 2}, {a, a - 1, a / 2}, {a, a / 2, a / 3}}) {
+        sweep.values = all.values(Eigen::all, few);
+        sweep.inputs.clear();
+        for (const Index i : few) {
+          sweep.inputs.push_back(all.inputs[static_cast<std::size_t>(i)]);
+        }
         alarms += sweep.Faults().empty() ? 0 : 1;
       }
     }

@@ -294,6 +294,22 @@ Reading ReadWith(const std::string& header,
       }));
 }
 
+TEST(Sessions, AreCountedWhereRowsAreUsed) {
+  const std::string text = warming_log::Text(
+      "day,position_mm,t1_degC,error_um",
+      Log().Rows(),
+      [](const Log::Row& row) {
+        return std::vector<std::string>{
+            std::to_string(row.day),
+            warming_log::Fixed(row.position),
+            warming_log::Fixed(row.warm),
+            row.day == 1 ? "" : warming_log::Fixed(row.error)};
+      });
+  EXPECT_EQ(warming_log::Read(text, {.missing = MissingPolicy::kDropRows})
+                .sessions.count,
+            3);
+}
+
 TEST(Sessions, AreNotThoseOfALabelThatAllRowsShare) {
   const Reading reading = ReadWith("session,time_s", [](const Log::Row& row) {
     return "1," + warming_log::Fixed(row.time);
@@ -303,6 +319,21 @@ TEST(Sessions, AreNotThoseOfALabelThatAllRowsShare) {
   EXPECT_EQ(
       ReadWith("session", [](const Log::Row&) { return "7"; }).sessions.column,
       "session");
+}
+
+TEST(Sessions, GoOnWhereSecondsOfTheDayPassMidnight) {
+  // The first of four nights begins at 23:55.
+  const auto of_day = [](const Log::Row& row) {
+    return std::fmod(row.time - 1000.0 + 86100.0, 86400.0);
+  };
+  const Reading seconds = ReadWith("time_s", [&](const Log::Row& row) {
+    return warming_log::Fixed(of_day(row));
+  });
+  EXPECT_EQ(seconds.sessions.count, 4);
+  const Reading hours = ReadWith("hour", [&](const Log::Row& row) {
+    return warming_log::Fixed(of_day(row) / 3600.0);
+  });
+  EXPECT_EQ(hours.sessions.count, 4);
 }
 
 TEST(Sessions, AreShiftsAndWeekdaysEachTimeTheyReturn) {

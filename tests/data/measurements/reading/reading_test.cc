@@ -67,6 +67,19 @@ TEST(Reading, NamesASessionInAnotherUnit) {
                 if (row->day < 2) row->warm = 1.8 * row->warm + 32.0;
               }),
               Contains(HasSubstr("in session 2, as if its unit were 'degF'")));
+  // Of no unit in its name.
+  const std::string text = Text("time_s,position_mm,t1_temp,error_um",
+                                Log().Rows(),
+                                [](const Log::Row& row) {
+                                  std::vector<std::string> cells =
+                                      TimePositionTempError(row);
+                                  if (row.day == 1) {
+                                    cells[2] = Fixed(1.8 * row.warm + 32.0);
+                                  }
+                                  return cells;
+                                });
+  EXPECT_THAT(MakeDataset(ParseCsv(text, "log.csv"), {}).remarks,
+              Contains(HasSubstr("in session 2, as if its unit were 'degF'")));
   // A short travel and a hot day are none.
   for (const double factor : {0.5, 0.8}) {
     EXPECT_THAT(RemarksOn([&](Log::Row* row) {
@@ -435,6 +448,27 @@ TEST(Reading, CountsNoCycleOfRowsWithoutATime) {
     if (ends_day) text += ",,22.1,1.5\n";  // its means
   }
   EXPECT_EQ(Read(text, {.missing = MissingPolicy::kDropRows}).cycles.count, 20);
+}
+
+TEST(Reading, TakesTheAxisThatIsNamed) {
+  const std::string text =
+      Text("x_mm,y_mm,,t1_degC,T_set_degC,error_um",
+           Log().Rows(),
+           [](const Log::Row& row) {
+             return std::vector<std::string>{Fixed(row.position),
+                                             Fixed(0.75 * row.position),
+                                             Fixed(row.position + 1.0),
+                                             Fixed(row.warm),
+                                             std::to_string(20 + row.day % 2),
+                                             Fixed(row.error)};
+           });
+  const PreparedDataset made =
+      MakeDataset(ParseCsv(text, "log.csv"), {.position = "y_mm"});
+  EXPECT_EQ(made.dataset.inputs()[0].name, "y_mm");
+  EXPECT_THAT(made.reading.sensors, ElementsAre("t1_degC"));
+  EXPECT_EQ(Read(text, {.position = "column_3"}).position.column, "column_3");
+  EXPECT_THAT([&] { Read(text, {.position = "t1_degC"}); },
+              ThrowsMessage<InputError>(HasSubstr("is no position")));
 }
 
 TEST(Reading, ListsTheOtherAxesAmongTheInputs) {

@@ -21,6 +21,7 @@ namespace errmap::data {
 namespace {
 
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using warming_log::Fixed;
 using warming_log::Log;
@@ -179,6 +180,29 @@ TEST(Reading, KeepsTheClockBesideAColumnThatCountsOn) {
   EXPECT_TRUE(prepared.dataset.log()->ordered);
 }
 
+TEST(Reading, TurnsDaysAndRowsThatCountDownUpsideDown) {
+  std::vector<Log::Row> rows = Log().Rows();
+  std::ranges::reverse(rows);
+  for (const bool by_day : {true, false}) {
+    int id = 700;
+    const PreparedDataset made =
+        MakeDataset(ParseCsv(Text(by_day ? "day,position_mm,t1_degC,error_um"
+                                         : "id,position_mm,t1_degC,error_um",
+                                  rows,
+                                  [&](const Log::Row& row) {
+                                    return std::vector<std::string>{
+                                        std::to_string(by_day ? row.day : id--),
+                                        Fixed(row.position),
+                                        Fixed(row.warm),
+                                        Fixed(row.error)};
+                                  }),
+                             "log.csv"),
+                    {});
+    EXPECT_EQ(made.reading.order, "time");
+    EXPECT_THAT(made.reading.direction.values, ElementsAre("up"));
+  }
+}
+
 TEST(Reading, TurnsCyclesThatCountDownUpsideDown) {
   std::vector<Log::Row> rows = Log().Rows();
   const auto make = [](const std::vector<Log::Row>& of) {
@@ -202,7 +226,7 @@ TEST(Reading, TurnsCyclesThatCountDownUpsideDown) {
   EXPECT_EQ(newest_first.reading.sessions.count,
             measured.reading.sessions.count);
   EXPECT_THAT(ReadingLines(newest_first.reading),
-              Contains(HasSubstr("They were sorted by cycle.")));
+              Contains(HasSubstr("They were turned upside down.")));
 }
 
 }  // namespace
