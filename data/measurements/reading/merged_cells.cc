@@ -37,6 +37,7 @@ bool IsReadSeldom(const std::string& name,
   constexpr std::size_t kFewestReadings = 3;
   if (!NamesTemperature(name) || rows.size() < kFewestReadings) return false;
   const std::size_t step = rows[1] - rows[0];
+  if (step == 1) return false;  // and broken from some row on
   for (std::size_t i = 1; i < rows.size(); ++i) {
     if (rows[i] - rows[i - 1] != step) return false;
   }

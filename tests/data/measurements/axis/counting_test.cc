@@ -181,6 +181,16 @@ TEST(Counting, PartsWhatComesAgainInANamedColumn) {
   EXPECT_EQ(reading.sessions.count, kDays);
 }
 
+// A thermometer that failed on the first day has no merged cells.
+TEST(Counting, FillsNoThermometerThatFailed) {
+  const Cell failed = [](const Place& at) {
+    return at.day == 0 ? Number(20 + at.row % 3) : "";
+  };
+  const PreparedDataset made =
+      MadeWith("t2_degC", failed, {.missing = MissingPolicy::kDropRows});
+  EXPECT_EQ(made.dataset.num_rows(), kCycles * 2 * kPositions);
+}
+
 // What a spreadsheet shows once for merged cells holds for all of them.
 TEST(Counting, FillsMergedCellsFromAbove) {
   const auto first_of = [](int rows, int row, int number) {
