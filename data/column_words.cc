@@ -270,7 +270,13 @@ std::ptrdiff_t FirstOf(const std::vector<std::string>& words, Word word) {
 // "EXX", "EBZ": the notation of ISO 230-1.
 bool IsErrorSymbol(std::string_view column) {
   constexpr std::string_view kAxes = "XYZUVWABC";
-  const std::string base = ReadHeader(column).base;
+  std::string base = ReadHeader(column).base;
+  if (base.size() == 4 && base[1] == '_') {  // "E_xx"
+    base.erase(1, 1);
+    std::ranges::transform(base, base.begin(), [](char c) {
+      return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    });
+  }
   return base.size() == 3 && base[0] == 'E' &&
          kAxes.find(base[1]) != kAxes.npos && kAxes.find(base[2]) != kAxes.npos;
 }

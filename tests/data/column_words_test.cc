@@ -21,6 +21,9 @@ TEST(ErrorSign, TurnsWithEveryWordForACorrection) {
   }
   EXPECT_EQ(ErrorSign("Abweichung [um]"), 1);
   EXPECT_EQ(ErrorSign("-correction_um"), 1);
+  EXPECT_EQ(ErrorSign("E_xx [um]"), 1);
+  EXPECT_EQ(ErrorSign("E_AX"), 1);
+  EXPECT_EQ(ErrorSign("E_ax1"), 0);
   EXPECT_EQ(ErrorSign("company"), 0);
 }
 

@@ -31,6 +31,19 @@ struct ReadArguments {
 // The rows that are used, in the order in which they were read, to be read
 // again as they were: with the columns that were found in the others, session
 // and time_s, which takes the place of a clock that is not a date.
+// The name of a column in the clean table. A negative that --target made has
+// the sign of an error now; under its own name it would be asked for again.
+std::string CleanName(const data::CsvTable& table,
+                      const data::ReadTable& read,
+                      std::size_t column) {
+  const std::string& name = table.columns[column].name;
+  const std::string error = fmt::format("error [{}]", read.reading.target.unit);
+  return column == read.roles.target && name.starts_with('-') &&
+                 table.Find(error) < 0
+             ? error
+             : name;
+}
+
 std::string CleanCsv(const data::CsvTable& table,
                      const data::ReadTable& read,
                      const std::vector<Index>& in_use) {
@@ -51,7 +64,8 @@ std::string CleanCsv(const data::CsvTable& table,
   }
   std::string text;
   for (const std::size_t i : kept) {
-    text += (text.empty() ? "" : ",") + data::CsvField(table.columns[i].name);
+    text +=
+        (text.empty() ? "" : ",") + data::CsvField(CleanName(table, read, i));
   }
   text += add_session ? ",session" : "";
   text += add_time ? ",time_s\n" : "\n";

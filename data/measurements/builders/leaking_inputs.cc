@@ -74,7 +74,10 @@ class LeakFinder {
     const Eigen::MatrixXd& input_values = parts.input_values;
     const Index m = target_values.size();
     const Index stride = 1 + (m - 1) / kMostRowsLooked;
-    for (Index row = 0; row < m; row += stride) rows_.push_back(row);
+    // In the first row a difference to the row before is not known.
+    for (Index row = m > kFewestRowsToTell ? 1 : 0; row < m; row += stride) {
+      rows_.push_back(row);
+    }
     target_ = target_values(rows_);
     resolution_ = ResolutionOf(target_);
     target_.array() -= target_.mean();
@@ -86,6 +89,7 @@ class LeakFinder {
     const Eigen::MatrixXd values = input_values(rows_, Eigen::all);
     FindShares(looked, values);
     FindSizes(looked, values);
+    FindEarlier(target_values, input_values);
   }
 
   std::vector<Leak> Find() {
@@ -250,6 +254,21 @@ class LeakFinder {
     if (gap < 0.0 || gap > kMostOfGap * (large.second - small.first)) return "";
     return "is above " + Rounded(large.first - 0.5 * gap) + " where " +
            NameOf(input) + " is " + Rounded(when_on ? on : off);
+  }
+
+  // The error of the row before, in nearly all rows (m x p values).
+  void FindEarlier(const VectorXd& target, const Eigen::MatrixXd& values) {
+    constexpr Index kNearlyAll = 95;  // percent
+    const Index m = target.size() - 1;
+    if (m < kFewestRowsToTell || !(sd_ > 0.0)) return;
+    for (Index j = 0; j < values.cols(); ++j) {
+      const auto earlier = target.head(m).array();
+      const Index alike = (values.col(j).tail(m).array() == earlier).count();
+      if (100 * alike < kNearlyAll * m) continue;
+      alone_.push_back(
+          {.left_out = {j},
+           .statement = NameOf(j) + " = " + name_ + " of the row before"});
+    }
   }
 
   std::string NameOf(Index input) const {

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "data/column_words.h"
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
 #include "data/measurements/faults/thermometers.h"
@@ -231,6 +232,14 @@ class CellFaultFinder {
     return input < 0 ? measured_.target.unit : measured_.inputs[input].unit;
   }
 
+  // "ΔT bed [K]": a few kelvin, of either sign.
+  bool IsDifference(Index input) const {
+    const std::string& name =
+        measured_.inputs[static_cast<std::size_t>(input)].name;
+    return name.starts_with("\u0394") || name.starts_with("\u2206") ||
+           HasWordOf(name, "delta dt diff difference differenz rise");
+  }
+
   void Add(FaultKind kind, Index input, Rows rows, double value, Bounds held) {
     found_.faults.push_back(
         MakeFault(measured_, kind, input, std::move(rows), value, held));
@@ -249,6 +258,7 @@ class CellFaultFinder {
       const Bounds possible{Converted(kColdest, kDegC, UnitOf(input)),
                             Converted(kHottest, kDegC, UnitOf(input))};
       wrong = RowsBeyond(values, possible, &others);
+      if (IsDifference(input)) wrong.clear();
       if (!wrong.empty() && AreBelieved(measured_, input, wrong)) wrong.clear();
       if (!wrong.empty()) {
         if (static_cast<Index>(wrong.size()) == values.size()) {

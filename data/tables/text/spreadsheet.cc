@@ -208,8 +208,9 @@ class Workbook {
     }
     if (with_cells.size() > 1) {
       throw InputError("has the sheets " + Names(with_cells) +
-                       "; name one after a colon: FILE.xlsx:" +
-                       Printable(with_cells.front().name, kMostShown));
+                       "; name one after a colon, or several as files: "
+                       "'FILE.xlsx:" +
+                       Printable(with_cells.front().name, kMostShown) + "'");
     }
     return text;
   }

@@ -176,6 +176,13 @@ TEST(FindColumnFaults, DoubtsOneInAnotherUnitThanItsLikeOrNotConnected) {
   }
 }
 
+TEST(FindColumnFaults, TakesDifferencesOfTemperaturesAsTheyAre) {
+  Machine machine("K");
+  GoThrough(-0.5, 8.0, 3, &machine);
+  machine.inputs[3].name = "\u0394T bed [K]";
+  EXPECT_THAT(machine.Faults(), IsEmpty());
+}
+
 TEST(FindColumnFaults, NamesCodesAndFarValuesOfTargetAndPosition) {
   Machine machine;
   machine.errors[5] = 9999.0;

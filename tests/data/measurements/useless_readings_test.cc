@@ -71,12 +71,17 @@ TEST(UselessReadings, InputsThatHoldTheErrorAreLeftOut) {
     const double at = Number(cells[kPosition]);
     return at == 0.0 ? 0.0 : rounded(1000.0 * error(cells) / at, 2);
   };
+  double of_row_before = 0.0;
+  const auto previous = [&](const auto& cells) {
+    return std::exchange(of_row_before, error(cells));
+  };
   for (const std::string& text : {with("actual_mm", actual),
                                   with("actual_mm", coarse),
                                   with("diameter_mm", coarse_copy),
                                   with("raw", copy),
                                   with("raw_counts", counts),
                                   with("err_ppm", share),
+                                  with("previous", previous),
                                   with("dev_percent", copy)}) {
     const PreparedDataset prepared = Make(text);
     EXPECT_THAT(InputNames(prepared.dataset),
@@ -84,7 +89,7 @@ TEST(UselessReadings, InputsThatHoldTheErrorAreLeftOut) {
     EXPECT_THAT(
         prepared.remarks,
         Contains(
-            AnyOf(HasSubstr("holds the error itself (error_um = "),
+            AnyOf(HasSubstr("holds the error itself ("),
                   HasSubstr("measures an error as the target does"),
                   HasSubstr("reads the position that position_mm commands"))));
   }

@@ -82,10 +82,11 @@ TEST(SheetText, AsksWhichWhereSeveralSheetsHaveCells) {
   const std::string cell = "<row><c><v>1</v></c></row>";
   const std::string book =
       XlsxOf({{"Day 1", cell}, {"Empty", ""}, {"Day &amp; 2", cell}});
-  EXPECT_THAT([&] { SheetText(book, ""); },
-              ThrowsMessage<InputError>(
-                  "has the sheets 'Day 1', 'Day & 2'; name one after a colon: "
-                  "FILE.xlsx:Day 1"));
+  EXPECT_THAT(
+      [&] { SheetText(book, ""); },
+      ThrowsMessage<InputError>(
+          "has the sheets 'Day 1', 'Day & 2'; name one after a colon, or "
+          "several as files: 'FILE.xlsx:Day 1'"));
   EXPECT_EQ(SheetText(book, "day & 2"), "1\n");
   EXPECT_THAT([&] { SheetText(book, "Day 3"); },
               ThrowsMessage<InputError>(

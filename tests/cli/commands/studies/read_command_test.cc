@@ -99,6 +99,16 @@ TEST_F(ReadCommand, WritesTheRowsInUse) {
               HasSubstr("Read: 59 rows in 3 sessions (by day) of 4 cycles"));
 }
 
+// Asked again for the sign of its own clean table, somebody would turn it back.
+TEST_F(ReadCommand, WritesTheNegativeOfACorrectionAsAnError) {
+  EXPECT_EQ(
+      Run({"read", "log.csv", "--target=-comp_um", "-o", "clean.csv"}).status,
+      0);
+  const Outcome again = Run({"read", "clean.csv"});
+  EXPECT_EQ(again.status, 0);
+  EXPECT_THAT(again.out, HasSubstr("target     error [um] in um (name)"));
+}
+
 TEST_F(ReadCommand, CountsTheRowsOfTheWayInUse) {
   std::string text = "day,where,heat_degC,error_um\n";
   for (int i = 0; i < 120; ++i) {
