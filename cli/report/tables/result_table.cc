@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -414,7 +414,8 @@ std::string DrawnRowsWords(const ReportView& view) {
 
 std::string StandInWords(const ReportView& view, std::size_t most_rows) {
   constexpr std::string_view kOfATemperature = "poly:temperature";
-  for (const ModelRecord* model : view.models | std::views::take(most_rows)) {
+  const std::size_t shown = std::min(most_rows, view.models.size());
+  for (const ModelRecord* model : std::span(view.models).first(shown)) {
     const auto& inputs = model->inputs_used;
     if (model->name != kOfATemperature || !inputs || inputs->size() != 1 ||
         !model->sensors || !model->sensors->empty()) {

@@ -121,7 +121,7 @@ std::optional<std::string> OtherUnitInSession(
   const auto remark = [&](std::size_t session, std::size_t beside) {
     const Range own = ranges[session];
     const Range other = ranges[beside];
-    const std::string unit = UnitOfSession(own_unit, own, other);
+    std::string unit = UnitOfSession(own_unit, own, other);
     if (unit.empty()) return unit;
     return NameInRemark(input.name) + " is " + Rounded(own.least) + " to " +
            Rounded(own.most) + " in session " + std::to_string(session + 1) +
