@@ -38,15 +38,10 @@ class CLanguage final : public Language {
 
   std::string CellName(Cell cell) const override {
     const CellInfo& info = InfoOf(cell);
-    switch (info.kind) {
-      case CellKind::kKept:
-        return fmt::format("state->{}", info.name);
-      case CellKind::kTable:
-        return fmt::format("{}_{}", name_, info.name);
-      case CellKind::kLocal:
-        break;
-    }
-    return info.name;
+    const std::string before = info.kind == CellKind::kKept    ? "state->"
+                               : info.kind == CellKind::kTable ? name_ + "_"
+                                                               : "";
+    return before + info.name;
   }
 
   std::string Number(double value, bool single) const override {
