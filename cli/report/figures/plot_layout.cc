@@ -175,12 +175,11 @@ double TextWidth(std::string_view text) {
     constexpr unsigned char kLead = 0xC0;
     constexpr unsigned char kLeadOfThree = 0xE0;
     if (byte >= kContinuation && byte < kLead) continue;
-    if (byte >= kLeadOfThree) {
-      width += 1.0;
-    } else if (std::string_view(" .,:;'|!()[]iljtfrI-/").find(c) !=
-               std::string_view::npos) {
+    if (std::string_view(" .,:;'|!()[]iljtfrI-/").find(c) !=
+        std::string_view::npos) {
       width += 0.42;
-    } else if (std::string_view("mwMW@%").find(c) != std::string_view::npos) {
+    } else if (byte >= kLeadOfThree ||
+               std::string_view("mwMW@%").find(c) != std::string_view::npos) {
       width += 1.0;
     } else {
       width += c >= 'A' && c <= 'Z' ? 0.76 : 0.64;
