@@ -48,8 +48,7 @@ struct CeresOptions {
 /// itself, the summary says kNoDescent with Ceres' own text.
 class CeresOptimizer final : public OptimizerWith<CeresOptions> {
  public:
-  explicit CeresOptimizer(CeresOptions options)
-      : OptimizerWith(std::move(options)) {}
+  explicit CeresOptimizer(CeresOptions options) : OptimizerWith(options) {}
 
   /// "ceres:lbfgs", ...
   std::string name() const override;

@@ -28,7 +28,7 @@ struct ConjugateGradientOptions {
 class ConjugateGradient final : public OptimizerWith<ConjugateGradientOptions> {
  public:
   explicit ConjugateGradient(ConjugateGradientOptions options)
-      : OptimizerWith(std::move(options)) {}
+      : OptimizerWith(options) {}
 
   std::string name() const override { return "cg"; }
 

@@ -28,7 +28,7 @@ struct GradientDescentOptions {
 class GradientDescent final : public OptimizerWith<GradientDescentOptions> {
  public:
   explicit GradientDescent(GradientDescentOptions options)
-      : OptimizerWith(std::move(options)) {}
+      : OptimizerWith(options) {}
 
   std::string name() const override { return "backprop"; }
 

@@ -84,7 +84,7 @@ class LevenbergMarquardt final
     : public OptimizerWith<LevenbergMarquardtOptions> {
  public:
   explicit LevenbergMarquardt(LevenbergMarquardtOptions options)
-      : OptimizerWith(std::move(options)) {}
+      : OptimizerWith(options) {}
 
   std::string name() const override { return "lm"; }
 

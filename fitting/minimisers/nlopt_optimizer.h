@@ -57,8 +57,7 @@ class NloptOptimizer final : public OptimizerWith<NloptOptions> {
   /// Maximum number of parameters that crs2_lm searches.
   static constexpr Index kMostCrs2Parameters = 100;
 
-  explicit NloptOptimizer(NloptOptions options)
-      : OptimizerWith(std::move(options)) {}
+  explicit NloptOptimizer(NloptOptions options) : OptimizerWith(options) {}
 
   /// "nlopt:lbfgs", ...
   std::string name() const override;
