@@ -146,9 +146,9 @@ Lines Language::Grow(Operand to, const std::string& by, bool narrows) const {
 
 std::string Language::ValueText(const Instruction& it, bool single) const {
   const std::string to = Place(it.to);
-  const std::string a = Place(it.a);
+  std::string a = Place(it.a);
   const std::string b = Place(it.b);
-  const std::string c = Number(it.c, single);
+  std::string c = Number(it.c, single);
   switch (it.op) {
     case Op::kSet:
       return c;
