@@ -315,19 +315,19 @@ class SessionFinder : private RowColumns {
     return true;
   }
 
-  // Whether each run of a number, such as a weekday, has another label beside
-  // it, such as the week: the two together come once.
-  bool ComeOnceWithAnother(const Grouping& sessions,
-                           const std::vector<Index>& starts) const {
-    return std::ranges::any_of(table_.columns, [&](const CsvColumn& other) {
-      if (other.name == sessions.column || !IsCalled(other.name, Word::kWeek)) {
+  // Whether a column of weeks stands beside the runs of a number, which is a
+  // weekday: in each week it comes once.
+  bool ComeOnceAWeek(const Grouping& sessions,
+                     const std::vector<Index>& starts) const {
+    return std::ranges::any_of(table_.columns, [&](const CsvColumn& weeks) {
+      if (weeks.name == sessions.column || !IsCalled(weeks.name, Word::kWeek)) {
         return false;
       }
       std::set<std::pair<Index, std::string>> pairs;
       for (const Index start : starts) {
         const auto first = static_cast<std::size_t>(start);
         pairs.emplace(sessions.codes[first],
-                      table_.CellText(other, DataRow(first)));
+                      table_.CellText(weeks, DataRow(first)));
       }
       return pairs.size() == starts.size();
     });
@@ -344,7 +344,7 @@ class SessionFinder : private RowColumns {
         rows_.size() < kFewestRows * starts.size() ||
         (std::ranges::any_of(sessions->labels, HasDigit) &&
          !IsCalled(sessions->column, Word::kShift) &&
-         !ComeOnceWithAnother(*sessions, starts))) {
+         !ComeOnceAWeek(*sessions, starts))) {
       return;
     }
     std::vector<Index> times(sessions->labels.size(), 0);

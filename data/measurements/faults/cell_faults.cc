@@ -258,8 +258,10 @@ class CellFaultFinder {
       const Bounds possible{Converted(kColdest, kDegC, UnitOf(input)),
                             Converted(kHottest, kDegC, UnitOf(input))};
       wrong = RowsBeyond(values, possible, &others);
-      if (IsDifference(input)) wrong.clear();
-      if (!wrong.empty() && AreBelieved(measured_, input, wrong)) wrong.clear();
+      if (!wrong.empty() &&
+          (IsDifference(input) || AreBelieved(measured_, input, wrong))) {
+        wrong.clear();
+      }
       if (!wrong.empty()) {
         if (static_cast<Index>(wrong.size()) == values.size()) {
           others = {values.minCoeff(), values.maxCoeff()};

@@ -256,13 +256,13 @@ Remarks HeldAgainstGoal(const Numbers& of) {
       const bool fails_later =
           later != nullptr &&
           TestRmse(of.Model(advice.model), later->name) > of.record.goal;
-      return {
-          {"goal",
-           fmt::format("{}: reached{}{}",
-                       wanted,
-                       result.ci95[1] <= of.record.goal ? "" : "; not proven",
-                       fails_later ? "; not on later days" : ""),
-           fails_later ? Tone::kBad : Tone::kGood}};
+      return {{"goal",
+               fmt::format(
+                   "{}: reached{}{}",
+                   wanted,
+                   result.ci95[1] <= of.record.goal ? "" : "; not proven",
+                   fails_later ? "; not on later " + PluralOfUnit(*later) : ""),
+               fails_later ? Tone::kBad : Tone::kGood}};
     }
     case GoalStanding::kMetAfterRezeroing:
       return {

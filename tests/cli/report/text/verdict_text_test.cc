@@ -198,6 +198,9 @@ TEST(Remarks, TellFromHowFewDaysTheErrorOnLaterOnesIs) {
             "7.600 um, fitted to as few as 2 days");
   EXPECT_EQ(TextOf(record, "goal"),
             "0.5 um: reached; not proven; not on later days");
+  record.holdouts.back().unit_of_analysis = "cycle";
+  EXPECT_EQ(TextOf(record, "goal"),
+            "0.5 um: reached; not proven; not on later cycles");
 }
 
 TEST(Remarks, CallWhatShiftsWholeCyclesNoNoise) {
