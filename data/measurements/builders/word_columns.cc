@@ -76,6 +76,25 @@ bool IsOneInEach(const std::vector<Index>& sessions,
   return true;
 }
 
+// Whether each of its values names a place on the axis.
+bool NamesPlaces(const PartingColumn& column, const Dataset::Parts& parts) {
+  constexpr double kOnePlace = 0.01;  // of the travel
+  if (column.codes.empty() || parts.inputs.empty() ||
+      parts.inputs[0].role != Role::kPosition) {
+    return false;
+  }
+  const auto position = parts.input_values.col(0);
+  const double width = kOnePlace * (position.maxCoeff() - position.minCoeff());
+  std::vector<double> first(column.values.size(), std::nan(""));
+  for (std::size_t i = 0; i < column.codes.size(); ++i) {
+    const double at = position[static_cast<Index>(i)];
+    double& place = first[column.codes[i]];
+    if (std::isnan(place)) place = at;
+    if (std::abs(at - place) > width) return false;
+  }
+  return true;
+}
+
 PartingEffect EffectOfParting(const PartingColumn& column,
                               const Eigen::VectorXd& target,
                               const Eigen::MatrixXd& input_values) {
@@ -140,6 +159,7 @@ std::vector<PartingRemark> FindParts(const CsvTable& table,
     if (!is_named && !sessions.empty() && IsOneInEach(sessions, column)) {
       continue;
     }
+    if (NamesPlaces(column, parts)) continue;
     const PartingEffect effect =
         EffectOfParting(column, parts.target_values, parts.input_values);
     if (effect.each < kDiffers * effect.one) {

@@ -361,6 +361,13 @@ TEST(UselessReadings, RowsOfSeveralThingsAreAskedAbout) {
   EXPECT_THAT(InputNames(numbers.dataset),
               ::testing::ElementsAreArray(kInputs));
   EXPECT_THAT(numbers.doubts, ElementsAre(HasSubstr("machine (1, 2)")));
+  // A name for each position parts nothing.
+  const auto named =
+      Joined(Changed(Measured(), [&](std::size_t i, auto* cells) {
+        cells->insert(cells->begin(),
+                      i == 0 ? "Point" : "P" + std::to_string(i % kPositions));
+      }));
+  EXPECT_THAT(Make(named).doubts, IsEmpty());
 }
 
 TEST(UselessReadings, CountersAreNoInputsAndCyclesAreGroups) {
