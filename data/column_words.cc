@@ -120,9 +120,13 @@ const std::vector<std::string_view>& WordsFor(Word word) {
 
 bool IsLetter(char c) { return (c >= 'a' && c <= 'z') || (c & 0x80) != 0; }
 
+// Also of one axis: "xdev".
 bool IsOrMany(std::string_view word, std::string_view known) {
-  return word == known || (word.size() == known.size() + 1 &&
-                           word.ends_with('s') && word.starts_with(known));
+  if (word == known) return true;
+  if (word.size() != known.size() + 1) return false;
+  return (word.ends_with('s') && word.starts_with(known)) ||
+         (known.size() > 2 && (word[0] >= 'x' && word[0] <= 'z') &&
+          word.ends_with(known));
 }
 
 // A short word may be part of any other: "dia" of "diameter".
@@ -398,7 +402,8 @@ bool IsAxisLetter(std::string_view column) {
 
 bool IsReadAxis(std::string_view column) {
   const std::vector<std::string> words = WordsOf(column);
-  return IsLengthOrAngle(UnitOfColumn(column)) && words.size() == 2 &&
+  const Unit unit = UnitOfColumn(column);
+  return (unit.symbol.empty() || IsLengthOrAngle(unit)) && words.size() == 2 &&
          std::ranges::any_of(words, IsLetterOfAxis) &&
          SayAny(words, Word::kMeasured);
 }

@@ -98,6 +98,7 @@ class RoleChooser {
       std::erase_if(candidates, is_opposite);
     }
     if (candidates.empty()) candidates = InUnitsOfErrors();
+    if (candidates.empty()) candidates = CalledErrorsInOtherUnits();
     if (candidates.size() > 1) AskWhich(candidates);
     if (candidates.empty()) {
       AskForDifference();
@@ -140,6 +141,14 @@ class RoleChooser {
       return !column.is_text() && IsInUnitOfErrors(name) &&
              !NamesPosition(name) && !Says(name, Word::kPosition) &&
              !Says(name, Word::kMeasured) && !Says(name, Word::kNominal);
+    });
+  }
+
+  // "Abweichung [mg]"; "Error (K)", though "Error amp. (K)" is a temperature.
+  std::vector<std::size_t> CalledErrorsInOtherUnits() const {
+    return Candidates([&](std::string_view name) {
+      return !table_.At(table_.Find(name)).is_text() && ErrorSign(name) != 0 &&
+             (WordsOf(name).size() == 1 || !StatesTemperature(name));
     });
   }
 

@@ -183,7 +183,7 @@ class ClockColumns : private RowColumns {
     const std::vector<double> values = ValuesOf(column);
     const Steps steps = StepsOf(values);
     if (called) {
-      return steps.GoForward(values.size()) || AreEven(values) ||
+      return GoesForward(steps, values) || AreEven(values) ||
              NamedEpoch(column.name, PaceOf(values));
     }
     constexpr std::size_t kFewest = 24;
@@ -194,6 +194,17 @@ class ClockColumns : private RowColumns {
            !CountsCycles({column.name, {}}) && !IsCalledPosition(column.name) &&
            !(Says(column.name, Word::kDate) && AreWholeDays(values)) &&
            !AreNumbersOfRows(values);
+  }
+
+  // Or rows share times, which are no counts then.
+  static bool GoesForward(const Steps& steps,
+                          const std::vector<double>& values) {
+    const auto is_whole = [](double value) {
+      return value == std::floor(value);
+    };
+    return steps.GoForward(values.size()) ||
+           (steps.GoForward(steps.on + steps.back + 1) &&
+            !std::ranges::all_of(values, is_whole));
   }
 
   // All steps alike, or whole numbers without pauses.

@@ -16,6 +16,7 @@
 #include "data/counted_labels.h"
 #include "data/measurements/axis/axis.h"
 #include "data/measurements/axis/directions.h"
+#include "data/measurements/clock/text_times.h"
 #include "data/measurements/reading/reading.h"
 #include "data/text.h"
 #include "data/units.h"
@@ -164,18 +165,47 @@ void AddDerivedColumns(const std::vector<ColumnFilter>& filters,
   table->columns.push_back(DirectionColumn(*table, rows, axis.motion));
 }
 
+namespace {
+
+// Of names without a unit: "Soll", "Y-Ist", "X".
+bool MayBePlace(std::string_view name) {
+  constexpr std::size_t kMostWords = 2;
+  return WordsOf(name).size() <= kMostWords && !NamesTemperature(name) &&
+         (Says(name, Word::kNominal) || Says(name, Word::kMeasured) ||
+          IsCalledPosition(name));
+}
+
+}  // namespace
+
+bool IsReadOf(const CsvColumn& read, const CsvColumn& commanded) {
+  constexpr double kSmallPart = 0.02;  // of the range
+  const Unit of_read = UnitOfColumn(read.name);
+  const Unit of_commanded = UnitOfColumn(commanded.name);
+  if (!AreConvertible(of_read, of_commanded)) return false;
+  double low = INFINITY;
+  double high = -INFINITY;
+  double most = 0.0;
+  for (std::size_t row = 0; row < read.values.size(); ++row) {
+    const double sent = commanded.values[row];
+    const double away =
+        Converted(read.values[row], of_read, of_commanded) - sent;
+    if (std::isnan(away)) continue;
+    low = std::min(low, sent);
+    high = std::max(high, sent);
+    most = std::max(most, std::abs(away));
+  }
+  return most > 0.0 && most < kSmallPart * (high - low);
+}
+
 std::vector<ReadBeside> FindReadBeside(const CsvTable& table) {
   constexpr std::size_t kMostColumns = 200;
-  constexpr double kSmallPart = 0.02;  // of the range
   const std::size_t count = std::min(table.columns.size(), kMostColumns);
   std::vector<std::size_t> positions;
   for (std::size_t i = 0; i < count; ++i) {
     const std::string& name = table.columns[i].name;
     const Unit unit = UnitOfColumn(name);
     if (!table.columns[i].is_text() &&
-        (IsLengthOrAngle(unit) ||
-         (unit.symbol.empty() && (IsCalled(name, Word::kNominal) ||
-                                  IsCalled(name, Word::kMeasured))))) {
+        (unit.symbol.empty() ? MayBePlace(name) : IsLengthOrAngle(unit))) {
       positions.push_back(i);
     }
   }
@@ -186,22 +216,7 @@ std::vector<ReadBeside> FindReadBeside(const CsvTable& table) {
   std::vector<ReadBeside> found;
   for (const std::size_t b : positions) {
     for (const std::size_t a : positions) {
-      const Unit of_a = UnitOfColumn(table.columns[a].name);
-      const Unit of_b = UnitOfColumn(table.columns[b].name);
-      if (a == b || !AreConvertible(of_a, of_b)) continue;
-      double low = INFINITY;
-      double high = -INFINITY;
-      double most = 0.0;
-      for (std::size_t row = 0; row < table.num_rows; ++row) {
-        const double sent = table.columns[b].values[row];
-        const double away =
-            Converted(table.columns[a].values[row], of_a, of_b) - sent;
-        if (std::isnan(away)) continue;
-        low = std::min(low, sent);
-        high = std::max(high, sent);
-        most = std::max(most, std::abs(away));
-      }
-      if (most > 0.0 && most < kSmallPart * (high - low) &&
+      if (a != b && IsReadOf(table.columns[a], table.columns[b]) &&
           values_of(a) > 2 * values_of(b)) {
         found.push_back({.read = a, .commanded = b});
       }
@@ -296,6 +311,7 @@ std::optional<CsvColumn> FindSessionsInLabels(
     const std::vector<Eigen::Index>& rows,
     std::size_t least) {
   constexpr std::size_t kMostLabels = 5000;
+  if (HoldsTimes(labels)) return std::nullopt;  // "2024-03-04" is no fourth run
   const LabelsOfRows found = LabelsOf(table, labels, rows, kMostLabels);
   const std::size_t num = found.labels.size();
   if (found.codes.size() != rows.size() || num < 2 * least ||

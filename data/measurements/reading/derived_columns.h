@@ -42,6 +42,8 @@ struct ReadBeside {
   std::size_t commanded;
 };
 std::vector<ReadBeside> FindReadBeside(const CsvTable& table);
+/// True if the values agree except for a small part of their range.
+bool IsReadOf(const CsvColumn& read, const CsvColumn& commanded);
 
 /// Throws OpenQuestion if the target is the difference of these columns, but
 /// with the other sign or in another unit than its name states: nominal -

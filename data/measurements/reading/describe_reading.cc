@@ -8,6 +8,7 @@
 #include "data/files/shown_path.h"
 #include "data/measurements/axis/directions.h"
 #include "data/measurements/clock/time_units.h"
+#include "data/measurements/reading/derived_columns.h"
 #include "data/measurements/reading/table_in_reading.h"
 
 namespace errmap::data {
@@ -103,6 +104,17 @@ void DescribeSessions(const CsvTable& table,
   }
 }
 
+// Of a clock of whole minutes several rows may share one.
+double StepWithinMinutes(const Eigen::VectorXd& time, double step) {
+  constexpr double kMinute = 60.0;
+  if (step != kMinute) return step;
+  const Index n = time.size() - 1;
+  const auto steps = time.tail(n).array() - time.head(n).array();
+  const Index shared = (steps == 0.0).count();
+  const Index next = (steps == kMinute).count();
+  return step * static_cast<double>(next) / static_cast<double>(next + shared);
+}
+
 // Between rows that have the target.
 double StepOf(const Eigen::VectorXd& time,
               const std::vector<Index>& rows,
@@ -113,7 +125,8 @@ double StepOf(const Eigen::VectorXd& time,
       places.push_back(static_cast<Index>(i));
     }
   }
-  return MedianStepOf(time(places));
+  const Eigen::VectorXd of_rows = time(places);
+  return StepWithinMinutes(of_rows, MedianStepOf(of_rows));
 }
 
 void DescribeTime(const TableInReading& in,
@@ -167,6 +180,12 @@ void DescribeReading(TableInReading* in) {
                         .evidence = axis.evidence,
                         .sure = axis.sure,
                         .alternative = axis.alternative};
+    if (reading.target.column &&
+        IsReadOf(table.At(read->roles.target), table.At(axis.column))) {
+      reading.target.sure = false;
+      reading.target.alternative =
+          *reading.target.column + "-" + read->position;
+    }
   } else {
     reading.position.sure = true;
   }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "data/argument_name.h"
+#include "data/column_header.h"
 #include "data/columns.h"
 #include "data/measurements/axis/directions.h"
 #include "data/measurements/clock/clock.h"
@@ -39,6 +40,22 @@ void TakeTarget(TableInReading* in) {
   in->PutColumn(derived->of.value_or(in->table().columns.size()),
                 std::move(derived->column));
   if (target.starts_with('-')) in->read.reading.target.sign = -1;
+}
+
+// A note in the file may have given the column a unit, which its name lacks.
+DatasetSelection WithTargetInFull(const CsvTable& table,
+                                  DatasetSelection selection) {
+  std::string& target = selection.target;
+  if (target.empty() || table.Find(target) >= 0) return selection;
+  const std::string sign = target.starts_with('-') ? "-" : "";
+  const auto is_meant = [&](const CsvColumn& column) {
+    return sign + ReadHeader(column.name).base == target;
+  };
+  const auto found = std::ranges::find_if(table.columns, is_meant);
+  if (std::ranges::count_if(table.columns, is_meant) == 1) {
+    target = sign + found->name;
+  }
+  return selection;
 }
 
 // A study names the cycles that were found by the column that they then got.
@@ -170,7 +187,8 @@ void ReadRowsToLearn(TableInReading* in) {
 
 }  // namespace
 
-ReadTable ReadRoles(const CsvTable& table, const DatasetSelection& selection) {
+ReadTable ReadRoles(const CsvTable& table, const DatasetSelection& given) {
+  const DatasetSelection selection = WithTargetInFull(table, given);
   TableInReading in{.given = table, .selection = selection};
   in.read.where = selection.where;
   TakeAsMeant(&in);

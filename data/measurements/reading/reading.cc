@@ -115,6 +115,12 @@ std::vector<std::string> ReadingLines(const Reading& reading) {
         "map gets a memory. "
         "Give the rows as measured, or a column of times.");
   }
+  if (reading.target.alternative) {
+    lines.push_back("Unsure: " + NameInRemark(*reading.target.column) +
+                    " is a position rather than an error; " +
+                    ArgumentName("target", *reading.target.alternative) +
+                    " maps the error.");
+  }
   if (reading.position.column && !reading.position.sure) {
     lines.push_back("Unsure: " + NameInRemark(*reading.position.column) +
                     " is the axis" +

@@ -54,16 +54,16 @@ bool TellBlocks(const std::vector<std::string>& labels,
 
 // Changes the labels to what tells sessions, and returns what they are.
 std::string NameLabels(std::vector<std::string>* labels) {
-  if (auto days = SessionsOfCounted(*labels); !days.empty()) {
-    *labels = std::move(days);
-    return "session";
-  }
   std::vector<std::string> dates;
   std::ranges::transform(*labels, std::back_inserter(dates), DateTokenIn);
   const std::set<std::string> distinct(dates.begin(), dates.end());
   if (!distinct.contains("") && distinct.size() == labels->size()) {
     *labels = std::move(dates);
     return "date";
+  }
+  if (auto days = SessionsOfCounted(*labels); !days.empty()) {
+    *labels = std::move(days);
+    return "session";
   }
   const auto all_say = [&](Word word) {
     return std::ranges::all_of(

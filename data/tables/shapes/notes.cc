@@ -25,6 +25,8 @@ struct UnitNote {
   bool of_errors = false;
   bool of_positions = false;
   bool of_temperatures = false;
+  std::string column = {};  // "t" of "t in s", which has this unit
+  std::string unit = {};
 };
 
 // Only words without a number state them.
@@ -50,7 +52,17 @@ void ReadUnits(const std::string& text, UnitNote* note) {
 std::optional<UnitNote> ReadUnitNote(const std::string& text) {
   UnitNote note;
   ReadUnits(text, &note);
-  if (note.size.empty() && note.temperature.empty()) return std::nullopt;
+  const std::size_t in = text.find(" in ");
+  const auto unit = in == text.npos ? std::nullopt
+                                    : ReadUnit(Trimmed(text.substr(in + 4)),
+                                               UnitPlace::kBracketed);
+  if (unit) {
+    note.column = Trimmed(text.substr(0, in));
+    note.unit = unit->symbol;
+  }
+  if (note.size.empty() && note.temperature.empty() && note.unit.empty()) {
+    return std::nullopt;
+  }
   const std::vector<std::string> words = WordsOf(text);
   note.of_all = HasWordOf(
       text,
@@ -60,6 +72,30 @@ std::optional<UnitNote> ReadUnitNote(const std::string& text) {
   note.of_positions = SayAny(words, Word::kPosition);
   note.of_temperatures = SayAny(words, Word::kTemperature);
   return note;
+}
+
+// Of a line, and of its parts: "x in mm, errors in um".
+std::vector<UnitNote> ReadUnitNotes(const std::string& text) {
+  std::vector<std::string_view> parts = SplitWords(text, ",;");
+  parts.insert(parts.begin(), text);
+  std::vector<UnitNote> notes;
+  for (const std::string_view part : parts) {
+    if (auto note = ReadUnitNote(std::string(part))) {
+      notes.push_back(*std::move(note));
+    }
+  }
+  return notes;
+}
+
+// The units of "units: h, mm, um"; "" for what is none.
+std::vector<std::string> UnitsListed(std::string_view text) {
+  std::vector<std::string> units;
+  for (const std::string_view part :
+       SplitWords(text.substr(text.find(':') + 1), ",;")) {
+    const auto unit = ReadUnit(Trimmed(part), UnitPlace::kBracketed);
+    units.push_back(unit ? unit->symbol : "");
+  }
+  return units;
 }
 
 // Machine tools err by less than a millimetre: the unit is not that of errors.
@@ -87,19 +123,32 @@ std::string UnitFor(const CsvColumn& column, const UnitNote& note) {
              : "";
 }
 
+// The first that the notes give.
+std::string UnitFor(const CsvColumn& column,
+                    const std::vector<UnitNote>& notes) {
+  for (const UnitNote& note : notes) {
+    if (column.name == note.column) return note.unit;
+    if (auto unit = UnitFor(column, note); !unit.empty()) return unit;
+  }
+  return "";
+}
+
 }  // namespace
 
 void TakeUnitsOfNotes(CsvTable* table) {
   for (const std::string& text : table->titles) {
-    const std::optional<UnitNote> note = ReadUnitNote(text);
-    if (!note) continue;
+    const std::vector<UnitNote> notes = ReadUnitNotes(text);
+    if (notes.empty()) continue;
+    const std::vector<std::string> listed = UnitsListed(text);
+    const bool is_list = listed.size() == table->columns.size();
     bool any = false;
-    for (CsvColumn& column : table->columns) {
+    for (std::size_t i = 0; i < table->columns.size(); ++i) {
+      CsvColumn& column = table->columns[i];
       if (column.is_text() ||
           ReadHeader(column.name).source == UnitSource::kStated) {
         continue;
       }
-      const std::string unit = UnitFor(column, *note);
+      const std::string unit = is_list ? listed[i] : UnitFor(column, notes);
       if (unit.empty()) continue;
       column.name = NameWithUnit(column.name, unit).value_or(column.name);
       any = true;

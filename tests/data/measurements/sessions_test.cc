@@ -321,6 +321,17 @@ TEST(Sessions, AreNotThoseOfALabelThatAllRowsShare) {
       "session");
 }
 
+TEST(Sessions, AreNoMonthsOfDates) {
+  int day = 0;
+  const Reading reading = ReadWith("date", [&](const Log::Row&) {
+    const int month = day / 28;
+    const int of_month = 1 + day++ % 28;
+    return "2024-0" + std::to_string(1 + month) + (of_month < 10 ? "-0" : "-") +
+           std::to_string(of_month);
+  });
+  EXPECT_EQ(reading.sessions.by, "rest");
+}
+
 TEST(Sessions, GoOnWhereSecondsOfTheDayPassMidnight) {
   // The first of four nights begins at 23:55.
   const auto of_day = [](const Log::Row& row) {

@@ -488,5 +488,44 @@ TEST(Reading, ListsTheOtherAxesAmongTheInputs) {
   EXPECT_THAT(reading.sensors, ElementsAre("SpindleRPM", "t1_degC"));
 }
 
+TEST(Reading, TellsTheStepWithinTheMinutesOfAClock) {
+  const Reading reading = Read(
+      Text("time,position_mm,t1_degC,error_um",
+           Log{.step = 12.0}.Rows(),
+           [](const Log::Row& row) {
+             const auto minute = static_cast<int>(row.time / 60.0);
+             const std::string two = std::to_string(100 + minute % 60);
+             return std::vector<std::string>{
+                 "2024-03-0" + std::to_string(1 + minute / 1440) + " " +
+                     std::to_string(minute / 60 % 24) + ":" + two.substr(1),
+                 Fixed(row.position),
+                 Fixed(row.warm),
+                 Fixed(row.error)};
+           }));
+  EXPECT_NEAR(reading.time.step_s.value(), 12.0, 1.0);
+}
+
+TEST(Reading, KeepsTheClockOfATableWithAColumnForEachPosition) {
+  std::string text = "t_min,E_0,E_50,E_100,T1\n";
+  for (int i = 0; i < 30; ++i) {
+    text += Fixed(2.3 * i) + "," + Fixed(0.1 * i) + ",1.5,2.5,20.1\n";
+  }
+  const Reading reading = Read(text, {.target = "error [um]"});
+  EXPECT_EQ(reading.rows, 90);
+  EXPECT_EQ(reading.time.column, "t_min");
+}
+
+TEST(Reading, LeavesOutWhatReadsAnAxisThatStands) {
+  const Reading reading = Read(Text(
+      "Nom X,Nom Y,Act Y,T1,error_um", Log().Rows(), [](const Log::Row& row) {
+        return std::vector<std::string>{Fixed(row.position),
+                                        "250",
+                                        Fixed(250.0 + 1e-3 * row.warm),
+                                        Fixed(row.warm),
+                                        Fixed(row.error)};
+      }));
+  EXPECT_THAT(reading.sensors, ElementsAre("T1"));
+}
+
 }  // namespace
 }  // namespace errmap::data

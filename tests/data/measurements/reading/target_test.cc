@@ -110,5 +110,57 @@ TEST(Reading, OffersEachInstrumentThatReadWhatWasCommanded) {
   }
 }
 
+TEST(Reading, SaysThatATargetIsAPosition) {
+  const std::string text =
+      Text("T1,Y-Soll,Y-Ist", Log().Rows(), [](const Log::Row& row) {
+        return std::vector<std::string>{Fixed(row.warm),
+                                        Fixed(row.position),
+                                        Fixed(row.position + row.error / 1e3)};
+      });
+  EXPECT_THROW(Read(text), OpenQuestion);
+  const Reading reading = Read(text, {.target = "Y-Ist"});
+  EXPECT_FALSE(reading.target.sure);
+  EXPECT_THAT(ReadingLines(reading)[1], HasSubstr("Y-Ist-Y-Soll"));
+  EXPECT_TRUE(Read(text, {.target = "Y-Ist-Y-Soll [mm]"}).target.sure);
+}
+
+TEST(Reading, TakesWhatIsCalledAnErrorInAnyUnitIfNothingElseIs) {
+  const auto target_of = [](const std::string& names) {
+    return Read(Text("position_mm," + names,
+                     Log().Rows(),
+                     [](const Log::Row& row) {
+                       return std::vector<std::string>{Fixed(row.position),
+                                                       Fixed(row.warm),
+                                                       Fixed(row.error)};
+                     }))
+        .target.column;
+  };
+  EXPECT_EQ(target_of("T1 [degC],Abweichung [mg]"), "Abweichung [mg]");
+  EXPECT_EQ(target_of("Ambient (K),Error (K)"), "Error (K)");
+  EXPECT_EQ(target_of("Torque error [Nm],XDEV [um]"), "XDEV [um]");
+  EXPECT_THROW(target_of("T1 [degC],Fehler Temperatur [degC]"), InputError);
+}
+
+TEST(Reading, TakesUnitsOfANoteForEachThingThatItNames) {
+  const std::string rows =
+      Text("t,X,EXX,T1", Log().Rows(), [](const Log::Row& row) {
+        return std::vector<std::string>{Fixed(row.time / 60.0),
+                                        Fixed(row.position),
+                                        Fixed(row.error),
+                                        Fixed(row.warm)};
+      });
+  const auto read = [&](const std::string& note) {
+    return Read("# " + note + "\n" + rows, {.target = "EXX"});
+  };
+  const Reading named = read("t in min, errors in um, temperatures in degC");
+  EXPECT_EQ(named.target.unit, "um");
+  EXPECT_EQ(named.time.unit, "min");
+  EXPECT_TRUE(named.time.sure);
+  const Reading listed = read("units: min, mm, um, degC");
+  EXPECT_EQ(listed.position.column, "X [mm]");
+  EXPECT_EQ(listed.target.column, "EXX [um]");
+  EXPECT_EQ(listed.time.unit, "min");
+}
+
 }  // namespace
 }  // namespace errmap::data
