@@ -67,6 +67,12 @@ class MachineFileReader {
       links.push_back(ReadLink(*table));
     }
     RequireTool(keys, links);
+    // A machine of older versions has the same remark for each of its maps.
+    if (remarks_.size() > 1) {
+      remarks_.front() += fmt::format(
+          "; the same holds for {} more of its maps", remarks_.size() - 1);
+    }
+    if (!remarks_.empty()) warnings_.push_back(remarks_.front());
     return {.machine = Assemble(std::move(name), sensitive, std::move(links)),
             .warnings = std::move(warnings_)};
   }
@@ -335,8 +341,8 @@ class MachineFileReader {
       try {
         map = std::make_shared<const models::FittedModel>(
             models::LoadModel(path));
-        warnings_.insert(
-            warnings_.end(), map->remarks.begin(), map->remarks.end());
+        remarks_.insert(
+            remarks_.end(), map->remarks.begin(), map->remarks.end());
       } catch (const data::InputError& error) {
         Refuse(file_, node.source(), fmt::format("{}: {}", name, error.what()));
       }
@@ -400,11 +406,18 @@ class MachineFileReader {
   std::set<std::string> names_;
   std::map<std::string, std::shared_ptr<const models::FittedModel>> maps_;
   std::vector<std::string> warnings_;
+  std::vector<std::string> remarks_;  // of the maps
 };
 
 MachineFile ReadMachine(const std::string& path, bool with_maps) {
-  const toml::table root =
-      ParseToml(data::ReadFile(path, data::kMostTextOfPeople), path);
+  const std::string text = data::ReadFile(path, data::kMostTextOfPeople);
+  if (text.starts_with('{')) {
+    throw data::InputError(
+        data::PrintablePath(path) +
+        ": is JSON, and a machine is a TOML file that names a map for each of "
+        "its errors; errmap simulate turning-centre writes one");
+  }
+  const toml::table root = ParseToml(text, path);
   return MachineFileReader(path, with_maps).Read(root);
 }
 

@@ -102,6 +102,14 @@ class MachineEvaluator {
             fmt::format("{} ({})", error.what(), NameOf(machine_.errors[k])));
       }
     }
+    if (!has_maps_) {
+      for (models::ComponentAtPoints& component : result.components) {
+        component.half_widths.setConstant(stats::kNaN);
+      }
+      remarks_.emplace_back(
+          "no intervals: the machine has constants alone, which state no "
+          "uncertainty");
+    }
     if (num_with_memory_ > 0 && log_ == nullptr) {
       remarks_.push_back(fmt::format(
           "warning: {} with a memory ran through the points alone; give the "
@@ -219,6 +227,7 @@ class MachineEvaluator {
                                            source.constant),
               .outside = std::vector<bool>(points_.num_rows)};
     }
+    has_maps_ = true;
     const FittedModel& map = *source.map;
     RequireQuantity(map, unit);
     const MatrixXd inputs = InputsOf(map, coordinate);
@@ -357,6 +366,7 @@ class MachineEvaluator {
   const data::CsvTable& points_;
   const data::CsvTable* log_;
   const models::MapDataArguments& arguments_;
+  bool has_maps_ = false;
   long long num_with_memory_ = 0;
   std::set<std::string> said_;
   std::vector<std::string> remarks_;

@@ -187,11 +187,6 @@ void VolumetricOptions::Validate() const {
   }
 }
 
-double VolumetricErrors::LargestDifference() const {
-  return exact.rows() == 0 ? 0.0
-                           : (exact - first_order).rowwise().norm().maxCoeff();
-}
-
 VolumetricErrors CombineErrors(const KinematicChain& chain,
                                const MatrixXd& coordinates,
                                const std::vector<ComponentAtPoints>& components,

@@ -48,9 +48,6 @@ struct VolumetricErrors {
   /// without draws.
   Eigen::MatrixX3d lower;
   Eigen::MatrixX3d upper;
-
-  /// Largest distance between exact and first_order at a point.
-  double LargestDifference() const;
 };
 
 /// Combines `components` (errors of the chain, in their order) at m points of

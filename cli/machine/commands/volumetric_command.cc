@@ -148,10 +148,6 @@ void SayErrors(const Synthesis& s) {
       SensitiveText(s.machine),
       text.WithUnit(most),
       text.WithUnit(Quantile95(s.sensitive))));
-  const double difference = s.errors.LargestDifference();
-  Warn(fmt::format(
-      "exact and first order differ by at most {}",
-      report::ErrorText(s.machine.length, difference).WithUnit(difference)));
 }
 
 // The components that matter most, by the RMS of their contributions.
@@ -332,26 +328,21 @@ void AddVolumetricCommand(CLI::App* app, Run* run) {
       .ShowDefault();
   AddSeedOption(command, &command->options.seed, "Seed of the draws");
   AddQuietFlag(command, &command->quiet);
-  SetFooter(
-      command,
-      "Columns, in the machine's unit of length:\n- error_x ... error_z: tool "
-      "minus work in the base frame, the product of the matrices\n- "
-      "error_sensitive: its length in the machine's sensitive directions\n- "
-      "first_order_*, half_width_90_*: to first order\n- lower_90_*, "
-      "upper_90_*: by draws; empty without intervals\n- inside, outside: "
-      "outside names maps that extrapolate\n- the contribution of each "
-      "error\n\nThe "
-      "position of a map is the coordinate of its link. The "
-      "column x_direction chooses from a pair { forward, reverse } for x_mm. "
-      "Components are "
-      "assumed independent. Points with error_x_mm ... error_z_mm also give "
-      "the error "
-      "with and without compensation. Points with diagonal and "
-      "diagonal_direction also give the deviations of ISO 230-6. diagonal has "
-      "the signs of X, Y and Z along it: ppn, p0n.\nExit status: 0 done; 4 an "
-      "error is not finite.\nExample: errmap volumetric "
-      "data/sets/machines/three_axis.toml --at "
-      "data/sets/machines/three_axis_points.csv");
+  SetFooter(command, R"(Columns, in the machine's unit of length:
+- error_x ... error_z: tool minus work in the base frame, the product of the matrices
+- error_sensitive: its length in the machine's sensitive directions
+- first_order_*, half_width_90_*: to first order
+- lower_90_*, upper_90_*: by draws; empty without intervals
+- inside, outside: outside names maps that extrapolate
+- the contribution of each error
+
+The position of a map is the coordinate of its link. The column x_direction
+chooses from a pair { forward, reverse } for x_mm. Components are assumed
+independent. Points with error_x_mm ... error_z_mm also give the error with and
+without compensation. Points with diagonal and diagonal_direction also give the
+deviations of ISO 230-6. diagonal has the signs of X, Y and Z along it: ppn, p0n.
+Exit status: 0 done; 4 an error is not finite.
+Example: errmap volumetric data/sets/machines/three_axis.toml --at data/sets/machines/three_axis_points.csv)");
   command.Runs(RunVolumetric);
 }
 
