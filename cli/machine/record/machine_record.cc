@@ -29,6 +29,7 @@ report::RecordPart PartOf(const std::string& json) {
   return {.id = kMachineKey,
           .title = "The machine",
           .link = "The machine: the error at the tool",
+          .answer = MachineAnswer(machine),
           .screen = ScreenTables(machine),
           .tables = MachineTables(machine),
           .figures = MachineFigures(machine)};

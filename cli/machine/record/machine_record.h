@@ -114,6 +114,10 @@ void AddMachine(const MachineRecord& machine, models::StudyRecord* record);
 /// Returns nothing if the record has no plane.
 std::vector<report::Figure> MachineFigures(const MachineRecord& machine);
 
+/// Says how far off the tool is at worst, mostly along which axis, and how much
+/// of that the recommended maps remove.
+std::string MachineAnswer(const MachineRecord& machine);
+
 /// Returns these tables, some possibly empty: the error at the tool on days
 /// that no fit used, one row per choice of maps; the same by day; the stated
 /// intervals; ISO 230-2 and, along diagonals, ISO 230-6; the contribution of

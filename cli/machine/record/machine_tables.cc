@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cli/machine/record/machine_record.h"
+#include "cli/report/number_text.h"
 #include "data/text.h"
 #include "data/units.h"
 
@@ -226,7 +227,41 @@ Table MachineMapTable(const MachineRecord& machine) {
   return table;
 }
 
+// " mostly along X", of the axes of the plane; "" without one.
+std::string MainDirection(const MachineRecord& machine) {
+  if (!machine.plane) return "";
+  double across = 0.0;
+  double up = 0.0;
+  for (const models::PlaneCell& cell : machine.choices.front().cells) {
+    if (std::isnan(cell.mean_across + cell.mean_up)) continue;
+    const auto points = static_cast<double>(cell.points);
+    across += points * std::abs(cell.mean_across);
+    up += points * std::abs(cell.mean_up);
+  }
+  return ", mostly along " +
+         (across > up ? machine.plane->across : machine.plane->up);
+}
+
 }  // namespace
+
+std::string MachineAnswer(const MachineRecord& machine) {
+  if (machine.choices.empty()) return "";
+  const MachineChoiceRecord& before = machine.choices.front();
+  const MachineChoiceRecord& after = machine.choices.back();
+  const report::ErrorText text(data::UnitOfSymbol(machine.unit), before.max);
+  std::string answer = fmt::format("Without maps the tool is up to {} off{}.",
+                                   text.WithUnit(before.max),
+                                   MainDirection(machine));
+  if (std::isfinite(after.max)) {
+    answer += fmt::format(
+        " With the {} maps {} is left at worst, {:.2g} times "
+        "less.",
+        after.name,
+        text.WithUnit(after.max),
+        before.max / after.max);
+  }
+  return answer;
+}
 
 std::vector<Table> MachineTables(const MachineRecord& machine) {
   return {ToolTipTable(machine),

@@ -461,6 +461,7 @@ std::string Parts(const FigureSet& set) {
     for (const Figure& figure : part.figures) figures += FigureHtml(figure);
     html += fmt::format(
         "<section id=\"{}\">\n<h2>{}</h2>\n", part.id, HtmlText(part.title));
+    html += Paragraph(part.answer, "sentence");
     for (std::size_t i = 0; i < part.tables.size(); ++i) {
       html += HtmlTable(part.tables[i]);
       if (i == 0) html += Grid(figures, "figures halves");

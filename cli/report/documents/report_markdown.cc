@@ -81,6 +81,7 @@ std::string ReportMarkdown(const models::StudyRecord& record) {
     text += Component(view);
   }
   for (const RecordPart& part : PartsOf(record)) {
+    text += part.answer + "\n\n";
     for (const Table& table : part.tables) text += MarkdownTable(table, "##");
   }
   return text + MarkdownTable(ProvenanceTable(record), "##");

@@ -297,6 +297,7 @@ std::string OverallWords(const models::StudyRecord& record) {
 
 void AddPart(const RecordPart& part, const Terminal& terminal, Screen* screen) {
   const std::size_t width = terminal.text_columns();
+  screen->Add("\n" + WrapText(part.answer, width) + "\n");
   for (Table table : part.screen) {
     // Its last columns are on the page.
     TakeColumns(terminal.columns, 4, &table);

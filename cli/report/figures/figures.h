@@ -49,6 +49,7 @@ struct RecordPart {
   std::string id;               // of its section of the page
   std::string title;            // of the same
   std::string link;             // to it, in the page's index
+  std::string answer;           // above its tables: what it comes to
   std::vector<Table> screen;    // what a terminal shows
   std::vector<Table> tables;    // of the page and report.md
   std::vector<Figure> figures;  // below the first of these

@@ -141,6 +141,17 @@ TEST(MachineFigures, AreNoneWithoutAPlaneOrMaps) {
 }
 
 // A results.json of somebody else's.
+TEST(MachineAnswer, SaysTheWorstErrorItsAxisAndWhatMapsLeave) {
+  MachineRecord machine = Lathe();
+  machine.choices[0].max = 0.04;
+  EXPECT_EQ(MachineAnswer(machine),
+            "Without maps the tool is up to 40.0 um off, mostly along X.");
+  machine.choices[1].max = 0.004;
+  EXPECT_EQ(MachineAnswer(machine),
+            "Without maps the tool is up to 40.0 um off, mostly along X. With "
+            "the recommended maps 4.0 um is left at worst, 10 times less.");
+}
+
 TEST(MachineFigures, StandWhatIsNotFinite) {
   MachineRecord machine = Lathe();
   machine.plane->cell_width = kNaN;

@@ -182,7 +182,9 @@ TEST_F(MachineStudy, SaysWhatCompensationIsWorthOnDaysThatNoFitSaw) {
       Rms(Lengths(points, Records(outcome.out))), polynomial["rms"], 1e-12);
 
   EXPECT_THAT(Read("study/report.html"),
-              AllOf(HasSubstr("Error at the tool of turning centre"),
+              AllOf(HasSubstr("<p class=\"sentence\">Without maps the tool "
+                              "is up to "),
+                    HasSubstr("Error at the tool of turning centre"),
                     HasSubstr("Positioning by ISO 230-2:2014"),
                     HasSubstr("Diagonals of the work volume, ISO 230-6:2002"),
                     HasSubstr("What each component leaves at the tool"),
@@ -309,7 +311,8 @@ TEST_F(MachineStudy, SaysWhyAChoiceHasNoFigures) {
   const Outcome outcome = Run(Words({"--models", "poly:ridge:view=raw"}));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(OneLine(outcome.out),
-              AllOf(HasSubstr("Error at the tool of turning centre, um"),
+              AllOf(HasSubstr("With the recommended maps "),
+                    HasSubstr("Error at the tool of turning centre, um"),
                     HasSubstr("neural: no neural map of parallelism"),
                     HasSubstr("recommended"),
                     // Of one day there is no interval over days.
