@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
@@ -201,7 +202,9 @@ int RunEvaluate(const EvaluateArguments& arguments,
       .learnt = FindRowsLearnt(fitted, arguments.model, arguments.files, rows),
       .residuals = dataset.target_values() - predicted,
       .metrics = models::Judge(dataset, predicted)};
-  if (found.clipped > 0 && !arguments.quiet) {
+  // Of rows outside it has been said.
+  if (found.clipped > 0 && !arguments.quiet &&
+      std::ranges::none_of(judged.flags, &models::RowFlag::outside)) {
     Warn(fmt::format("warning: {} clipped by the map's guards",
                      report::Count(found.clipped, "row")));
   }

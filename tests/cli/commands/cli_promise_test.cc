@@ -39,7 +39,7 @@ TEST_F(CliPromise, PredictNamesWhatPutsARowOutside) {
     named += row.at("offender") == "t2_degC" ? 1 : 0;
   }
   EXPECT_GE(named, kCliPromiseRowsPerDay / 2);
-  EXPECT_THAT(raised.err, HasSubstr("warning: farthest outside is data row"));
+  EXPECT_THAT(raised.err, HasSubstr("unlike those in training, the worst is data row"));
 }
 
 // No held-out row tells how the map errs where it is clipped.

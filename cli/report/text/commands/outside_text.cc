@@ -1,5 +1,7 @@
 #include "cli/report/text/commands/outside_text.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "cli/report/number_text.h"
@@ -44,34 +46,30 @@ std::string FlagText(const models::RowFlag& flag) {
   return "";
 }
 
+// OutsideLines has said so.
+bool LeavesRange(const std::vector<models::TrainedInput>& inputs,
+                 const models::RowFlag& flag) {
+  return flag.why == models::Outside::kRange ||
+         std::ranges::any_of(inputs, [&](const models::TrainedInput& input) {
+           return input.column.name == flag.column.name &&
+                  (flag.value < input.min || flag.value > input.max);
+         });
+}
+
 }  // namespace
 
 std::vector<std::string> OutsideLines(
     const std::vector<models::TrainedInput>& inputs,
     const Eigen::MatrixXd& values) {
-  std::vector<std::string> lines;
   constexpr std::size_t kMostInputs = 5;
-  Index rows = 0;
-  for (Index row = 0; row < values.rows(); ++row) {
-    rows += models::IsInside(inputs, values, row) ? 0 : 1;
-  }
-  if (rows == 0) return lines;
-  const std::vector<models::InputOutside> outside =
-      models::InputsOutside(inputs, values);
-  // Of one input its own line says it.
-  if (outside.size() != 1) {
-    lines.push_back(fmt::format(
-        "warning: {} outside the trained range of the inputs: there the "
-        "map extrapolates",
-        Count(rows, "row")));
-  }
-  for (std::size_t i = 0; i < outside.size() && i < kMostInputs; ++i) {
-    const models::InputOutside& found = outside[i];
+  std::vector<std::string> said;
+  for (const models::InputOutside& found :
+       models::InputsOutside(inputs, values)) {
     const models::TrainedInput& input =
         inputs[static_cast<std::size_t>(found.input)];
     const std::string& symbol = input.column.unit.symbol;
-    lines.push_back(fmt::format(
-        "warning: {} is {:g}{}{}, trained {:g} to {:g}: {} outside{}",
+    said.push_back(fmt::format(
+        "{} is {:g}{}{}, trained {:g} to {:g}: {} outside{}",
         data::Printable(input.column.name),
         found.min,
         found.min == found.max ? "" : fmt::format(" to {:g}", found.max),
@@ -84,36 +82,27 @@ std::vector<std::string> OutsideLines(
             : fmt::format("; as if in {}: say so in the column's name",
                           found.looks_like)));
   }
-  if (outside.size() > kMostInputs) {
-    lines.push_back(fmt::format(
-        "warning: and {} more outside",
-        Count(static_cast<long long>(outside.size() - kMostInputs), "input")));
-  }
-  return lines;
+  if (said.empty()) return {};
+  return {"warning: " + data::ShortList(said, kMostInputs, "; ")};
 }
 
-std::vector<std::string> UnlikeLines(const std::vector<models::RowFlag>& flags,
-                                     const std::vector<Index>& rows) {
-  std::vector<std::string> lines;
+std::vector<std::string> UnlikeLines(
+    const std::vector<models::TrainedInput>& inputs,
+    const std::vector<models::RowFlag>& flags,
+    const std::vector<Index>& rows) {
   Index unlike = 0;
   std::size_t worst = 0;
   for (std::size_t i = 0; i < flags.size(); ++i) {
-    if (!flags[i].outside()) continue;
-    if (flags[i].severity > flags[worst].severity) worst = i;
-    if (flags[i].why != models::Outside::kRange) ++unlike;
+    if (!flags[i].outside() || LeavesRange(inputs, flags[i])) continue;
+    if (unlike == 0 || flags[i].severity > flags[worst].severity) worst = i;
+    ++unlike;
   }
-  if (unlike > 0) {
-    lines.push_back(
-        fmt::format("warning: {} unlike those in training: a new thermal "
-                    "state, or thermometers that contradict each other",
-                    Count(unlike, "row")));
-  }
-  if (!flags.empty() && flags[worst].outside()) {
-    lines.push_back(fmt::format("warning: farthest outside is data row {}: {}",
-                                rows[worst],
-                                FlagText(flags[worst])));
-  }
-  return lines;
+  if (unlike == 0) return {};
+  return {fmt::format(
+      "warning: {} unlike those in training, the worst is data row {}: {}",
+      Count(unlike, "row"),
+      rows[worst],
+      FlagText(flags[worst]))};
 }
 
 }  // namespace errmap::report

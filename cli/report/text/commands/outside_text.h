@@ -10,17 +10,18 @@
 
 namespace errmap::report {
 
-/// Returns one line for each input that leaves its trained range: in how many
-/// rows and by how much; of several inputs, a line of all rows first. `values`
-/// (m x p) are in the map's units. Empty if none does.
+/// Returns a line that names the inputs that leave their trained range: by how
+/// much and in how many rows. `values` (m x p) are in the map's units. Empty if
+/// none does.
 std::vector<std::string> OutsideLines(
     const std::vector<models::TrainedInput>& inputs,
     const Eigen::MatrixXd& values);
 
-/// Returns how many rows are unlike training, even if each input is within its
-/// range, and names the worst. `rows` (m) are the numbers of the data rows in
-/// the file.
-std::vector<std::string> UnlikeLines(const std::vector<models::RowFlag>& flags,
-                                     const std::vector<Eigen::Index>& rows);
+/// Returns how many other rows are unlike training, and names the worst. `rows`
+/// (m) are the numbers of the data rows in the file.
+std::vector<std::string> UnlikeLines(
+    const std::vector<models::TrainedInput>& inputs,
+    const std::vector<models::RowFlag>& flags,
+    const std::vector<Eigen::Index>& rows);
 
 }  // namespace errmap::report
