@@ -171,11 +171,12 @@ void SayWhatWasWritten(const models::MapExport& map,
       unit.empty() ? "" : " in " + unit,
       report::Count(map.program.size(models::Space::kReading), "input"),
       report::Count(map.program.size(models::Space::kState), "number")));
-  Warn(fmt::format(
-      "its arithmetic agrees with errmap predict to {:.1e} of the "
-      "error's range over {}",
-      map.deviations.anywhere,
-      report::Count(static_cast<long long>(map.num_checked), "row")));
+  Warn(
+      fmt::format("its arithmetic agrees with errmap predict to {:.1e} of the "
+                  "error's range at {}; its self-test runs {} others",
+                  map.deviations.anywhere,
+                  report::Count(static_cast<long long>(map.num_checked), "row"),
+                  map.rows.size()));
   if (map.deviations.inside > models::AllowedDeviation(map.precision)) {
     Warn(
         "warning: terms of the map cancel; a penalised map (poly:ridge) would "

@@ -399,6 +399,7 @@ TEST_F(CliExport, SaysSignUnitsInputsAndAgreement) {
   EXPECT_THAT(said, HasSubstr("compensation = -error"));
   EXPECT_THAT(
       said, ContainsRegex("agrees with errmap predict to (0|[0-9.]+e-1[3-9])"));
+  EXPECT_THAT(said, ContainsRegex("at [0-9]+ rows; its self-test runs 21 o"));
   for (const char* file : {"map.h", "map.c", "map.py", "map.st"}) {
     EXPECT_THAT(Read(file), HasSubstr("error = actual - nominal, in mm"));
     EXPECT_THAT(Read(file), HasSubstr("compensation = -error"));
