@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "data/text.h"
 #include "models/study/judgement/units_of_analysis.h"
 #include "stats/distributions.h"
 #include "stats/indices.h"
@@ -226,9 +227,8 @@ LearningPlan PlanLearning(const data::Dataset& dataset,
   const Units units = UnitsOf(dataset, by);
   if (units.count < kFewestUnits) {
     throw std::invalid_argument(
-        fmt::format("a learning curve needs {} of '{}' at least; there are {}",
-                    kFewestUnits,
-                    units.name,
+        fmt::format("a learning curve needs at least {}; the data have {}",
+                    data::CountText(kFewestUnits, units.name),
                     units.count));
   }
   const Index folds = std::min(units.count, kMostFolds);

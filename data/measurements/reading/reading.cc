@@ -98,7 +98,9 @@ std::vector<std::string> ReadingLines(const Reading& reading) {
   std::string first = "Read: " + CountText(reading.rows, "row") + " in " +
                       SessionsText(reading) + CyclesText(reading) + "; " +
                       AxisText(reading) + "; " +
-                      CountText(std::ssize(reading.sensors), "sensor");
+                      (reading.sensors.empty()
+                           ? "no sensors"
+                           : CountText(std::ssize(reading.sensors), "sensor"));
   if (const std::string step = StepText(reading); !step.empty()) {
     first += "; " + step;
   }

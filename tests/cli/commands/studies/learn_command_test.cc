@@ -122,6 +122,9 @@ TEST_F(LearnCommand, LearnsWhatToMeasureNext) {
   const Json found =
       RunJson({"learn", "train.csv", "--next", "next.csv", "--format", "json"});
   EXPECT_EQ(found["next"][0]["row"], 1);
+  Write("three.csv", DaysInCliPromise(1, 3));
+  EXPECT_THAT(Run({"learn", "three.csv", "--by", "sessions"}).err,
+              HasSubstr("needs at least 4 days; the data have 3"));
   EXPECT_THAT(RefusalOf(Run({"learn", "train.csv"}), kWrongCommandLine),
               HasSubstr("--by sessions|cycles|sensors"));
 }
