@@ -355,7 +355,7 @@ void AddCheckCommand(CLI::App* app, Run* run) {
 - The readings: is a sensor dead, frozen, swapped, off or in another unit?
 - The start: are the first rows of the session there, for a map with a
 memory?
-- The probes: is the RMSE at most 1.5 times the promised one? The answer is
+- The probes: is the RMSE at most 1.5 times the expected one? The answer is
 for the session so far, and for the rest of it.
 
 Rows without a target are readings between the probes, for the memory of a

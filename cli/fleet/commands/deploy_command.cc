@@ -196,7 +196,7 @@ std::string DeployedText(const fleet::StorePaths& paths,
                          const std::vector<Deployed>& all) {
   if (all.size() == 1) {
     const fleet::Deployment& deployment = all.front().deployment;
-    return fmt::format("{}: {} since {}, promised {}; its file: {}\n",
+    return fmt::format("{}: {} since {}, expected error {}; its file: {}\n",
                        data::Printable(deployment.component),
                        deployment.model,
                        deployment.since,
@@ -267,7 +267,7 @@ void AddDeployCommand(CLI::App* app, Run* run) {
       .About("Map to deploy in place of the recommended one");
   SetFooter(
       command,
-      R"(The map goes into the store's maps/ with its promise, and errmap watch
+      R"(The map goes into the store's maps/ with its expected error, and errmap watch
 compares new measurements with it. It replaces the map that the component
 had. Of several components, either all are deployed or none.
 Exit status: 0 done, 2 no such component, 3 no map or no usable store.

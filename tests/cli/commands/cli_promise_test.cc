@@ -39,7 +39,8 @@ TEST_F(CliPromise, PredictNamesWhatPutsARowOutside) {
     named += row.at("offender") == "t2_degC" ? 1 : 0;
   }
   EXPECT_GE(named, kCliPromiseRowsPerDay / 2);
-  EXPECT_THAT(raised.err, HasSubstr("unlike those in training, the worst is data row"));
+  EXPECT_THAT(raised.err,
+              HasSubstr("unlike those in training, the worst is data row"));
 }
 
 // No held-out row tells how the map errs where it is clipped.
@@ -106,7 +107,7 @@ TEST_F(CliPromise, EvaluateHoldsTheMapToItsPromise) {
   Write("moved.csv", DaysInCliPromise(11, 12, 9.0));
   const Outcome moved = Run({"evaluate", "map.json", "moved.csv"});
   EXPECT_THAT(OneLine(moved.out),
-              AllOf(HasSubstr("promised"),
+              AllOf(HasSubstr("RMSE, expected "),
                     HasSubstr("no compensation"),
                     HasSubstr("re-zero")));
   Write("raised.csv", DaysInCliPromise(11, 12, 0.0, 3.0));

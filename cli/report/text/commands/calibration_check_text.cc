@@ -51,7 +51,7 @@ std::string FoundText(const models::CalibrationCheck& kept,
           ? fmt::format("; {:.0f} % of the errors within the 90 % interval",
                         kPercent * kept.within_90)
           : "";
-  return fmt::format("found {} RMSE, promised {}{}\n",
+  return fmt::format("found {} RMSE, expected {}{}\n",
                      error.WithUnit(kept.found),
                      error.WithUnit(kept.promised),
                      within);

@@ -83,7 +83,7 @@ std::string StatusText(const models::SessionCheck& check,
     return "Not known whether the map holds: its file states no error.\n";
   }
   const std::string limit =
-      fmt::format("{}, {} times the promised RMSE",
+      fmt::format("{}, {} times the expected RMSE",
                   error.WithUnit(models::kOffRatio * check.promised),
                   models::kOffRatio);
   if (check.remedy == models::Remedy::kSign ||
@@ -239,7 +239,7 @@ std::string CheckText(const models::SessionCheck& check,
                       const Eigen::VectorXd& elapsed,
                       const data::Unit& unit) {
   const ErrorText error(unit, check.promised);
-  return fmt::format("{}: RMS {}, mean {}; promised {} RMSE\n{}{}{}",
+  return fmt::format("{}: RMS {}, mean {}; expected {} RMSE\n{}{}{}",
                      TimesText(check, errors, elapsed),
                      error.WithUnit(check.probe_rms),
                      error.WithUnit(check.probe_mean),

@@ -119,8 +119,8 @@ TEST_F(UsedFiles, AreJudgedByTheColumnThatIsNamed) {
                 HasSubstr("error_um is read from '-correction_mm' and "
                           "converted from mm to um"));
     // The lines but for the file's name.
-    EXPECT_EQ(told.out.substr(told.out.find("promised")),
-              same.out.substr(same.out.find("promised")));
+    EXPECT_EQ(told.out.substr(told.out.find("expected")),
+              same.out.substr(same.out.find("expected")));
   }
 }
 
