@@ -61,10 +61,10 @@ struct SerialShuffles {
   double ljung_box = 0.0;
 };
 
-/// Returns p = (1 + #{shuffled at least as extreme}) / (draws + 1), each
-/// segment shuffled within itself, seeded; more extreme means a smaller p of
-/// the test. NaN if a test does not apply. Throws std::invalid_argument if
-/// draws < 1.
+/// Returns p = (1 + #{shuffled at least as extreme}) / (draws + 1). Each
+/// segment is shuffled within itself, from the seed. More extreme means a
+/// smaller p of the test. Returns NaN if a test does not apply. Throws
+/// std::invalid_argument if draws < 1.
 SerialShuffles ShuffleSerially(const Segments& segments,
                                Index draws,
                                std::uint64_t seed);

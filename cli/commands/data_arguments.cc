@@ -175,8 +175,8 @@ void AddMapDataArguments(CLI::App* command,
       .About("Earlier readings, for the filters of a map with a memory");
   AddOption(command, "--time COL", arguments->time)
       .About(
-          "Column of times or dates (default: that of the map,\nelse the only "
-          "time* or zeit*)");
+          "Column of times or dates (default: that of the map, else by name "
+          "and values)");
   AddOption(command, "--session COL", arguments->session)
       .About(
           "Column of sessions (default: that of the map)\nA session is an "

@@ -58,8 +58,8 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
         selection.exclude);
   visit(StudyOption{.key = "group",
                     .value = "COL",
-                    .help = "Column of warm-up cycles (default: cycle)\nAny "
-                            "column that groups the rows will do",
+                    .help = "Column of cycles (default: by name and values)\n"
+                            "Or any groups of rows",
                     .reach = Reach::kAlike,
                     .example = "group = \"cycle\""},
         selection.group);

@@ -304,9 +304,9 @@ void AddUpdateCommand(CLI::App* app, Run* run) {
           "unchanged files that it names, here, beside NEW or beside the map)")
       .OneAtATime();
   AddOption(command, "--time COL", command->columns.time)
-      .About("Column of times (default: the only time* or zeit*)");
+      .About("Column of times (default: by name and values)");
   AddOption(command, "--session COL", command->columns.session)
-      .About("Column of sessions (default: session, day, run or tag)");
+      .About("Column of sessions (default: by name, else nights)");
   AddTargetOfMap(command, &command->columns);
   AddRowOptions(command, &command->missing, &command->faults);
   AddSeedOption(command, &command->seed);

@@ -87,7 +87,7 @@ void AddInitCommand(CLI::App* app, Run* run) {
           "machines and components")
       .Required();
   AddOption(command, "--target COL", command->target)
-      .About("Column of the error to map (default: the only one named error*)");
+      .About("Column of the error to map (default: by its name)");
   AddOption(command, "-o,--output study.toml", command->out)
       .About("Study file to write")
       .ShowDefault();

@@ -41,7 +41,7 @@ constexpr std::array kExplained = {
     Explained{"blend",
               "blend",
               "An average of several maps, weighted by how well each does on "
-              "rows held out inside the training."},
+              "rows held out of the training data."},
     Explained{"baseline",
               "baseline",
               "No map at all, a constant, a curve in position or a line in one "

@@ -26,9 +26,9 @@ struct StudyPlan {
   std::vector<std::string> InputPaths() const;
 };
 
-/// Returns the study as PlanStudy takes it. A component with both directions of
-/// motion becomes two, with the direction added to the name. A component whose
-/// data cannot be read stays unchanged.
+/// Returns the study in the form that PlanStudy needs. A component with both
+/// directions of motion becomes two, with the direction added to the name. A
+/// component whose data cannot be read stays unchanged.
 StudyConfig PartedByDirection(StudyConfig config);
 
 /// Receives remarks for the user, one line at a time.
