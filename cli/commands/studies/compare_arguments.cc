@@ -1,6 +1,5 @@
 #include "cli/commands/studies/compare_arguments.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "cli/command.h"

@@ -17,8 +17,6 @@ struct FleetResults {
 
 namespace {
 
-using models::ModelStatus;
-
 // How far from its goal, or from what there was without a map: the worst first.
 double Badness(const ComponentSummary& summary) {
   if (!summary.recommendation) return HUGE_VAL;

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <sstream>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>

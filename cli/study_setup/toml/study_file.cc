@@ -24,7 +24,6 @@ namespace errmap::study_setup {
 namespace {
 
 using data::QuotedName;
-using data::QuotedText;
 
 // A value with colons in it, as a SPEC needs it.
 std::string Quoted(const std::string& text) {

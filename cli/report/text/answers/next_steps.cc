@@ -4,10 +4,6 @@
 #include <filesystem>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "cli/report/number_text.h"
-#include "cli/report/shell_word.h"
 #include "cli/report/text/answers/remarks.h"
 #include "cli/report/text/answers/verdict_text.h"
 #include "data/text.h"
