@@ -577,8 +577,9 @@ double PenalizedPath::DegreesOfFreedom(double strength,
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(correlation_,
                                                       Eigen::EigenvaluesOnly);
   double trace = 0.0;
+  constexpr double kRounding = 1e-12;  // of eigenvalues that are 0
   for (const double value : eigen.eigenvalues()) {
-    if (value > 0.0) trace += value / (value + strength);
+    if (value > kRounding) trace += value / (value + strength);
   }
   return of_intercept + trace;
 }

@@ -430,6 +430,12 @@ TEST(PenalizedPath, RidgeHasTheDegreesOfFreedomOfItsEigenvalues) {
             << strength;
       }
     }
+    // Without a penalty: a constant adds none, nor does a column that depends
+    // on the others.
+    const auto rank = static_cast<double>((squares.array() > kSlack).count());
+    for (const PenalizedPath& path : RidgesOf(sample, true)) {
+      EXPECT_EQ(path.DegreesOfFreedom(0.0, VectorXd()), 1.0 + rank);
+    }
   }
 }
 
