@@ -22,6 +22,8 @@ constexpr double kWorse = 0.03;  // the most that an order may make worse
 constexpr double kMuchWorse = 1.1;
 // Of a session's held-out errors those up to the last probe, for a word on all.
 constexpr double kLeastSeen = 0.5;
+// So many probes may miss another shape of the errors.
+constexpr Index kFewProbes = 3;
 
 double Quantile(std::vector<double> values, double share) {
   const auto last = static_cast<double>(values.size() - 1);
@@ -272,7 +274,7 @@ SessionCheck CheckSession(const HeldOutErrors& errors,
     check.status = SessionStatus::kOff;
     check.gain = GainOf(probes, forecast);
     ChooseRemedy(probes, forecast, &check);
-  } else if (seen && holds_so_far &&
+  } else if (seen && holds_so_far && check.probes > kFewProbes &&
              check.session.off_probability <= kSureHolds &&
              (!check.later || check.later->off_probability <= kSureHolds)) {
     check.status = SessionStatus::kHolds;

@@ -76,13 +76,14 @@ struct SessionCheck {
 
 /// Judges a session by the errors forecast from its probes (ForecastSession).
 /// The limit is kOffRatio times the promise. The map holds if the errors so far
-/// and later are within it with sufficient probability. It is off if the whole
-/// session's errors exceed it with that probability. A remedy must be equally
-/// unlikely to increase the error. Re-zeroing, a gain or a sign must also bring
-/// the session within the limit. A gain or a sign replaces kRefit if it alone
-/// brings the probes within the limit. If `missing` or `sensor` is set, nothing
-/// else is judged. Throws std::invalid_argument if there are no probes, sizes
-/// differ or a value is not finite.
+/// and later are within it with sufficient probability, and there are four
+/// probes or more. It is off if the whole session's errors exceed it with that
+/// probability. A remedy must be equally unlikely to increase the error.
+/// Re-zeroing, a gain or a sign must also bring the session within the limit. A
+/// gain or a sign replaces kRefit if it alone brings the probes within the
+/// limit. If `missing` or `sensor` is set, nothing else is judged. Throws
+/// std::invalid_argument if there are no probes, sizes differ or a value is not
+/// finite.
 SessionCheck CheckSession(const HeldOutErrors& errors,
                           const SessionProbes& probes,
                           Missing missing = Missing::kNothing,

@@ -137,6 +137,18 @@ TEST(CheckSession, HoldsWhereTheShapeOfTheErrorsComesAgain) {
   EXPECT_LE(off, 1);
 }
 
+TEST(CheckSession, NeedsMoreThanThreeProbesForAWholeSession) {
+  const HeldOutErrors errors = DaysInSessionCheck(10, 1);
+  stats::Random random(2);
+  HeldOutErrors::Unit day = Day(&random);
+  day.residuals.setConstant(0.1);
+  const auto status_of = [&](const std::vector<Index>& rows) {
+    return CheckAt(errors, day, rows).status;
+  };
+  EXPECT_EQ(status_of({0, 13, 26, 38}), SessionStatus::kHolds);
+  EXPECT_EQ(status_of({0, 19, 38}), SessionStatus::kHoldsSoFar);
+}
+
 // The first minutes of a day do not tell what it comes to.
 TEST(CheckSession, SaysOfTheFirstMinutesOnlyThatTheMapHoldsSoFar) {
   const HeldOutErrors errors = DaysInSessionCheck(10, 1);
