@@ -96,7 +96,10 @@ struct BadCell {
   const std::string& text = *cell.text;
   std::string what =
       table.Where(cell.row, cell.column->name) + ": " + Complaint(text);
-  if (cell.use == ColumnUse::kInput) {
+  // A row with an empty cell may be shifted, and its other cells wrong.
+  const bool lacks_most =
+      2 * cell.column->exceptions.size() > cell.column->values.size();
+  if (cell.use == ColumnUse::kInput && (lacks_most || !text.empty())) {
     what +=
         ", or leave the column out with " +
         ArgumentName("exclude", Printable(cell.column->name, text.max_size()));
