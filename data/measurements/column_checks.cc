@@ -38,9 +38,11 @@ bool HasDecimalComma(std::string_view text) {
   return with_point != text && ParseNumber(with_point, &value);
 }
 
-// A word that no list has ("No Signal", "****") is not a reading all the same.
+// A word that no list has ("No Signal", "****") is not a reading all the same,
+// nor is the limit of an instrument ("<0.05").
 bool HasNoDigit(std::string_view text) {
-  return !HasDigit(text) && !IsInfinity(text);
+  return (!HasDigit(text) || text.starts_with('<') || text.starts_with('>')) &&
+         !IsInfinity(text);
 }
 
 // Whether a word is a unit where it is sure to mean one.

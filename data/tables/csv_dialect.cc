@@ -71,9 +71,11 @@ Score ScoreOf(const std::vector<CsvRecord>& records, char delimiter) {
 }
 
 // What the numbers of the first rows tell: where commas part cells, those in
-// quotes may have decimal commas.
+// quotes may have decimal commas. No number has three zeros for decimals.
 void TakeDecimals(const std::vector<CsvRecord>& records, CsvDialect* dialect) {
   bool commas = false;
+  bool all_round = true;
+  bool any_round = false;
   for (const CsvRecord& record : records) {
     for (const std::string& cell : record.cells) {
       NumberForm form;
@@ -81,10 +83,14 @@ void TakeDecimals(const std::vector<CsvRecord>& records, CsvDialect* dialect) {
       dialect->decimal_points = dialect->decimal_points || form.decimal_point;
       commas = commas ||
                (form.decimal_comma && !MayPartThousands(cell, cell.find(',')));
+      const bool is_round = cell.ends_with(",000");
+      any_round = any_round || is_round;
+      all_round = all_round && (is_round || !form.decimal_comma);
     }
   }
   if (dialect->delimiter == ',') {
     dialect->decimal_comma = commas && !dialect->decimal_points;
+    if (any_round && all_round && !commas) dialect->decimal_points = true;
   }
 }
 

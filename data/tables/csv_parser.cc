@@ -68,7 +68,7 @@ class Parser {
     for (const std::string& line : odd_rows_.PassedOver()) table_.Remark(line);
     for (const std::string& line : loose_.Remarks()) table_.Remark(line);
     LeaveEmptyColumns();
-    TakeUnitsOfCells(dialect_.decimal_comma, &table_);
+    TakeUnitsOfCells(dialect_.decimal_comma, dialect_.decimal_points, &table_);
     TakeAngleCells(dialect_.decimal_comma, &table_);
     TakeTitles();
     return std::move(table_);

@@ -52,10 +52,9 @@ void NumberColumns::FindLabels(const std::vector<CsvRecord>& records,
 
 bool NumberColumns::IsNumber(std::string_view cell, std::size_t column) const {
   NumberForm form;
-  if (ReadNumberForm(cell, dialect_.decimal_comma, &form) ||
-      ReadLooseNumber(
+  if (ReadLooseNumber(
           cell, dialect_.decimal_comma, dialect_.decimal_points, &form) !=
-          Loose::kNone) {
+      Loose::kNone) {
     return true;
   }
   const std::string& label = labels_[column];

@@ -40,8 +40,8 @@ std::string_view MarkOf(std::string_view text) {
   return "";
 }
 
-// The digits of "25 000" or "1.234.567", without their marks, off the front of
-// `text`; none if there are no groups.
+// The digits of "25 000", "1.234.567" or, as in India, "12,34,567" without
+// their marks, off the front of `text`; none if there are no groups.
 std::string TakeGroups(std::string_view* text,
                        std::string_view* mark,
                        int* count) {
@@ -53,9 +53,12 @@ std::string TakeGroups(std::string_view* text,
   *mark = MarkOf(rest);
   for (*count = 0; !mark->empty() && rest.starts_with(*mark); ++*count) {
     const std::string_view group = rest.substr(mark->size());
-    if (DigitsOf(group) != 3) break;
-    digits += group.substr(0, 3);
-    rest = group.substr(3);
+    const std::size_t size = DigitsOf(group);
+    const bool is_lakh =
+        size == 2 && *mark == "," && group.substr(size).starts_with(*mark);
+    if (size != 3 && !is_lakh) break;
+    digits += group.substr(0, size);
+    rest = group.substr(size);
   }
   *text = rest;
   return *count > 0 ? digits : "";
@@ -83,6 +86,23 @@ std::optional<std::pair<std::string_view, std::string_view>> AtUncertainty(
 // Where the digits, signs and marks in the width of a Chinese character begin
 // in UTF-8: U+FF0B to U+FF19.
 constexpr std::string_view kFullWidth = "\xEF\xBC";
+
+// The cell without a sign of money before or behind its number; empty if there
+// is none.
+std::string WithoutCurrency(std::string_view cell) {
+  constexpr auto kSigns = std::to_array<std::string_view>(
+      {"$", "\xE2\x82\xAC", "\xC2\xA3", "\xC2\xA5", "\x80", "\xA3", "\xA5"});
+  for (const std::string_view sign : kSigns) {
+    const std::size_t at = cell.find(sign);
+    if (at == cell.npos) continue;
+    const std::string_view before = TrimmedCell(cell.substr(0, at));
+    const std::string_view behind = TrimmedCell(cell.substr(at + sign.size()));
+    if (before.find_first_not_of("(+-") == cell.npos || behind.empty()) {
+      return std::string(before).append(behind);
+    }
+  }
+  return "";
+}
 
 std::string WithAsciiDigits(std::string_view cell) {
   std::string plain;
@@ -128,6 +148,10 @@ Loose ReadLooseNumber(std::string_view cell,
                ? Loose::kFullWidth
                : Loose::kNone;
   }
+  if (const std::string bare = WithoutCurrency(cell); !bare.empty()) {
+    const Loose kind = ReadLooseNumber(bare, decimal_comma, other_mark, form);
+    return kind == Loose::kNone ? kind : std::max(kind, Loose::kCurrency);
+  }
   if (ReadFortranNumber(cell, decimal_comma, form)) return Loose::kExponent;
   if (const auto parts = AtUncertainty(cell)) {
     NumberForm uncertainty;
@@ -152,7 +176,7 @@ Loose ReadLooseNumber(std::string_view cell,
     sign = dash == "+" ? "" : "-";
     break;
   }
-  if (cell.empty() || !IsDigit(cell.front())) return Loose::kNone;
+  if (cell.find_first_of("0123456789.") != 0) return Loose::kNone;
   if (sign.empty() && cell.ends_with('-')) {  // as SAP writes it
     cell.remove_suffix(1);
     sign = "-";
@@ -223,6 +247,7 @@ std::vector<std::string> LooseNumbers::Remarks() const {
       {"",
        " with a dash for the minus",
        " without marks between thousands",
+       " without their sign of money",
        " without the remark after it",
        " with a minus after the number, which changes the sign",
        " with D for the exponent",
@@ -245,49 +270,82 @@ std::vector<std::string> LooseNumbers::Remarks() const {
 
 namespace {
 
-// The numbers of cells that all carry one unit, or a label, or are missing.
+// The numbers of cells that all carry one unit, or a label.
 struct UnitCells {
   std::string unit;
   CellLabel label;
-  std::vector<std::optional<NumberForm>> numbers;  // (texts) none: missing
+  std::vector<std::optional<NumberForm>> numbers;  // (texts) none: no reading
 };
 
-// A cell with the ASCII sign for its minus.
-std::string WithPlainMinus(const std::string& cell) {
-  for (const std::string_view dash : {"\xE2\x88\x92", "\xE2\x80\x93"}) {
-    if (cell.starts_with(dash)) return "-" + cell.substr(dash.size());
-  }
-  return cell;
+// "n.d.", "refused", "<0.05 mg/l": a cell in place of a number.
+bool IsNoReading(std::string_view text) {
+  return !HasDigit(text) || text.starts_with('<') || text.starts_with('>');
 }
 
+// The word behind all numbers of a column is its unit, whatever it is, unless
+// they count or date something: "3 Lauf".
+bool MayBeUnit(const std::string& name, std::string_view word) {
+  using enum Word;
+  for (const Word label : {kTime,
+                           kDate,
+                           kDirection,
+                           kCycle,
+                           kSession,
+                           kRun,
+                           kCounter,
+                           kIdentifier}) {
+    if (Says(name, label)) return false;
+  }
+  return word.find_first_of(" -+.,:;_#()[]*'\"") == word.npos;
+}
+
+// "Kg" for "kg"; but "MPa" is not "mPa".
+bool IsSameUnit(std::string_view a, std::string_view b) {
+  return a == b ||
+         (EqualsIgnoringCase(a, b) && !StartsWithIgnoringCase(a, "m"));
+}
+
+// Nothing unless more cells are such numbers than words; and most of all where
+// the unit is not known.
 std::optional<UnitCells> ReadUnitCells(const CsvColumn& column,
-                                       bool decimal_comma) {
+                                       bool decimal_comma,
+                                       bool other_mark) {
   UnitCells cells;
+  bool is_known = true;
   for (const std::string& text : column.texts) {
     cells.numbers.emplace_back();
-    if (IsMissingNumber(text)) continue;
-    const std::string plain = WithPlainMinus(text);
-    std::string_view cell = plain;
+    if (IsMissingNumber(text) || IsNoReading(text)) continue;
+    std::string_view cell = text;
     const CellLabel label = TakeLabel(&cell);
-    const std::size_t size =
-        std::min(cell.find_first_not_of("+-.,0123456789"), cell.size());
+    const std::size_t size = cell.find_last_of("0123456789") + 1;
+    std::string unit(TrimmedCell(cell.substr(size)));
     NumberForm form;
-    std::string unit(Trimmed(cell.substr(size)));
-    const bool is_bare = unit.empty() && label.text.empty();
     const bool is_first = cells.unit.empty() && cells.label.text.empty();
-    if (is_bare || (!unit.empty() && IsDigit(unit.back())) ||
-        !ReadNumberForm(cell.substr(0, size), decimal_comma, &form) ||
-        !ReadUnitCell(&unit) || (unit.empty() && label.text.empty()) ||
-        !(is_first || (cells.unit == unit && cells.label.text == label.text))) {
+    is_known = ReadUnitCell(&unit) && is_known;
+    if ((unit.empty() && label.text.empty()) ||
+        ReadLooseNumber(
+            cell.substr(0, size), decimal_comma, other_mark, &form) ==
+            Loose::kNone ||
+        !(is_first ||
+          (IsSameUnit(cells.unit, unit) && cells.label.text == label.text))) {
       return std::nullopt;
     }
-    cells.unit = unit;
+    if (is_first) cells.unit = unit;
     cells.label = label;
     cells.numbers.back() = form;
   }
-  return cells.unit.empty() && cells.label.text.empty()
-             ? std::nullopt
-             : std::optional(std::move(cells));
+  std::size_t numbers = 0;
+  std::size_t missing = 0;
+  for (const auto& [row, text] : column.exceptions) {
+    numbers += cells.numbers[text] ? 1 : 0;
+    missing += IsMissingNumber(column.texts[text]) ? 1 : 0;
+  }
+  const std::size_t others = column.exceptions.size() - numbers;
+  const bool is_column = is_known
+                             ? numbers > others - missing
+                             : numbers > others && column.texts.size() > 1 &&
+                                   MayBeUnit(column.name, cells.unit);
+  return is_column ? std::optional(std::move(cells)) : std::nullopt;
 }
 
 void TakeNumbers(const UnitCells& cells, CsvColumn* column) {
@@ -317,12 +375,12 @@ std::optional<std::string> FreeNameWithUnit(const CsvTable& table,
 
 }  // namespace
 
-void TakeUnitsOfCells(bool decimal_comma, CsvTable* table) {
+void TakeUnitsOfCells(bool decimal_comma, bool other_mark, CsvTable* table) {
   std::size_t number = 0;
   for (CsvColumn& column : table->columns) {
     const std::string unnamed = "column_" + std::to_string(++number);
     if (!column.is_text() || column.values.empty()) continue;
-    const auto cells = ReadUnitCells(column, decimal_comma);
+    const auto cells = ReadUnitCells(column, decimal_comma, other_mark);
     if (!cells) continue;
     const std::string& label = cells->label.text;
     if (!label.empty()) {

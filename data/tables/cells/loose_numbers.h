@@ -16,6 +16,7 @@ enum class Loose {
   kNone,
   kDash,
   kMarks,
+  kCurrency,
   kRemark,
   kMinusBehind,
   kExponent,
@@ -26,13 +27,13 @@ enum class Loose {
 
 /// Reads a number in a form that people write but programs do not read. It may
 /// have thousands separated by blanks, apostrophes or the other decimal mark
-/// ("25 000.5", "25'000", "1.234.567,8"), a minus that is a dash or comes last,
-/// a remark ("1.5 # door"), Fortran's exponent ("1.5D-03"), or its uncertainty
-/// behind it ("1.5 ± 0.2", "1.50(20)"), or be negative in parentheses
-/// ("(1.97)", where "(2)" is a label), or have the wide digits of Japanese and
-/// Chinese. `other_mark`: one group of thousands is
+/// ("25 000.5", "25'000", "1.234.567,8"), a sign of money ("$5.30"), a minus
+/// that is a dash or comes last, a remark ("1.5 # door"), Fortran's exponent
+/// ("1.5D-03"), or its uncertainty behind it ("1.5 ± 0.2", "1.50(20)"), or be
+/// negative in parentheses ("(1.97)", where "(2)" is a label), or have the wide
+/// digits of Japanese and Chinese. `other_mark`: one group of thousands is
 /// enough ("25,000" with decimal points). If a separator could be a decimal
-/// mark, returns kNone and no value.
+/// mark, returns kNone and no value. Reads plain numbers, too.
 Loose ReadLooseNumber(std::string_view cell,
                       bool decimal_comma,
                       bool other_mark,
@@ -65,12 +66,13 @@ class LooseNumbers {
     std::size_t count = 0;
     std::size_t first_line = 0;
   };
-  std::array<Seen, 9> seen_;  // of each Loose
+  std::array<Seen, 10> seen_;  // of each Loose
 };
 
-/// Converts columns whose cells are all numbers with one unit ("1.877 µm") or
-/// after one label ("T1=21.4"). The unit becomes part of the name. The label
-/// becomes the name if there was none.
-void TakeUnitsOfCells(bool decimal_comma, CsvTable* table);
+/// Converts columns whose numbers all have one unit ("1.877 µm") or one label
+/// ("T1=21.4"), and that have more numbers than words ("<0.05 mg/l"), which
+/// stay. The unit becomes part of the name. The label becomes the name if there
+/// was none.
+void TakeUnitsOfCells(bool decimal_comma, bool other_mark, CsvTable* table);
 
 }  // namespace errmap::data

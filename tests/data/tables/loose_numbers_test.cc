@@ -19,6 +19,7 @@ using namespace small_tables;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::Eq;
+using ::testing::Field;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Pointee;
@@ -84,6 +85,50 @@ TEST(LooseNumbers, AreNegativeInParenthesesWithDecimals) {
                                     "parentheses are a minus")));
   EXPECT_TRUE(
       ParseCsv("x_mm,no\n1,(1)\n2,(2)\n", "f.csv").columns[1].is_text());
+}
+
+TEST(LooseNumbers, HaveSignsOfMoney) {
+  const CsvTable table = ParseCsv(
+      "what,Amount,Balance,Preis,rest\na,$5.30,\"$5,615.30\",\xE2\x82\xAC 2,7 "
+      "$\n"
+      "b,($849.06),-$3,.5 \xC2\xA3,$x\n",
+      "f.csv");
+  EXPECT_THAT(table.columns[1].values, ElementsAre(5.3, -849.06));
+  EXPECT_THAT(table.columns[2].values, ElementsAre(5615.3, -3.0));
+  EXPECT_THAT(table.columns[3].values, ElementsAre(2.0, 0.5));
+  EXPECT_THAT(table.columns[4].TextAt(1), Pointee(Eq("$x")));
+  EXPECT_THAT(table.remarks,
+              Contains(HasSubstr("6 cells are read as numbers without their "
+                                 "sign of money (the first on line 2)")));
+  // As Windows writes euros.
+  EXPECT_THAT(ParseCsv("Preis (\x80);n\n\x80 1.854,25;1\n", "f.csv").columns[0],
+              AllOf(Field(&CsvColumn::name, "Preis (\u20AC)"),
+                    Field(&CsvColumn::values, ElementsAre(1854.25))));
+}
+
+TEST(LooseNumbers, HaveThousandsAsInIndia) {
+  const CsvTable table = ParseCsv(
+      "n,a\n1.5,\"16,17,375\"\n2.5,\"4,40,12,648\"\n3.5,\"91,666\"\n"
+      "4.5,\"1,23,45\"\n",
+      "f.csv");
+  EXPECT_EQ(table.columns[1].values[0], 1617375.0);
+  EXPECT_EQ(table.columns[1].values[1], 44012648.0);
+  EXPECT_EQ(table.columns[1].values[2], 91666.0);
+  EXPECT_THAT(table.columns[1].TextAt(3), Pointee(Eq("1,23,45")));
+}
+
+// No number is written with three zeros for decimals.
+TEST(LooseNumbers, HaveThousandsWhereAllEndInThreeZeros) {
+  const CsvTable table = ParseCsv(
+      "age,Income\n49,\"71,000\"\n74,refused\n62,\"28,000\"\n", "f.csv");
+  EXPECT_EQ(table.columns[1].values[0], 71000.0);
+  EXPECT_THAT(table.columns[1].TextAt(1), Pointee(Eq("refused")));
+  EXPECT_TRUE(ParseCsv("n,x\n1,\"71,000\"\n2,\"71,125\"\n", "f.csv")
+                  .columns[1]
+                  .is_text());
+  EXPECT_THAT(
+      ParseCsv("n,x\n1,\"71,000\"\n2,\"0,500\"\n", "f.csv").columns[1].values,
+      ElementsAre(71.0, 0.5));
 }
 
 TEST(LooseNumbers, HaveFullWidthDigits) {
@@ -191,6 +236,37 @@ TEST(UnitsOfCells, CountAmongMixedDecimalMarks) {
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(),
                 HasSubstr("decimal point (1), but decimal comma"));
+  }
+}
+
+TEST(UnitsOfCells, StandBesideCellsWithoutAReading) {
+  const CsvTable table = ParseCsv(
+      "Sample,Lead,pH\n1,0.82 mg/l,6\n2,<0.05 mg/l,7\n3,n.d.,6\n4,0.9 mg/l,7\n"
+      "5,.5 mg/l,7\n",
+      "f.csv");
+  EXPECT_EQ(table.columns[1].name, "Lead [mg/l]");
+  EXPECT_EQ(table.columns[1].values[3], 0.9);
+  EXPECT_EQ(table.columns[1].values[4], 0.5);
+  EXPECT_THAT(table.columns[1].TextAt(1), Pointee(Eq("<0.05 mg/l")));
+  EXPECT_THAT(table.columns[1].TextAt(2), Pointee(Eq("n.d.")));
+}
+
+TEST(UnitsOfCells, MayBeAnyWordBehindMostNumbers) {
+  const CsvTable table = ParseCsv(
+      "weight,pressure,rate\n96.0kg,198 mmHg,66.8\xC2\xA0%\n"
+      "68.4 Kg,1 014 mmHg,-5 %\n",
+      "f.csv");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("weight [kg]", "pressure [mmHg]", "rate [%]"));
+  EXPECT_THAT(table.columns[0].values, ElementsAre(96.0, 68.4));
+  EXPECT_THAT(table.columns[1].values, ElementsAre(198.0, 1014.0));
+  EXPECT_THAT(table.columns[2].values, ElementsAre(66.8, -5.0));
+  for (const char* labels : {"Run,n\n1 Lauf,1\n2 Lauf,2\n",
+                             "p,n\n3 mPa,1\n2 MPa,2\n",
+                             "way,n\n1 up,1\n2 down,2\n",
+                             "note,n\n5 retries,1\nok,2\nok,3\n",
+                             "note,n\n5 retries,1\n,2\n,3\n"}) {
+    EXPECT_TRUE(ParseCsv(labels, "f.csv").columns[0].is_text()) << labels;
   }
 }
 
