@@ -68,17 +68,16 @@ class LayoutFinder {
       const bool is_whole =
           cells.size() + 1 >= usual_ || 2 * counts.numbers >= columns_.count();
       if (is_whole && counts.numbers > counts.words && !AreNumberNames(i) &&
-          !IsShortAboveWords(i)) {
+          !IsAboveWords(i)) {
         return i;
       }
     }
     return kNone;
   }
 
-  // "Channel,1,2,3" in a block above the table.
-  bool IsShortAboveWords(std::size_t row) const {
-    if (records_[row].cells.size() >= usual_ || row + 1 >= records_.size())
-      return false;
+  // "Channel,1,2,3" in a block above the table, ",2010,,2020" above the names.
+  bool IsAboveWords(std::size_t row) const {
+    if (row + 1 >= records_.size()) return false;
     const CellCounts below = columns_.CountsOf(records_[row + 1].cells);
     return below.words > below.numbers;
   }
@@ -127,7 +126,10 @@ class LayoutFinder {
   std::size_t NamesAbove(std::size_t first) const {
     if (first > 0 && AreNumberNames(first - 1)) return first - 1;
     for (std::size_t i = first; i-- > 0;) {
-      if (!columns_.MayBeNames(records_[i].cells)) continue;
+      if (!columns_.MayBeNames(records_[i].cells) ||
+          AreRules(records_[i].cells)) {
+        continue;
+      }
       const bool is_below_names =
           i > 0 && columns_.MayBeNames(records_[i - 1].cells);
       if (is_below_names && AreUnitCells(records_[i].cells)) continue;
@@ -261,6 +263,10 @@ class LayoutFinder {
                                          layout_.names.end());
     const bool tells = distinct.size() == usual_ && !distinct.contains("") &&
                        !AreMadeOfUnits(layout_.names);
+    // "Date,2024-03-01"
+    if (tells && usual_ > 3 && upper[0] + upper[1] == JoinWords(upper, "")) {
+      return false;
+    }
     std::string group;
     for (std::size_t i = 0; i < usual_ && !tells; ++i) {
       if (!upper[i].empty()) group = upper[i];

@@ -14,8 +14,10 @@ namespace errmap::data {
 namespace {
 
 using namespace small_tables;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 TEST(TableNames, FindsNamesBelowTitlesWhateverTheRowsEndWith) {
@@ -61,6 +63,34 @@ TEST(TableNames, FindsNamesInCommentsAndBehindDollars) {
     ExpectRows(table);
     EXPECT_THAT(table.remarks, SizeIs(1));
   }
+}
+
+TEST(TableNames, FindsNamesAboveTheRulesOfMarkdown) {
+  const CsvTable table = ParseCsv(
+      "| Place | x_mm | error_um |\n|:------|-----:|---------:|\n"
+      "| a     |  0.5 |      1.5 |\n| b     |  1.0 |     -2.5 |\n",
+      "f.md");
+  EXPECT_THAT(NamesIn(table), Contains("x_mm"));
+  EXPECT_THAT(table.At(table.Find("error_um")).values, ElementsAre(1.5, -2.5));
+  EXPECT_THAT(table.remarks, IsEmpty());
+}
+
+TEST(TableNames, FindsNamesBelowYearsOfGroups) {
+  const CsvTable table = ParseCsv(
+      "Households,,,,\n,2010,,2020,Change\nCounty,Owner,Renter,Owner,\n"
+      ",(number),(number),(number),(percent)\nA,4291,6103,374,4.2\n"
+      "B,9085,1097,5699,5.8\nC,5105,3856,5677,1.2\n",
+      "f.csv");
+  EXPECT_THAT(table.columns[1].values, ElementsAre(4291, 9085, 5105));
+  EXPECT_THAT(table.titles, Contains(HasSubstr("2010")));
+}
+
+TEST(TableNames, AreNotALineOfADate) {
+  const CsvTable table = ParseCsv(
+      "Machine,HMC,,\nDate,2024-04-18,,\n" + kNames + ",n\n" + Rows(",1"),
+      "f.csv");
+  ExpectRows(table);
+  EXPECT_THAT(table.remarks, ElementsAre(HasSubstr("2 lines above the table")));
 }
 
 // As numpy.savetxt writes it: "# x y", blanks between the numbers.
