@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "data/column_words.h"
 #include "data/formula_text.h"
 #include "data/tables/cells/csv_cells.h"
 #include "data/tables/cells/loose_numbers.h"
@@ -387,10 +388,18 @@ class Parser {
             HoldsRemarkAlone(table_, column_));
   }
 
+  // "Accuracy A", 12.4 and mostly empty cells, below the rows of a sheet.
+  bool IsFigure(std::size_t found) const {
+    return num_numbers_ > 0 && 2 * num_empty_ >= found &&
+           !StatesTemperature(
+               table_.CellText(table_.columns[0], table_.num_rows));
+  }
+
   void ReadRow(bool after_blank) {
     const std::size_t line = cells_.line();
     column_ = 0;
     num_numbers_ = 0;
+    num_empty_ = 0;
     is_beyond_ = false;
     last_named_is_empty_ = false;
     bool more = true;
@@ -409,9 +418,9 @@ class Parser {
       return;
     }
     EndBlankLines();
-    below_totals_ = (found == 2 || ((after_blank || below_totals_) &&
-                                    found < layout_.width)) &&
-                    AreTotals(table_);
+    below_totals_ = AreTotals(table_) &&
+                    (found == 2 || IsFigure(found) ||
+                     ((after_blank || below_totals_) && found < layout_.width));
     if (below_totals_ ||
         (layout_.width > 2 && num_numbers_ == 0 && IsTitle(found))) {
       std::string words = table_.CellText(table_.columns[0], table_.num_rows);
@@ -524,6 +533,7 @@ class Parser {
       rows_->AddText(column_, AsUtf8(TextOf(text)));
     }
     num_numbers_ += is_number ? 1 : 0;
+    num_empty_ += text.empty() ? 1 : 0;
     if ((is_number || !text.empty()) && column_ >= layout_.num_names) {
       is_beyond_ = true;
     }
@@ -547,6 +557,7 @@ class Parser {
   // Of the row that is being read.
   std::size_t column_ = 0;
   std::size_t num_numbers_ = 0;
+  std::size_t num_empty_ = 0;
   bool is_beyond_ = false;  // it has something beyond the last name
   bool last_named_is_empty_ = false;
   bool below_names_ = false;

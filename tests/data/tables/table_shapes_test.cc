@@ -102,6 +102,19 @@ TEST(TableShape, PassesOverTotalsUnderTheirColumns) {
   EXPECT_FALSE(table.columns[0].is_text());
 }
 
+// As a sheet of ISO 230-2 ends.
+TEST(TableShape, PassesOverFiguresBelowTheRowsOfASheet) {
+  const CsvTable table = ParseCsv(
+      "i,Target [mm],Run 1 \u2191 [um],Run 2 \u2191 [um]\n1,0,-0.5,1\n"
+      "2,100,-2,0.5\n3,200,-3,0.25\nAccuracy A,,,12.4\nReversal B,,,1.3\n",
+      "f.csv");
+  EXPECT_EQ(table.num_rows, 3U);
+  EXPECT_THAT(NamesIn(table),
+              ::testing::Not(::testing::Contains("Accuracy A")));
+  EXPECT_THAT(table.remarks,
+              ::testing::Contains(HasSubstr("'Accuracy A', ...")));
+}
+
 TEST(TableShape, TakesNoBreakSpacesOffNamesAndNumbers) {
   const CsvTable table = ParseCsv(
       " x\xC2\xA0;\xE2\x80\xAFy ;z\n1\xC2\xA0;\xC2\xA0"
