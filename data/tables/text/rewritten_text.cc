@@ -101,9 +101,25 @@ std::vector<std::string_view> FirstLines(std::string_view text) {
   return lines;
 }
 
+constexpr std::string_view kBetween = ",;\t|";
+constexpr std::string_view kBackslashQuote = "\\\"";
+
+// "a \"b\" c" for "a ""b"" c": where a quote behind a backslash does not close
+// a cell, or the next one does.
+bool HasBackslashQuotes(std::string_view line) {
+  for (std::size_t at = line.find(kBackslashQuote); at != line.npos;
+       at = line.find(kBackslashQuote, at + 2)) {
+    const std::size_t next =
+        at + (line.substr(at + 2).starts_with('"') ? 3 : 2);
+    const bool ends =
+        next == line.size() || kBetween.find(line[next]) != kBetween.npos;
+    if (ends == (next == at + 3)) return true;
+  }
+  return false;
+}
+
 // 'x';'y': each quote at a line's end or beside a delimiter.
 bool IsInSingleQuotes(std::string_view line) {
-  constexpr std::string_view kBetween = ",;\t|";
   if (line.size() < 2 || line.front() != '\'' || line.back() != '\'') {
     return false;
   }
@@ -206,10 +222,13 @@ std::string WithTabs(std::string_view text) {
   return parted;
 }
 
-// A sign of programs and of MATLAB, alone or before a remark.
-bool BeginsWithPercent(std::string_view line) {
-  return line.starts_with('%') &&
-         (line.size() == 1 || line[1] == ' ' || IsLineEnd(line[1]));
+// Length of a sign of programs ("//") or of MATLAB ("%"), alone or before a
+// remark; else 0.
+std::size_t SignOfRemark(std::string_view line) {
+  const std::size_t size = line.starts_with("//") ? 2 : line.starts_with('%');
+  const bool ends =
+      line.size() == size || line[size] == ' ' || IsLineEnd(line[size]);
+  return ends ? size : 0;
 }
 
 // Comments as they are known.
@@ -217,9 +236,8 @@ std::string WithHashes(std::string_view text) {
   std::string hashed(text);
   for (std::size_t at = 0; at < hashed.size();
        at = std::min(hashed.find_first_of("\n\r", at), hashed.size() - 1) + 1) {
-    if (BeginsWithPercent(std::string_view(hashed).substr(at))) {
-      hashed[at] = '#';
-    }
+    const std::size_t size = SignOfRemark(std::string_view(hashed).substr(at));
+    hashed.replace(at, size, size, '#');
   }
   return hashed;
 }
@@ -228,8 +246,16 @@ std::string WithHashes(std::string_view text) {
 
 std::optional<std::string> RewrittenText(std::string_view text) {
   if (auto table = LabviewText(text)) return table;
-  if (BeginsWithPercent(text)) return WithHashes(text);
+  if (SignOfRemark(text) > 0) return WithHashes(text);
   const std::vector<std::string_view> lines = FirstLines(text);
+  if (std::ranges::any_of(lines, HasBackslashQuotes)) {
+    std::string doubled(text);
+    for (std::size_t at = doubled.find(kBackslashQuote); at != doubled.npos;
+         at = doubled.find(kBackslashQuote, at)) {
+      doubled.replace(at, 2, 2, '"');
+    }
+    return doubled;
+  }
   if (lines.size() > 1 && std::ranges::all_of(lines, IsInSingleQuotes)) {
     std::string quoted(text);
     std::ranges::replace(quoted, '\'', '"');

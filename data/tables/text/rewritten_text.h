@@ -7,9 +7,10 @@
 namespace errmap::data {
 
 /// Rewrites text whose cells no single delimiter separates. Cells in single
-/// quotes get double ones. Columns aligned by two blanks or more, so that names
-/// may contain one, get tabs. Lines that are each quoted as a whole lose those
-/// quotes. Returns nothing for any other text.
+/// quotes get double ones, and quotes behind backslashes lose these. Columns
+/// aligned by two blanks or more, so that names may contain one, get tabs.
+/// Lines that are each quoted as a whole lose those quotes. Returns nothing for
+/// any other text.
 std::optional<std::string> RewrittenText(std::string_view text);
 
 /// Returns a LabVIEW measurement file (.lvm) as a plain table. The lines of its

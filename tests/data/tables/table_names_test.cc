@@ -55,6 +55,7 @@ TEST(TableNames, FindsNamesBelowLinesOfTwoCells) {
 TEST(TableNames, FindsNamesInCommentsAndBehindDollars) {
   for (const std::string& head : {"# a test stand\n# " + kNames + "\n",
                                   "##Instrument A\n##\n##" + kNames + "\n",
+                                  "// Logger 2\n// " + kNames + "\n",
                                   "$$file[3]\n$$" + kNames + "\n",
                                   "#" + kNames + "\n# units: mm\n"}) {
     const CsvTable table = ParseCsv(head + Rows(), "f.csv");

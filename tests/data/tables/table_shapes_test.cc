@@ -128,6 +128,17 @@ TEST(TableShape, TakesNoBreakSpacesOffNamesAndNumbers) {
   EXPECT_THAT(table.columns[2].values, ElementsAre(3.0, 6.0));
 }
 
+TEST(TableShape, ReadsQuotesBehindBackslashes) {
+  const CsvTable table = ParseCsv(
+      "name,x\n\"Pipe \\\"0, inch\\\"\",1\n\"Bolt \\\"M19\\\", long\",2\n",
+      "f.csv");
+  EXPECT_EQ(table.CellText(table.columns[0], 0), "Pipe \"0, inch\"");
+  EXPECT_EQ(table.CellText(table.columns[0], 1), "Bolt \"M19\", long");
+  EXPECT_THAT(table.columns[1].values, ElementsAre(1.0, 2.0));
+  // The end of a path.
+  EXPECT_EQ(RefusalOf("name,x\n\"C:\\data\\\",1\n"), "read");
+}
+
 TEST(TableShape, ReadsQuotesInsideQuotedCells) {
   const CsvTable table =
       ParseCsv("x,note\n1,\"slide \"X\" warm\"\n2,\"\"\n", "f.csv");
