@@ -87,10 +87,10 @@ enum class OddRows { kRefuse, kOffer, kLeaveOut };
 /// blanks. Quotes follow RFC 4180, but quotes inside a cell need not be
 /// doubled. Commas are decimal marks if they do not separate cells. Lines
 /// starting with `#`, blank lines at the end and a byte order mark are skipped.
-/// Text that is not UTF-8 is converted from Latin-1, or, with a remark, from
-/// the encoding that gives more known words (tables/text/text_encoding.h). A
-/// gzip file is unpacked first, up to kMostTextOfPrograms and MostUnpacked. One
-/// sheet of an xlsx file is read ("book.xlsx:Day 2",
+/// Text that is not UTF-8 is converted from Windows 1252 or, with a remark,
+/// from the encoding that gives more known words (tables/text/text_encoding.h).
+/// A gzip file is unpacked first, up to kMostTextOfPrograms and MostUnpacked.
+/// One sheet of an xlsx file is read ("book.xlsx:Day 2",
 /// tables/text/spreadsheet.h). Linear time, about twice the file's memory;
 /// independent of the locale.
 ///

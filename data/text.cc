@@ -213,11 +213,18 @@ std::string AsUtf8(std::string_view text) {
     i += length;
   }
   if (i == text.size()) return std::string(text);
+  // What Windows has where Latin-1 has control characters.
+  constexpr auto kOfWindows = std::to_array<std::string_view>(
+      {"€", "�", "‚", "ƒ", "„", "…", "†", "‡", "ˆ", "‰", "Š",
+       "‹", "Œ", "�", "Ž", "�", "�", "‘", "’", "“", "”", "•",
+       "–", "—", "˜", "™", "š", "›", "œ", "�", "ž", "Ÿ"});
   std::string utf8;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x80U) {
       utf8 += c;
+    } else if (byte < 0xA0U) {
+      utf8 += kOfWindows[byte - 0x80U];
     } else {
       utf8 += static_cast<char>(0xC0U | (byte >> 6U));
       utf8 += static_cast<char>(0x80U | (byte & 0x3FU));

@@ -71,8 +71,8 @@ std::string ShortList(const std::vector<std::string>& words,
 std::string JoinWords(const std::vector<std::string>& words,
                       std::string_view between);
 
-/// Returns the text as UTF-8. Text that is not valid UTF-8 is read as Latin-1,
-/// the encoding of spreadsheets on western Windows, so that a degree sign
+/// Returns the text as UTF-8. Text that is not valid UTF-8 is read as Windows
+/// 1252, the encoding of spreadsheets on western Windows, so that a degree sign
 /// survives.
 std::string AsUtf8(std::string_view text);
 

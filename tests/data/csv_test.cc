@@ -100,7 +100,7 @@ TEST(ParseCsv, CodesManyDistinctTexts) {
   EXPECT_EQ(table.CellText(table.columns[0], 4321), "row321");
 }
 
-TEST(ParseCsv, ReadsTextThatIsNoUtf8AsLatin1) {
+TEST(ParseCsv, ReadsTextThatIsNoUtf8AsThatOfWindows) {
   const CsvTable table = ParseCsv(
       "T_\xB0"
       "C,n\n\xE4,1\n",
@@ -109,6 +109,9 @@ TEST(ParseCsv, ReadsTextThatIsNoUtf8AsLatin1) {
   EXPECT_EQ(table.columns[0].texts[0], "\u00e4");
   EXPECT_EQ(ParseCsv("T_\u00b0C,n\n1,1\n", "f.csv").columns[0].name,
             "T_\u00b0C");
+  // What stands for no character can be typed all the same.
+  EXPECT_THAT(NamesIn(ParseCsv("Quantit\x8E,n\x96\x9D\n1,1\n", "f.csv")),
+              ElementsAre("Quantit\u017D", "n\u2013\uFFFD"));
 }
 
 // ---- Delimiters and decimals.

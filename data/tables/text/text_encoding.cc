@@ -110,7 +110,7 @@ int CountKnownWords(std::string_view text) {
 }
 
 // What makes known words of the first lines where they are not UTF-8; null:
-// Latin-1 does as well, which is read cell by cell.
+// Windows 1252 does as well, which is read cell by cell.
 const char* EncodingByWords(std::string_view bytes) {
   constexpr std::size_t kLooked = 1U << 14U;
   std::string_view head = bytes.substr(0, kLooked);

@@ -7,7 +7,7 @@ namespace errmap::data {
 
 /// The text of a file in another encoding, converted to UTF-8.
 struct EncodedText {
-  std::string text;           // "": the file is UTF-8, or Latin-1
+  std::string text;           // "": it is UTF-8, or Windows 1252
   std::string encoding = {};  // to be told; "" where the file itself says it
 };
 
