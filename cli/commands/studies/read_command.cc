@@ -173,9 +173,9 @@ std::string Described(const data::Reading& reading) {
   }
   if (!reading.rows_left_out.empty()) {
     row("rows",
-        fmt::format("{} named", reading.rows_left_out.size()),
+        std::to_string(reading.rows_left_out.size()),
         reading.rows_left_out.front().why,
-        "--faults drop-rows");
+        "--missing, --faults");
   }
   for (const std::string& remark : reading.remarks) {
     text += "\n" + report::WrapText(remark, columns) + "\n";
@@ -230,7 +230,8 @@ int RunRead(const ReadArguments& arguments) {
     Print(reading, arguments.format);
     return kWrongCommandLine;
   } catch (const data::InputError& error) {
-    if (reading.rows == 0) throw;
+    if (reading.rows == 0 && arguments.format != "json") throw;
+    if (reading.files.empty()) reading.files = arguments.data.files;
     Warn(error.what());
     reading.remarks.emplace_back(error.what());
     Print(reading, arguments.format);

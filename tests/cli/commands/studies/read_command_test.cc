@@ -93,13 +93,26 @@ TEST_F(ReadCommand, WritesTheRowsInUse) {
   EXPECT_EQ(Run(words).status, kUnusable);
   EXPECT_FALSE(Exists("clean.csv"));
   words.insert(words.end(), {"--missing", "drop-rows"});
-  EXPECT_THAT(Run(words).out, HasSubstr("Read: 59 rows"));
+  // The row of totals is gone: --faults has nothing to do with it.
+  EXPECT_THAT(
+      Run(words).out,
+      AllOf(HasSubstr("Read: 59 rows"), HasSubstr("--missing, --faults")));
   EXPECT_EQ(Records(Read("clean.csv")).size(), 59U);
   EXPECT_THAT(Run({"read", "clean.csv"}).out,
               HasSubstr("Read: 59 rows in 3 sessions (by day) of 4 cycles"));
 }
 
 // Asked again for the sign of its own clean table, somebody would turn it back.
+TEST_F(ReadCommand, PrintsAnObjectForAFileThatItRefuses) {
+  Write("words.csv", "a,error_um\n1,2\n3\n");
+  const Outcome read = Run({"read", "words.csv", "--format", "json"});
+  EXPECT_EQ(read.status, kUnusable);
+  const Json reading = Json::parse(read.out);
+  EXPECT_EQ(reading["files"], Json({"words.csv"}));
+  EXPECT_THAT(reading["remarks"][0].get<std::string>(),
+              HasSubstr("line 3 (data row 1): 1 field"));
+}
+
 TEST_F(ReadCommand, WritesTheNegativeOfACorrectionAsAnError) {
   EXPECT_EQ(
       Run({"read", "log.csv", "--target=-comp_um", "-o", "clean.csv"}).status,
