@@ -2,11 +2,9 @@
 #include <algorithm>
 #include <csignal>
 #include <cstddef>
-#include <cstdlib>
 #include <exception>
 #include <memory>
 #include <new>
-#include <set>
 #include <string_view>
 #include <system_error>
 

@@ -16,7 +16,6 @@
 #include "data/measurements/dataset.h"
 #include "data/text.h"
 #include "models/history/point_log.h"
-#include "models/history/view.h"
 #include "models/map_experience.h"
 #include "models/trained_range.h"
 #include "stats/distributions.h"

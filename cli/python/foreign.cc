@@ -1,6 +1,5 @@
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>

@@ -1,7 +1,6 @@
 #include "data/measurements/column_checks.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <optional>
 #include <system_error>

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 #include <set>
-#include <string_view>
 #include <utility>
 
 #include "data/argument_name.h"
@@ -13,9 +12,7 @@
 #include "data/measurements/clock/clock.h"
 #include "data/measurements/clock/date_time.h"
 #include "data/measurements/clock/row_columns.h"
-#include "data/measurements/clock/text_times.h"
 #include "data/measurements/clock/time_units.h"
-#include "data/measurements/column_checks.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/reading/session_starts.h"
 #include "data/text.h"

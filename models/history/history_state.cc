@@ -146,23 +146,4 @@ void HistoryState::Update(bool passes) {
   }
 }
 
-VectorXd HistoryState::state() const {
-  if (!started_) return {};
-  VectorXd state(num_columns_ + memory_.size());
-  state << values_.head(num_columns_), memory_;
-  return state;
-}
-
-void HistoryState::set_state(const VectorXd& state) {
-  if (state.size() != num_columns_ + memory_.size()) {
-    Refuse(fmt::format("a state of {} numbers, expected {}",
-                       state.size(),
-                       num_columns_ + memory_.size()));
-  }
-  values_.head(num_columns_) = state.head(num_columns_);
-  memory_ = state.tail(memory_.size());
-  started_ = true;
-  Update(false);
-}
-
 }  // namespace errmap::models

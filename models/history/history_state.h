@@ -8,8 +8,7 @@
 
 namespace errmap::models {
 
-/// Runs the filters of a history reading by reading, as a controller does. It
-/// stores only `state`.
+/// Runs the filters of a history reading by reading, as a controller does.
 class HistoryState {
  public:
   /// `columns` are those of the readings. Throws std::invalid_argument if an
@@ -39,13 +38,6 @@ class HistoryState {
   const std::vector<data::ColumnInfo>& form_columns() const {
     return form_columns_;
   }
-
-  /// Returns the last readings, filters and zeros (columns + derived inputs):
-  /// the state to save for a restart. Empty before Start.
-  VectorXd state() const;
-  /// Continues from the result of state(). Throws std::invalid_argument if the
-  /// size is wrong.
-  void set_state(const VectorXd& state);
 
  private:
   struct Node {

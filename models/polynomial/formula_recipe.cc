@@ -7,7 +7,6 @@
 #include "models/polynomial/formula.h"
 #include "models/polynomial/polynomial_fit.h"
 #include "models/polynomial/polynomial_options.h"
-#include "models/regression_record.h"
 #include "stats/indices.h"
 
 namespace errmap::models {

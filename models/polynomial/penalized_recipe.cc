@@ -11,7 +11,6 @@
 #include "models/polynomial/penalized_fit.h"
 #include "models/polynomial/polynomial_fit.h"
 #include "models/polynomial/polynomial_options.h"
-#include "models/polynomial/term_dictionary.h"
 #include "models/regression_record.h"
 
 namespace errmap::models {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "models/polynomial/term_dictionary.h"
 
 namespace errmap::models {
 

@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "data/text.h"
-#include "models/map_experience.h"
 #include "models/session/session_check.h"
 #include "stats/error_metrics.h"
 

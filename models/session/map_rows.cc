@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "data/columns.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/row_filters.h"
 #include "data/measurements/sessions.h"

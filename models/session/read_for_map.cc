@@ -10,7 +10,6 @@
 
 #include "data/columns.h"
 #include "data/measurements/clock/time_units.h"
-#include "data/measurements/column_checks.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/measured_files.h"
 #include "data/measurements/reading/derived_columns.h"

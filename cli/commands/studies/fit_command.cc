@@ -21,7 +21,6 @@
 #include "data/files/shown_path.h"
 #include "data/measurements/axis/directions.h"
 #include "data/measurements/joined_tables.h"
-#include "data/measurements/reading/read_table.h"
 #include "data/text.h"
 #include "fitting/interruption.h"
 #include "models/file_recipe.h"

@@ -8,7 +8,6 @@
 
 #include "data/measurements/builders/idle_inputs.h"
 #include "data/measurements/column_checks.h"
-#include "data/measurements/column_roles.h"
 
 namespace errmap::data {
 

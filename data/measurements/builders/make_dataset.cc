@@ -20,7 +20,6 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/dataset.h"
-#include "data/measurements/faults/row_faults.h"
 #include "data/measurements/faults/thermometers.h"
 #include "data/measurements/reading/read_table.h"
 #include "data/measurements/sessions.h"

@@ -2,7 +2,6 @@
 #include "data/csv.h"
 #include "data/measurements/builders/idle_inputs.h"
 #include "data/measurements/builders/value_checks.h"
-#include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 
 namespace errmap::data {

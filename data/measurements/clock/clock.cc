@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include "data/argument_name.h"
 #include "data/column_header.h"

@@ -14,7 +14,6 @@
 #include "data/measurements/reading/derived_columns.h"
 #include "data/measurements/reading/merged_cells.h"
 #include "data/measurements/reading/table_in_reading.h"
-#include "data/measurements/row_filters.h"
 #include "data/text.h"
 
 namespace errmap::data {

@@ -1,7 +1,6 @@
 #include "data/tables/text/zip_archive.h"
 
 #include <array>
-#include <cstdio>
 
 #include <minizip/unzip.h>
 

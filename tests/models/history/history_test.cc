@@ -448,10 +448,6 @@ TEST(HistoryState, StepsAsTheDatasetIsDerived) {
     if (row == 0 || sessions[at] != sessions[at - 1]) {
       state.Start(readings);
     } else {
-      // A restart of the program loses nothing.
-      HistoryState again(history, dataset.inputs());
-      again.set_state(state.state());
-      state = again;
       state.Step(dataset.log()->time[row] - dataset.log()->time[row - 1],
                  readings);
     }
@@ -466,15 +462,12 @@ TEST(HistoryState, RefusesWhatCannotBe) {
   const auto message = [](const std::string& text) {
     return ThrowsMessage<std::invalid_argument>(HasSubstr(text));
   };
-  EXPECT_EQ(state.state().size(), 0);
   EXPECT_THAT([&] { state.Step(1.0, readings); }, message("before Start"));
   state.Start(readings);
   EXPECT_THAT([&] { state.Step(-1.0, readings); }, message("a step of -1"));
   EXPECT_THAT([&] { state.Step(std::nan(""), readings); }, message("nan"));
   EXPECT_THAT([&] { state.Start(Eigen::Vector3d::Zero()); },
               message("3 readings, expected 2"));
-  EXPECT_THAT([&] { state.set_state(Eigen::Vector3d::Zero()); },
-              message("a state of 3 numbers, expected 7"));
   History twice =
       Of({Zeroed(ColumnNamed("t1_degC")), Zeroed(ColumnNamed("t1_degC"))});
   EXPECT_THAT([&] { HistoryState(twice, {ColumnNamed("t1_degC")}); },
