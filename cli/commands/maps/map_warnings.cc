@@ -149,7 +149,7 @@ void SayOutside(const std::vector<models::TrainedInput>& trained,
                 const std::vector<Index>& rows,
                 bool quiet) {
   SayUnless(quiet, report::OutsideLines(trained, inputs));
-  SayUnless(quiet, report::UnlikeLines(trained, flags, rows));
+  SayUnless(quiet, report::UnlikeLines(trained, inputs, flags, rows));
 }
 
 bool SayNotFinite(const VectorXd& predicted,

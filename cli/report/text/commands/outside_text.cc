@@ -46,16 +46,6 @@ std::string FlagText(const models::RowFlag& flag) {
   return "";
 }
 
-// OutsideLines has said so.
-bool LeavesRange(const std::vector<models::TrainedInput>& inputs,
-                 const models::RowFlag& flag) {
-  return flag.why == models::Outside::kRange ||
-         std::ranges::any_of(inputs, [&](const models::TrainedInput& input) {
-           return input.column.name == flag.column.name &&
-                  (flag.value < input.min || flag.value > input.max);
-         });
-}
-
 }  // namespace
 
 std::vector<std::string> OutsideLines(
@@ -88,12 +78,17 @@ std::vector<std::string> OutsideLines(
 
 std::vector<std::string> UnlikeLines(
     const std::vector<models::TrainedInput>& inputs,
+    const Eigen::MatrixXd& values,
     const std::vector<models::RowFlag>& flags,
     const std::vector<Index>& rows) {
   Index unlike = 0;
   std::size_t worst = 0;
   for (std::size_t i = 0; i < flags.size(); ++i) {
-    if (!flags[i].outside() || LeavesRange(inputs, flags[i])) continue;
+    // Of rows outside their range OutsideLines has said so.
+    if (!flags[i].outside() ||
+        !models::IsInside(inputs, values, static_cast<Index>(i))) {
+      continue;
+    }
     if (unlike == 0 || flags[i].severity > flags[worst].severity) worst = i;
     ++unlike;
   }

@@ -21,6 +21,7 @@ std::vector<std::string> OutsideLines(
 /// (m) are the numbers of the data rows in the file.
 std::vector<std::string> UnlikeLines(
     const std::vector<models::TrainedInput>& inputs,
+    const Eigen::MatrixXd& values,
     const std::vector<models::RowFlag>& flags,
     const std::vector<Eigen::Index>& rows);
 
