@@ -24,8 +24,17 @@ bool IsDigits(std::string_view text) {
          text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
+// "28-0316a2794bff": a DS18B20 (28) or another thermometer on a 1-Wire bus.
+bool IsOneWireThermometer(std::string_view name) {
+  constexpr std::size_t kSize = 15;
+  return name.size() == kSize && name[2] == '-' &&
+         IsOneOf(name.substr(0, 2), "10 22 28 3b 42") &&
+         name.find_first_not_of("0123456789abcdefABCDEF", 3) == name.npos;
+}
+
 // "t12", "tc03", "temp", "temp3", "temp_bed", "temperature_1".
 bool NamesTemperature(std::string_view name) {
+  if (IsOneWireThermometer(name)) return true;
   for (const std::string_view letters : {"tc", "t"}) {
     if (StartsWithIgnoringCase(name, letters) &&
         IsDigits(name.substr(letters.size()))) {

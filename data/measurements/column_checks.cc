@@ -283,7 +283,12 @@ void RequireKnownUnit(const CsvTable& table, const ColumnInUse& column) {
                  "'error [um]', 'error [mm]'"
            : column.use == ColumnUse::kTarget
                ? "; add one to the name: " +
-                     ArgumentName("target", name + " [um]") +
+                     ArgumentName(
+                         "target",
+                         name + " [" +
+                             (IsUnit(header.unit_text) ? header.unit_text
+                                                       : std::string("um")) +
+                             "]") +
                      " (or mm, in, arcsec, urad, deg)"
                : "; rename the column, with one of these in brackets: " +
                      KnownUnits()));

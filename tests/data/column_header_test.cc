@@ -64,11 +64,18 @@ TEST(UnitOfColumn, FallsBackToDegreesForUsualNamesOfTemperatures) {
                            "temp4",
                            "temp_bed",
                            "temperature",
-                           "Temperature_1"}) {
+                           "Temperature_1",
+                           "28-0316a2794bff"}) {
     EXPECT_EQ(UnitOfColumn(name).symbol, "degC") << name;
   }
-  for (const char* name :
-       {"t", "tc", "tool", "t12b", "tempo", "template", "humidity"}) {
+  for (const char* name : {"t",
+                           "tc",
+                           "tool",
+                           "t12b",
+                           "tempo",
+                           "template",
+                           "humidity",
+                           "28-03-2024-0000"}) {
     EXPECT_EQ(UnitOfColumn(name), Unit{}) << name;
   }
 }

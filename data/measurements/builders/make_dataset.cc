@@ -56,6 +56,7 @@ class DatasetBuilder {
     LookForFaults();
     if (!selection_.only_to_judge) {
       if (!selection_.keep_dead) LeaveOutUseless(StuckInputs(parts_, faults_));
+      SetRoles(&parts_);  // switches may tell parts
       LookForParts();
       RequireSquaresOfInputs();
     }

@@ -34,6 +34,7 @@ struct PartingColumn {
 struct PartingEffect {
   double one = 0.0;
   double each = 0.0;
+  std::vector<double> parts = {};  // of each value
 };
 
 // Sum of squares that a linear map of these rows misses.
@@ -98,8 +99,8 @@ bool NamesPlaces(const PartingColumn& column, const Dataset::Parts& parts) {
 PartingEffect EffectOfParting(const PartingColumn& column,
                               const Eigen::VectorXd& target,
                               const Eigen::MatrixXd& input_values) {
-  constexpr PartingEffect kNothing{std::numeric_limits<double>::quiet_NaN(),
-                                   std::numeric_limits<double>::quiet_NaN()};
+  const PartingEffect kNothing{std::numeric_limits<double>::quiet_NaN(),
+                               std::numeric_limits<double>::quiet_NaN()};
   const Index p = std::min(input_values.cols(), kMostInputsLooked);
   const std::size_t parts = column.values.size();
   const std::size_t stride =
@@ -113,33 +114,39 @@ PartingEffect EffectOfParting(const PartingColumn& column,
   }
   if (parts < 2) return kNothing;
   double squares = 0.0;
+  std::vector<double> left;
   for (const std::vector<Index>& rows : of_part) {
     if (static_cast<Index>(rows.size()) < 2 * (p + 1)) return kNothing;
-    squares += SquaresLeft(rows, target, input_values, p);
+    const double of_rows = SquaresLeft(rows, target, input_values, p);
+    squares += of_rows;
+    left.push_back(
+        std::sqrt(of_rows / static_cast<double>(std::ssize(rows) - p - 1)));
   }
   const auto free_of = [&](std::size_t maps) {
     return static_cast<double>(all.size()) -
            static_cast<double>(maps) * static_cast<double>(p + 1);
   };
   return {std::sqrt(SquaresLeft(all, target, input_values, p) / free_of(1)),
-          std::sqrt(squares / free_of(parts))};
+          std::sqrt(squares / free_of(parts)),
+          std::move(left)};
+}
+
+std::string LengthText(double value, const Unit& target) {
+  return Rounded(target.display_scale * value) +
+         (target.display_symbol.empty() ? "" : " " + target.display_symbol);
 }
 
 // That the rows differ by the column, as a sentence in the target's unit.
 std::string PartingText(const PartingColumn& column,
                         const PartingEffect& effect,
                         const Unit& target) {
-  const auto shown = [&](double value) {
-    return Rounded(target.display_scale * value) +
-           (target.display_symbol.empty() ? "" : " " + target.display_symbol);
-  };
   std::string values;
   for (const std::string& value : column.values) {
     values += (values.empty() ? "" : ", ") + NameInRemark(value);
   }
   return "Rows differ by " + NameInRemark(column.name) + " (" + values +
-         "): separate linear maps leave " + shown(effect.each) +
-         ", one for all leaves " + shown(effect.one) +
+         "): separate linear maps leave " + LengthText(effect.each, target) +
+         ", one for all leaves " + LengthText(effect.one, target) +
          "; fit each separately with " + ArgumentName("where") + ".";
 }
 
@@ -150,6 +157,7 @@ std::vector<PartingRemark> FindParts(const CsvTable& table,
                                      const Dataset::Parts& parts,
                                      const std::vector<Index>& sessions) {
   constexpr double kDiffers = 0.7;
+  constexpr double kUnlike = 10.0;
   std::vector<PartingRemark> remarks;
   for (const std::size_t index : words) {
     const CsvColumn& cells = table.columns[index];
@@ -170,6 +178,24 @@ std::vector<PartingRemark> FindParts(const CsvTable& table,
                              ArgumentName("where"),
                          false});
     }
+  }
+  for (const ColumnInfo& input : parts.inputs) {
+    if (input.role != Role::kSwitch) continue;
+    const PartingColumn column =
+        PartBy(table, table.At(table.Find(input.name)), parts.rows);
+    const std::vector<double> left =
+        EffectOfParting(column, parts.target_values, parts.input_values).parts;
+    if (left.empty()) continue;
+    const auto [least, most] = std::ranges::minmax_element(left);
+    if (*most <= kUnlike * *least) continue;
+    const auto where = [&](auto part) {
+      return LengthText(*part, parts.target.unit) + " where " +
+             NameInRemark(column.name) + " is " +
+             column.values[part - left.begin()];
+    };
+    remarks.push_back({"A linear map leaves " + where(least) + ", and " +
+                           where(most) + "; keep the rows of one kind.",
+                       true});
   }
   return remarks;
 }

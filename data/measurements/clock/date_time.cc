@@ -200,6 +200,17 @@ std::optional<bool> TakeHalf(Scanner* text) {
   return *half == 'p' || *half == 'P';
 }
 
+// Of "8:05", "8h05" and, as in Quebec, "8 h 05".
+std::optional<char> TakeMark(Scanner* text, std::string_view marks) {
+  Scanner ahead = *text;
+  ahead.TakeBlanks();
+  const auto mark = ahead.TakeOneOf("hH");
+  if (!mark) return text->TakeOneOf(marks);
+  ahead.TakeBlanks();
+  *text = ahead;
+  return mark;
+}
+
 // Of "8:05", "08:05:12.5", "08h05", "08h05m12s" and, elapsed, "29:05:12" or
 // "125:03.5" in minutes; with AM or PM on either side, or "Uhr".
 // `points`: also "08.05.12", which may be a date, and behind one "08-05-12".
@@ -208,9 +219,10 @@ std::optional<double> TakeTime(Scanner* text, bool points, DateTime* parsed) {
   std::optional<bool> afternoon = TakeHalf(text);
   text->TakeBlanks();
   const auto number = text->TakeNumber(kMostDigits);
-  const auto mark = text->TakeOneOf(parsed->has_date ? ":hH.-_"
-                                    : points         ? ":hH."
-                                                     : ":hH");
+  const auto mark = TakeMark(text,
+                             parsed->has_date ? ":.-_"
+                             : points         ? ":."
+                                              : ":");
   if (!number || !mark) return std::nullopt;
   const auto minute = text->TakePair(59);
   if (!minute) return std::nullopt;

@@ -285,14 +285,14 @@ void RequireDifference(const CsvTable& table,
   if (std::abs(factor - 1.0) < kAlike) return;
   const bool opposite = std::abs(factor + 1.0) < kAlike;
   const double decades = std::log10(std::abs(factor));
-  if (!opposite && std::abs(decades - std::round(decades)) > kAlike) return;
+  const double whole = std::round(decades);
+  if (!opposite && (whole == 0.0 || std::abs(decades - whole) > kAlike)) return;
   throw OpenQuestion(
       PrintablePath(table.file),
       {.topic = opposite ? "target" : "unit",
        .question = QuotedName(error.name) + " is " +
                    (opposite ? "the opposite of "
-                             : Rounded(std::pow(10.0, std::round(decades))) +
-                                   " times ") +
+                             : Rounded(std::pow(10.0, whole)) + " times ") +
                    QuotedName(difference) + "; which is the error?",
        .answers = {{.option = ArgumentName("target", difference),
                     .means = "what was read less what was commanded"},

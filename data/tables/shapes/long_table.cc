@@ -117,7 +117,8 @@ class Spreader {
     std::vector<std::string> names;
     for (std::size_t k = 0; k < units.size(); ++k) {
       std::string unit = units[k];
-      if (!ReadUnitCell(&unit)) return false;
+      // "U" of all is a state: uncertain.
+      if (unit == "U" || !ReadUnitCell(&unit)) return false;
       std::optional<std::string> name = NameWithUnit(found_.labels[k], unit);
       if (!name) return false;
       names.push_back(std::move(*name));

@@ -194,7 +194,8 @@ TEST(ColumnChecks, RefusesUnknownUnitsInBracketsAndOnTheTarget) {
                 "[um] (or mm, in, arcsec, urad, deg)"));
   EXPECT_THAT(
       ErrorOf("a,error_m\n1,2\n2,3\n"),
-      HasSubstr("'m' counts as a unit in brackets or parentheses only"));
+      HasSubstr("'m' counts as a unit in brackets or parentheses only; add one "
+                "to the name: target = error_m [m] "));
 }
 
 TEST(ColumnChecks, TakesInputsInUnitsThatItDoesNotKnow) {

@@ -385,6 +385,7 @@ TEST(MessyFiles, TheErrorIsHeldAgainstWhatItIsTheDifferenceOf) {
   EXPECT_EQ(error_of(1.0, "um"), "no error");
   EXPECT_THAT(error_of(-1.0, "um"), HasSubstr("is the opposite of"));
   EXPECT_THAT(error_of(1.0, "mm"), HasSubstr("is 1000 times"));
+  EXPECT_EQ(error_of(0.94, "um"), "no error");  // of another reference
   // Without a unit positions are in mm.
   actual_name = "actual";
   EXPECT_EQ(error_of(1.0, "um"), "no error");

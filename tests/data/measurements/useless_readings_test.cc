@@ -361,6 +361,20 @@ TEST(UselessReadings, RowsOfSeveralThingsAreAskedAbout) {
   EXPECT_THAT(InputNames(numbers.dataset),
               ::testing::ElementsAreArray(kInputs));
   EXPECT_THAT(numbers.doubts, ElementsAre(HasSubstr("machine (1, 2)")));
+  // Rows of a state in which the axis moves.
+  const auto states =
+      Joined(Changed(Measured(), [&](std::size_t i, auto* cells) {
+        const bool moves = i % 3 == 1;
+        if (i > 0 && moves) {
+          (*cells)[kError] =
+              Fixed(100.0 * std::sin(static_cast<double>(i * i)));
+        }
+        cells->insert(cells->begin(), i == 0 ? "nState" : moves ? "5" : "20");
+      }));
+  EXPECT_THAT(Make(states).doubts,
+              ElementsAre(AllOf(HasSubstr("A linear map leaves "),
+                                HasSubstr("where nState is 20, and "),
+                                HasSubstr("where nState is 5; keep"))));
   // A name for each position parts nothing.
   const auto named =
       Joined(Changed(Measured(), [&](std::size_t i, auto* cells) {

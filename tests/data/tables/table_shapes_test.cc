@@ -322,6 +322,16 @@ TEST(TableShape, SpreadsARowForEachReading) {
   EXPECT_EQ(table.columns[3].values[5], 205.0);
 }
 
+TEST(TableShape, TakesAStateForNoUnit) {
+  std::string text = "Millitm,TagName,Value,Status\n";
+  for (int i = 0; i < 24; ++i) {
+    text += std::to_string(i / 2) + (i % 2 == 0 ? ",X_Pos," : ",X_Err,") +
+            std::to_string(i) + ".5,U\n";
+  }
+  EXPECT_THAT(NamesIn(ParseCsv(text, "f.csv")),
+              ElementsAre("Millitm", "Status", "X_Pos", "X_Err"));
+}
+
 // Names two blanks apart, and rows whose columns stand closer.
 TEST(TableShape, KeepsColumnsOneBlankApart) {
   const CsvTable table = ParseCsv(

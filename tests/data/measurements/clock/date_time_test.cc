@@ -41,6 +41,7 @@ TEST(DateTime, ReadsMonthsByNameZonesAndElapsedTimes) {
     EXPECT_EQ(parsed->seconds, day + 29107.0) << text;
   }
   EXPECT_EQ(Seconds("08h05"), 29100.0);
+  EXPECT_EQ(Seconds("08 h 05"), 29100.0);
   for (const char* text : {"29:05:07",
                            "1 05:05:07",
                            "1.05:05:07",
