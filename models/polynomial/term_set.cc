@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-
 namespace errmap::models {
 
 const std::vector<std::string>& TermSetWords() {

@@ -51,8 +51,8 @@ TEST_F(CliBadInput, MissingCellNamesLineRowColumnAndRemedies) {
   EXPECT_THAT(
       Refusal(kHeader + "1,20,0.1\n2,,0.3\n" + kRows),
       AllOf(HasSubstr("f.csv: line 3 (data row 1), column 't1_degC': empty"),
-            HasSubstr("--exclude t1_degC"),
-            HasSubstr("--missing drop-rows")));
+            HasSubstr("--missing drop-rows"),
+            Not(HasSubstr("--exclude"))));  // the row may be shifted
 }
 
 TEST_F(CliBadInput, MissingTargetIsNotToBeExcluded) {

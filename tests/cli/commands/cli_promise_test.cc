@@ -329,7 +329,7 @@ TEST_F(CliPromise, CheckAndProbesKnowWhereTheSessionBegan) {
       Run({"fit", "train.csv", "--model", memory, "-o", "zero.json"}).status,
       0);
   const std::string day = DaysInCliPromise(11, 11);
-  const std::vector<std::size_t> rows = {12, 20, 33};
+  const std::vector<std::size_t> rows = {12, 20, 26, 33};
   Write("day.csv", day);
   Write("all.csv", ProbesOf(day, rows, true));
   Write("only.csv", ProbesOf(day, rows, false));
