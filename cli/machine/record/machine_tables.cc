@@ -249,16 +249,16 @@ std::string MachineAnswer(const MachineRecord& machine) {
   const MachineChoiceRecord& before = machine.choices.front();
   const MachineChoiceRecord& after = machine.choices.back();
   const report::ErrorText text(data::UnitOfSymbol(machine.unit), before.max);
-  std::string answer = fmt::format("Without maps the tool is up to {} off{}.",
-                                   text.WithUnit(before.max),
-                                   MainDirection(machine));
+  std::string answer =
+      fmt::format("Without maps the tool is off by up to {}{}.",
+                  text.WithUnit(before.max),
+                  MainDirection(machine));
   if (std::isfinite(after.max)) {
-    answer += fmt::format(
-        " With the {} maps {} is left at worst, {:.2g} times "
-        "less.",
-        after.name,
-        text.WithUnit(after.max),
-        before.max / after.max);
+    answer += fmt::format(" The {} maps leave up to {}, {:.0f} % {}.",
+                          after.name,
+                          text.WithUnit(after.max),
+                          100.0 * std::abs(1.0 - after.max / before.max),
+                          after.max > before.max ? "more" : "less");
   }
   return answer;
 }

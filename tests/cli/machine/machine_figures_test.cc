@@ -140,18 +140,20 @@ TEST(MachineFigures, AreNoneWithoutAPlaneOrMaps) {
   EXPECT_TRUE(MachineFigures({}).empty());
 }
 
-// A results.json of somebody else's.
 TEST(MachineAnswer, SaysTheWorstErrorItsAxisAndWhatMapsLeave) {
   MachineRecord machine = Lathe();
   machine.choices[0].max = 0.04;
   EXPECT_EQ(MachineAnswer(machine),
-            "Without maps the tool is up to 40.0 um off, mostly along X.");
+            "Without maps the tool is off by up to 40.0 um, mostly along X.");
   machine.choices[1].max = 0.004;
   EXPECT_EQ(MachineAnswer(machine),
-            "Without maps the tool is up to 40.0 um off, mostly along X. With "
-            "the recommended maps 4.0 um is left at worst, 10 times less.");
+            "Without maps the tool is off by up to 40.0 um, mostly along X. "
+            "The recommended maps leave up to 4.0 um, 90 % less.");
+  machine.choices[1].max = 0.05;
+  EXPECT_THAT(MachineAnswer(machine), ::testing::HasSubstr("25 % more"));
 }
 
+// A results.json of somebody else's.
 TEST(MachineFigures, StandWhatIsNotFinite) {
   MachineRecord machine = Lathe();
   machine.plane->cell_width = kNaN;

@@ -183,7 +183,7 @@ TEST_F(MachineStudy, SaysWhatCompensationIsWorthOnDaysThatNoFitSaw) {
 
   EXPECT_THAT(Read("study/report.html"),
               AllOf(HasSubstr("<p class=\"sentence\">Without maps the tool "
-                              "is up to "),
+                              "is off by up to "),
                     HasSubstr("Error at the tool of turning centre"),
                     HasSubstr("Positioning by ISO 230-2:2014"),
                     HasSubstr("Diagonals of the work volume, ISO 230-6:2002"),
@@ -311,7 +311,7 @@ TEST_F(MachineStudy, SaysWhyAChoiceHasNoFigures) {
   const Outcome outcome = Run(Words({"--models", "poly:ridge:view=raw"}));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(OneLine(outcome.out),
-              AllOf(HasSubstr("With the recommended maps "),
+              AllOf(HasSubstr("The recommended maps leave "),
                     HasSubstr("Error at the tool of turning centre, um"),
                     HasSubstr("neural: no neural map of parallelism"),
                     HasSubstr("recommended"),
