@@ -99,8 +99,7 @@ bool NamesPlaces(const PartingColumn& column, const Dataset::Parts& parts) {
 PartingEffect EffectOfParting(const PartingColumn& column,
                               const Eigen::VectorXd& target,
                               const Eigen::MatrixXd& input_values) {
-  const PartingEffect kNothing{std::numeric_limits<double>::quiet_NaN(),
-                               std::numeric_limits<double>::quiet_NaN()};
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   const Index p = std::min(input_values.cols(), kMostInputsLooked);
   const std::size_t parts = column.values.size();
   const std::size_t stride =
@@ -112,11 +111,11 @@ PartingEffect EffectOfParting(const PartingColumn& column,
     all.push_back(static_cast<Index>(i));
     of_part[column.codes[i]].push_back(static_cast<Index>(i));
   }
-  if (parts < 2) return kNothing;
+  if (parts < 2) return {kNaN, kNaN};
   double squares = 0.0;
   std::vector<double> left;
   for (const std::vector<Index>& rows : of_part) {
-    if (static_cast<Index>(rows.size()) < 2 * (p + 1)) return kNothing;
+    if (static_cast<Index>(rows.size()) < 2 * (p + 1)) return {kNaN, kNaN};
     const double of_rows = SquaresLeft(rows, target, input_values, p);
     squares += of_rows;
     left.push_back(
