@@ -66,7 +66,8 @@ struct PartingRemark {
 /// parts with different errors, such as machines, tools and directions. It
 /// compares linear maps of all rows with those of each value. The columns have
 /// 2 to 12 values that change within one of `sessions` (a code for each row;
-/// empty: one). Columns that pass PartsComponents always get a remark.
+/// empty: one). Columns that pass PartsComponents always get a remark, switches
+/// (of the inputs, by their role) only if one state's errors are far larger.
 std::vector<PartingRemark> FindParts(const CsvTable& table,
                                      const std::vector<std::size_t>& words,
                                      const Dataset::Parts& parts,
